@@ -1,0 +1,40 @@
+# One way to make a library here, one way to make a test: built and registered in the same breath.
+
+# loopbench_library(<name> FOLDER <dir> [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
+# Every .hpp and .cpp below FOLDER belongs to it; dropping a file in is enough.
+function(loopbench_library name)
+  cmake_parse_arguments(ARG "" "FOLDER;EXCEPT" "LINK;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.hpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(ARG_EXCEPT)
+    list(FILTER headers EXCLUDE REGEX "${ARG_EXCEPT}")
+    list(FILTER sources EXCLUDE REGEX "${ARG_EXCEPT}")
+  endif()
+  if(sources)
+    set(scope PUBLIC)
+    add_library(loopbench_${name} STATIC ${sources})
+    target_link_libraries(loopbench_${name} PRIVATE loopbench_warnings ${ARG_PRIVATE})
+  else()
+    set(scope INTERFACE)
+    add_library(loopbench_${name} INTERFACE)
+  endif()
+  add_library(loopbench::${name} ALIAS loopbench_${name})
+  target_sources(loopbench_${name} ${scope}
+    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  target_compile_features(loopbench_${name} ${scope} cxx_std_20)
+  target_link_libraries(loopbench_${name} ${scope} ${ARG_LINK})
+  set_target_properties(loopbench_${name} PROPERTIES
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()
+
+# loopbench_test(<file without .cpp> <libraries>...)
+# The file lies in tests/ or one of its folders; the test is named after its stem.
+function(loopbench_test path)
+  cmake_path(GET path STEM name)
+  add_executable(${name} ${path}.cpp)
+  target_link_libraries(${name} PRIVATE loopbench_warnings GTest::gtest_main ${ARGN})
+  target_compile_definitions(${name} PRIVATE
+    LOOPBENCH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,205 @@
+/// One list of fields an options struct: it drives defaults, reading, checking, listing and echo.
+///
+/// An options struct is anything with a free function that walks its members:
+///
+///     struct Options { double share = 1.0; Turn turn = Turn::slerp; };
+///     template <class Visit> void fields(Options& o, Visit visit) {
+///       visit("share", o.share, "part of the gap to close [-]", Between{0.0, 1.0});
+///       visit("turn", o.turn, "how rotation is spread");
+///     }
+///
+/// Members may be bool, int, std::int64_t, double, std::string, std::optional<double> (the word
+/// `none` when empty) and enums that have `choices(Enum)`, an array of name-value pairs.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "datasets/core/params.hpp"
+
+namespace loopbench {
+
+/// A rule: low <= value <= high. NaN obeys no rule.
+struct Between {
+  double low;
+  double high = std::numeric_limits<double>::infinity();
+
+  bool holds(double value) const { return low <= value && value <= high; }
+  std::string text(const std::string& name) const {
+    const std::string upper = std::isinf(high) ? "" : " <= " + number(high);
+    return number(low) + " <= " + name + upper;
+  }
+
+ private:
+  static std::string number(double value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+  }
+};
+
+/// A rule: value > low.
+struct Above {
+  double low;
+
+  bool holds(double value) const { return value > low && std::isfinite(value); }
+  std::string text(const std::string& name) const {
+    std::ostringstream out;
+    out << name << " > " << low;
+    return out.str();
+  }
+};
+
+template <class T>
+concept NamedEnum = std::is_enum_v<T> && requires(T value) {
+  choices(value);
+};
+
+/// The word for an enum value.
+template <NamedEnum E>
+std::string to_text(E value) {
+  for (const auto& [name, choice] : choices(value)) {
+    if (choice == value) return name;
+  }
+  throw std::logic_error("enum value without a name");
+}
+
+/// "none | slerp".
+template <NamedEnum E>
+std::string choice_list(E any = {}) {
+  std::string out;
+  for (const auto& [name, choice] : choices(any))
+    out += (out.empty() ? "" : " | ") + std::string(name);
+  return out;
+}
+
+/// The value for a word, or nothing.
+template <NamedEnum E>
+std::optional<E> from_text(const std::string& word) {
+  for (const auto& [name, choice] : choices(E{})) {
+    if (name == word) return choice;
+  }
+  return std::nullopt;
+}
+
+/// Reading and writing one member type; the message says what was wanted.
+template <class T>
+struct FieldType {
+  static Param to_param(const T& value) {
+    if constexpr (NamedEnum<T>) {
+      return to_text(value);
+    } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
+      return static_cast<std::int64_t>(value);
+    } else {
+      return value;
+    }
+  }
+
+  static void assign(const std::string& name, T& member, const Param& given) {
+    const auto wrong = [&](const std::string& wanted) {
+      return OptionError(name, name + " = " + to_text(given) + ": expected " + wanted);
+    };
+    if constexpr (NamedEnum<T>) {
+      const std::string* word = std::get_if<std::string>(&given);
+      const auto value = word ? from_text<T>(*word) : std::nullopt;
+      if (!value) throw wrong("one of " + choice_list<T>());
+      member = *value;
+    } else if constexpr (std::same_as<T, bool>) {
+      const bool* flag = std::get_if<bool>(&given);
+      if (flag == nullptr) throw wrong("true or false");
+      member = *flag;
+    } else if constexpr (std::integral<T>) {
+      const auto* whole = std::get_if<std::int64_t>(&given);
+      if (whole == nullptr || !std::in_range<T>(*whole)) throw wrong("a whole number");
+      member = static_cast<T>(*whole);
+    } else if constexpr (std::same_as<T, double>) {
+      const auto* whole = std::get_if<std::int64_t>(&given);  // `gain: 1` is a fine 1.0
+      const double* real = std::get_if<double>(&given);
+      if (whole == nullptr && real == nullptr) throw wrong("a number");
+      member = real != nullptr ? *real : static_cast<double>(*whole);
+      if (std::isnan(member)) throw wrong("a number");
+    } else {
+      static_assert(std::same_as<T, std::string>, "unsupported option type");
+      // `name: 07` is a number to YAML and a name to its author.
+      member = to_text(given);
+    }
+  }
+};
+
+template <>
+struct FieldType<std::optional<double>> {
+  static Param to_param(const std::optional<double>& value) {
+    return value ? Param(*value) : Param(std::string("none"));
+  }
+  static void assign(const std::string& name, std::optional<double>& member, const Param& given) {
+    if (given == Param(std::string("none"))) {
+      member.reset();
+      return;
+    }
+    double value = 0.0;
+    FieldType<double>::assign(name, value, given);
+    member = value;
+  }
+};
+
+namespace detail {
+
+template <class T, class Rule>
+void obey(const std::string& name, const T& member, const Rule& rule) {
+  if constexpr (std::same_as<T, std::optional<double>>) {
+    if (member) obey(name, *member, rule);
+  } else if (!rule.holds(static_cast<double>(member))) {
+    throw OptionError(
+        name,
+        name + " = " + to_text(FieldType<T>::to_param(member)) + " breaks " + rule.text(name));
+  }
+}
+
+}  // namespace detail
+
+/// Every option with its default, help and rule, in declared order.
+template <class Options>
+std::vector<OptionInfo> describe(Options options) {
+  std::vector<OptionInfo> out;
+  fields(options, [&](const char* name, auto& member, const char* help, const auto&... rule) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    std::string text;
+    if constexpr (NamedEnum<Member>) text = choice_list<Member>();
+    ((text += (text.empty() ? "" : ", ") + rule.text(name)), ...);
+    out.push_back({name, FieldType<Member>::to_param(member), help, text});
+  });
+  return out;
+}
+
+/// The options as name-value pairs.
+template <class Options>
+Params echo(Options options) {
+  Params out;
+  for (OptionInfo& option : describe(options)) out.emplace(option.name, std::move(option.value));
+  return out;
+}
+
+/// `options` with the named fields replaced. Throws OptionError: unknown name, type, rule.
+template <class Options>
+Options with(Options options, Params given) {
+  std::string known;
+  fields(options, [&](const char* name, auto& member, const char*, const auto&... rule) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+    if (const auto found = given.find(name); found != given.end()) {
+      FieldType<Member>::assign(name, member, found->second);
+      given.erase(found);
+    }
+    (detail::obey(name, member, rule), ...);
+  });
+  if (given.empty()) return options;
+  const std::string& name = given.begin()->first;
+  throw OptionError(name,
+                    name + ": unknown option (has: " + (known.empty() ? "none" : known) + ")");
+}
+
+}  // namespace loopbench

@@ -1,0 +1,52 @@
+/// What a method is given, kept apart from what only the judge may see.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "datasets/core/se3.hpp"
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench {
+
+/// "Keyframe `to`, seen from keyframe `from`, is here": odometry or a loop closure.
+struct Edge {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  Pose from_from_to;
+  /// Inverse covariance of the twist e in `from_from_to * exp(e)`, order [rho; phi]. Units 1/m^2,
+  /// 1/(m rad), 1/rad^2. Symmetric positive definite.
+  Matrix6 information = Matrix6::Identity();
+  double scale = 1.0;  ///< length unit of `to` over that of `from`; 1 unless the chain is Sim(3)
+};
+
+/// Everything a method may look at. The reference is deliberately not in here.
+struct Problem {
+  Trajectory keyframes;        ///< as the tracker left them
+  std::vector<Edge> odometry;  ///< sorted by `from`; consecutive keyframes, from + 1 == to
+  std::vector<Edge> closures;  ///< from < to, sorted by (to, from)
+  Trajectory frames;           ///< tracked frames between keyframes, same world; may be empty
+  bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
+};
+
+/// Throws InputError naming `name` and the rule when edges or trajectories break their promise.
+inline void check(const Problem& problem, const std::string& name) {
+  check(problem.keyframes, name + ": keyframes");
+  check(problem.frames, name + ": frames");
+  const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Edge& edge = edges[i];
+      const std::string where = name + ": " + kind + " " + std::to_string(i) + ": ";
+      if (edge.from >= edge.to) throw InputError(where + "from is not before to");
+      if (edge.to >= problem.keyframes.size()) throw InputError(where + "names no keyframe");
+      if (!is_finite(edge.from_from_to) || !edge.information.allFinite() || !(edge.scale > 0.0)) {
+        throw InputError(where + "is not finite");
+      }
+    }
+  };
+  check_edges(problem.odometry, "odometry edge");
+  check_edges(problem.closures, "closure");
+}
+
+}  // namespace loopbench

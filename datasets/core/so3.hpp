@@ -1,0 +1,89 @@
+/// Rotations and their tangent space: exp, log and the Jacobians that tie them together.
+///
+/// A tangent vector is axis * angle [rad]. Source: Barfoot, State Estimation for Robotics, ch. 7.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace loopbench {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// Unit quaternion without over-alignment, so its layout does not depend on -march.
+using Rotation = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+/// Below this angle the closed forms cancel and the Taylor series is exact to double precision.
+inline constexpr double kSmallAngle = 1e-3;  // [rad]; the first dropped term is below 1e-15
+
+/// The matrix with hat(a) * b == a.cross(b).
+inline Matrix3 hat(const Vector3& a) {
+  Matrix3 out;
+  out << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return out;
+}
+
+/// Rotation by |phi| about phi. Exact to rounding for every angle.
+inline Rotation exp_so3(const Vector3& phi) {
+  const double square = phi.squaredNorm();
+  const double angle = std::sqrt(square);
+  const double half_sinc = angle < kSmallAngle ? 0.5 - square / 48.0 + square * square / 3840.0
+                                               : std::sin(0.5 * angle) / angle;
+  Rotation out;
+  out.w() = std::cos(0.5 * angle);
+  out.vec() = half_sinc * phi;
+  return out;
+}
+
+/// Shortest tangent vector, |log| <= pi. At exactly pi either sign is right; one is returned.
+inline Vector3 log_so3(const Rotation& rotation) {
+  const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;  // q and -q are the same rotation
+  const double w = sign * rotation.w();
+  const double sine = rotation.vec().norm();
+  const double twice_half_angle_over_sine = sine < kSmallAngle
+                                                ? (2.0 / w) * (1.0 - sine * sine / (3.0 * w * w))
+                                                : 2.0 * std::atan2(sine, w) / sine;
+  return sign * twice_half_angle_over_sine * rotation.vec();
+}
+
+/// Angle of the shortest rotation between two attitudes [rad], in 0..pi.
+inline double angle_between(const Rotation& a, const Rotation& b) {
+  return log_so3(a.conjugate() * b).norm();
+}
+
+/// exp(phi + d) ~ exp(J d) exp(phi): the left Jacobian (Barfoot 7.77).
+inline Matrix3 left_jacobian_so3(const Vector3& phi) {
+  const double square = phi.squaredNorm();
+  const double angle = std::sqrt(square);
+  const Matrix3 H = hat(phi);
+  double a = 0.5 - square / 24.0;         // (1 - cos) / angle^2
+  double b = 1.0 / 6.0 - square / 120.0;  // (angle - sin) / angle^3
+  if (angle >= kSmallAngle) {
+    const double half_sine = std::sin(0.5 * angle);
+    a = 2.0 * half_sine * half_sine / square;
+    b = (angle - std::sin(angle)) / (square * angle);
+  }
+  return Matrix3::Identity() + a * H + b * H * H;
+}
+
+/// Inverse of the left Jacobian, |phi| < 2 pi.
+inline Matrix3 inverse_left_jacobian_so3(const Vector3& phi) {
+  const double square = phi.squaredNorm();
+  const double angle = std::sqrt(square);
+  const Matrix3 H = hat(phi);
+  const double c =
+      angle < kSmallAngle
+          ? 1.0 / 12.0 + square / 720.0
+          : (1.0 - 0.5 * angle * std::cos(0.5 * angle) / std::sin(0.5 * angle)) / square;
+  return Matrix3::Identity() - 0.5 * H + c * H * H;
+}
+
+/// exp(phi + d) ~ exp(phi) exp(J d): the right Jacobian is the left one at -phi.
+inline Matrix3 right_jacobian_so3(const Vector3& phi) { return left_jacobian_so3(-phi); }
+inline Matrix3 inverse_right_jacobian_so3(const Vector3& phi) {
+  return inverse_left_jacobian_so3(-phi);
+}
+
+}  // namespace loopbench

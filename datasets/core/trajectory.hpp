@@ -1,0 +1,54 @@
+/// A list of poses in time.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/pose.hpp"
+
+namespace loopbench {
+
+struct StampedPose {
+  double stamp = 0.0;  ///< [s]
+  Pose world_from_body;
+};
+static_assert(sizeof(StampedPose) == 64, "one cache line a pose, whatever the compiler flags");
+
+/// Stamps strictly increase, quaternions are unit, everything is finite: see check().
+using Trajectory = std::vector<StampedPose>;
+
+/// Throws InputError naming `name`, the pose index and the rule when the promise is broken. O(n).
+inline void check(const Trajectory& trajectory, const std::string& name) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const auto refuse = [&](const std::string& what) {
+      return InputError(name + ": pose " + std::to_string(i) + ": " + what);
+    };
+    const auto& [stamp, pose] = trajectory[i];
+    if (!std::isfinite(stamp) || !is_finite(pose)) throw refuse("is not finite");
+    if (std::abs(pose.rotation.norm() - 1.0) > 1e-6) throw refuse("quaternion is not unit");
+    if (i > 0 && !(stamp > trajectory[i - 1].stamp)) throw refuse("stamp does not increase");
+  }
+}
+
+/// Sum of the straight steps [m].
+inline double path_length(const Trajectory& trajectory) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    length +=
+        (trajectory[i].world_from_body.translation - trajectory[i - 1].world_from_body.translation)
+            .norm();
+  }
+  return length;
+}
+
+inline std::vector<double> stamps(const Trajectory& trajectory) {
+  std::vector<double> out;
+  out.reserve(trajectory.size());
+  for (const StampedPose& pose : trajectory) out.push_back(pose.stamp);
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,50 @@
+/// A dataset: from settings to one sequence. One line in datasets.cpp lists it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/core/sequence.hpp"
+
+namespace loopbench {
+
+/// Where relative paths in options are looked for, in order (config folder, --data DIR).
+struct DataRoot {
+  std::vector<std::filesystem::path> folders;
+
+  /// The first existing file. Throws DataMissing naming every place tried.
+  std::filesystem::path find(const std::string& path) const;
+};
+
+/// A file named in the settings is not there; tests on real data skip on it.
+class DataMissing : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+struct DatasetEntry {
+  std::string name;
+  std::string summary;
+  std::vector<OptionInfo> options;
+  /// Throws OptionError, InputError. Same settings and files give the same bits.
+  std::function<Sequence(const Params&, const DataRoot&)> load;
+};
+
+/// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry.
+template <class Options, class Load>
+DatasetEntry dataset(std::string name, std::string summary, Load load) {
+  return {std::move(name),
+          std::move(summary),
+          describe(Options{}),
+          [load](const Params& given, const DataRoot& root) {
+            return load(with(Options{}, given), root);
+          }};
+}
+
+/// Every built-in.
+std::vector<DatasetEntry> datasets();
+
+}  // namespace loopbench

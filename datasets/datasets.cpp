@@ -1,0 +1,7 @@
+#include "datasets/dataset.hpp"
+
+namespace loopbench {
+
+std::vector<DatasetEntry> datasets() { return {}; }
+
+}  // namespace loopbench

@@ -1,0 +1,6 @@
+#include <cstdio>
+
+int main() {
+  std::puts("loopbench");
+  return 0;
+}

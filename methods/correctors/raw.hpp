@@ -1,0 +1,19 @@
+/// No correction: the baseline every gain is measured from.
+#pragma once
+
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+class Raw final : public Corrector {
+ public:
+  struct Options {};
+  explicit Raw(const Options&) {}
+
+  Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
+};
+
+template <class Visit>
+void fields(Raw::Options&, Visit) {}
+
+}  // namespace loopbench

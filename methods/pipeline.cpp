@@ -1,0 +1,74 @@
+#include "methods/pipeline.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "datasets/core/interpolate.hpp"
+#include "datasets/core/knot_span.hpp"
+#include "datasets/core/polyline.hpp"
+
+namespace loopbench {
+namespace {
+
+class Pipeline final : public Method {
+ public:
+  Pipeline(std::unique_ptr<const Corrector> corrector, std::unique_ptr<const Smoother> smoother)
+      : corrector_(std::move(corrector)), smoother_(std::move(smoother)) {}
+
+  std::optional<std::string> declines(const Problem& problem) const override {
+    if (problem.keyframes.empty()) return "no keyframes";
+    if (corrector_) {
+      if (auto why = corrector_->declines(problem)) return why;
+    }
+    return smoother_ ? smoother_->declines(problem) : std::nullopt;
+  }
+
+  std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
+    if (!corrector_) return smoothed(problem, report);
+    Trajectory keyframes =
+        report.time("correct", [&] { return corrector_->correct(problem, report); });
+    if (!smoother_) return std::make_unique<Polyline>(std::move(keyframes));
+    return smoothed(with_keyframes(problem, std::move(keyframes)), report);
+  }
+
+ private:
+  std::unique_ptr<const Curve> smoothed(const Problem& problem, Report& report) const {
+    if (!smoother_) return std::make_unique<Polyline>(problem.keyframes);
+    return report.time("smooth", [&] { return smoother_->smooth(problem, report); });
+  }
+
+  std::unique_ptr<const Corrector> corrector_;
+  std::unique_ptr<const Smoother> smoother_;
+};
+
+}  // namespace
+
+Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
+  const Trajectory& before = problem.keyframes;
+  const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
+  if (!std::equal(before.begin(), before.end(), keyframes.begin(), keyframes.end(), same)) {
+    throw std::runtime_error("corrector did not keep the keyframe stamps");
+  }
+  // Field by field: copying the whole problem would copy keyframes that are thrown away.
+  Problem moved{std::move(keyframes), problem.odometry, problem.closures, {}, problem.planar};
+  moved.frames.reserve(problem.frames.size());
+  const std::vector<double> knots = stamps(before);
+  KnotSpan span(knots);
+  for (const auto& [stamp, pose] : problem.frames) {
+    if (knots.size() < 2 || stamp < knots.front() || stamp > knots.back()) continue;
+    const std::size_t i = span.find(stamp);
+    const auto carried = [&](std::size_t k) {
+      return moved.keyframes[k].world_from_body * (before[k].world_from_body.inverse() * pose);
+    };
+    const double u = (stamp - knots[i]) / (knots[i + 1] - knots[i]);
+    moved.frames.push_back({stamp, normalized(interpolate(carried(i), carried(i + 1), u))});
+  }
+  return moved;
+}
+
+std::unique_ptr<const Method> compose(std::unique_ptr<const Corrector> corrector,
+                                      std::unique_ptr<const Smoother> smoother) {
+  return std::make_unique<Pipeline>(std::move(corrector), std::move(smoother));
+}
+
+}  // namespace loopbench

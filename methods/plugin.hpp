@@ -1,0 +1,40 @@
+/// What a shared object outside this repository includes to bring methods of its own.
+#pragma once
+
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+/// Facts two binaries must agree on before they may hand each other our types.
+struct Abi {
+  int interface = 1;  ///< raise when method.hpp or datasets/core changes shape
+  long language = __cplusplus;
+  int compiler = __GNUC__;
+#ifdef __clang__
+  int clang = __clang_major__;
+#else
+  int clang = 0;
+#endif
+  int eigen = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
+  int eigen_alignment = EIGEN_MAX_ALIGN_BYTES;  ///< differs when one side used -march=native
+  int string_size = sizeof(std::string);        ///< differs under another standard library ABI
+  int problem_size = sizeof(Problem);
+  int entry_size = sizeof(MethodEntry);
+
+  bool operator==(const Abi&) const = default;
+};
+
+struct Plugin {
+  Abi abi;
+  std::vector<MethodEntry> (*methods)();
+};
+
+}  // namespace loopbench
+
+/// The one line a plugin writes: LOOPBENCH_PLUGIN(method<Mine>("mine", "what it does"))
+#define LOOPBENCH_PLUGIN(...)                                                 \
+  extern "C" const loopbench::Plugin* loopbench_plugin() {                    \
+    static const loopbench::Plugin plugin{                                    \
+        {}, [] { return std::vector<loopbench::MethodEntry>{__VA_ARGS__}; }}; \
+    return &plugin;                                                           \
+  }

@@ -1,0 +1,30 @@
+/// Moving an estimate onto its reference: least squares, first pose, or not at all.
+///
+/// Source: S. Umeyama, Least-squares estimation of transformation parameters between two point
+/// patterns, PAMI 13(4), 1991.
+#pragma once
+
+#include "datasets/core/trajectory.hpp"
+#include "metrics/protocol.hpp"
+
+namespace loopbench {
+
+/// p_reference = scale * R * p_estimate + t.
+struct Alignment {
+  Align type = Align::none;
+  Pose reference_from_estimate;
+  double scale = 1.0;
+  /// Number of independent directions in the point pattern (0..3): 3 in general position, 2 planar
+  /// (still unique), 1 a straight line (rotation about it is free), 0 all in one point.
+  int rank = 3;
+  double condition = 1.0;  ///< largest over smallest used singular value of the covariance
+};
+
+/// Aligns paired poses (same size). For se3 and sim3, throws std::runtime_error when fewer than two
+/// directions are independent: the least-squares rotation is then not unique. O(n).
+Alignment align(const Trajectory& reference, const Trajectory& estimate, Align type);
+
+/// The estimate moved: positions scaled, then everything left-multiplied.
+Trajectory apply(const Alignment& alignment, Trajectory estimate);
+
+}  // namespace loopbench

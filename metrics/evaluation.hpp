@@ -1,0 +1,44 @@
+/// An estimate laid beside its reference: paired, aligned, with what was lost on the way.
+#pragma once
+
+#include <string>
+
+#include "datasets/core/curve.hpp"
+#include "metrics/alignment.hpp"
+#include "metrics/protocol.hpp"
+
+namespace loopbench {
+
+/// Pair counts that stand beside every number.
+struct Coverage {
+  std::size_t pairs = 0;     ///< pose pairs that were judged
+  std::size_t possible = 0;  ///< estimate poses (keyframes) or reference stamps in the span (dense)
+  double span = 0.0;         ///< judged time over the reference's duration, 0..1
+
+  double share() const {
+    return possible == 0 ? 0.0 : static_cast<double>(pairs) / static_cast<double>(possible);
+  }
+};
+
+/// reference[i] and estimate[i] belong together and share reference[i].stamp as their time.
+struct Evaluation {
+  Trajectory reference;
+  Trajectory estimate;  ///< already moved onto the reference by `alignment`
+  Alignment alignment;
+  Coverage coverage;
+};
+
+/// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches or the
+/// alignment is degenerate. Complexity O((n + m) log(n + m)) or better.
+Evaluation evaluate(const Trajectory& reference,
+                    const Trajectory& estimate,
+                    const Protocol& protocol);
+
+/// The same for a curve, at its keyframes or densely at the reference's times.
+Evaluation evaluate(const Trajectory& reference,
+                    const Curve& estimate,
+                    const std::vector<double>& keyframe_stamps,
+                    Times times,
+                    const Protocol& protocol);
+
+}  // namespace loopbench

@@ -1,0 +1,43 @@
+/// A metric is a pure function from a paired, aligned estimate to named error distributions.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "datasets/core/fields.hpp"
+#include "metrics/evaluation.hpp"
+#include "metrics/statistics.hpp"
+
+namespace loopbench {
+
+struct Score {
+  std::string relation;  ///< "translation", "rotation"
+  std::string axis;      ///< "x", "y", "z", "3d"
+  std::string unit;      ///< "m", "deg"
+  Statistics statistics;
+};
+
+struct MetricEntry {
+  std::string name;
+  std::string summary;
+  std::vector<OptionInfo> options;
+  /// Throws OptionError on bad options, std::runtime_error when the metric is undefined here.
+  std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
+};
+
+/// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry.
+template <class Options, class Function>
+MetricEntry metric(std::string name, std::string summary, Function score) {
+  return {std::move(name),
+          std::move(summary),
+          describe(Options{}),
+          [score](const Evaluation& evaluation, const Params& given) {
+            return score(evaluation, with(Options{}, given));
+          }};
+}
+
+/// Every built-in.
+std::vector<MetricEntry> metrics();
+
+}  // namespace loopbench

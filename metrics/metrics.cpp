@@ -1,0 +1,7 @@
+#include "metrics/metric.hpp"
+
+namespace loopbench {
+
+std::vector<MetricEntry> metrics() { return {}; }
+
+}  // namespace loopbench

@@ -1,0 +1,98 @@
+#include "datasets/core/fields.hpp"
+
+#include <gtest/gtest.h>
+
+namespace loopbench {
+namespace {
+
+enum class Turn { none, slerp };
+inline auto choices(Turn) {
+  return std::array{std::pair{"none", Turn::none}, std::pair{"slerp", Turn::slerp}};
+}
+
+struct Options {
+  double share = 0.5;
+  int count = 3;
+  bool robust = true;
+  std::string label = "a";
+  Turn turn = Turn::slerp;
+  std::optional<double> band;
+};
+
+template <class Visit>
+void fields(Options& o, Visit visit) {
+  visit("share", o.share, "part of the gap [-]", Between{0.0, 1.0});
+  visit("count", o.count, "how many", Between{1});
+  visit("robust", o.robust, "or not");
+  visit("label", o.label, "a word");
+  visit("turn", o.turn, "how rotation is spread");
+  visit("band", o.band, "speed band [m/s]", Above{0.0});
+}
+
+std::string why(const Params& given) {
+  try {
+    with(Options{}, given);
+  } catch (const OptionError& error) {
+    EXPECT_EQ(error.option(), given.begin()->first);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Fields, EchoNamesEveryFieldWithItsDefault) {
+  EXPECT_EQ(to_text(echo(Options{})),
+            "band=none, count=3, label=a, robust=true, share=0.5, turn=slerp");
+}
+
+TEST(Fields, DescribeKeepsTheDeclaredOrderAndTheRules) {
+  const std::vector<OptionInfo> options = describe(Options{});
+  ASSERT_EQ(options.size(), 6u);
+  EXPECT_EQ(options[0].rule, "0 <= share <= 1");
+  EXPECT_EQ(options[1].rule, "1 <= count");
+  EXPECT_EQ(options[4].rule, "none | slerp");
+  EXPECT_EQ(options[5].rule, "band > 0");
+  EXPECT_EQ(options[0].help, "part of the gap [-]");
+}
+
+TEST(Fields, WithReplacesOnlyWhatIsGiven) {
+  const Options got = with(Options{},
+                           {{"share", std::int64_t{1}},
+                            {"turn", std::string("none")},
+                            {"band", 0.33},
+                            {"count", std::int64_t{7}}});
+  EXPECT_EQ(got.share, 1.0);
+  EXPECT_EQ(got.turn, Turn::none);
+  EXPECT_EQ(got.band, 0.33);
+  EXPECT_EQ(got.count, 7);
+  EXPECT_EQ(got.label, "a");
+}
+
+TEST(Fields, EchoOfWithReadsBack) {
+  const Params changed{{"share", 0.25}, {"band", 2.5}, {"robust", false}};
+  const Params echoed = echo(with(Options{}, changed));
+  EXPECT_EQ(echo(with(Options{}, echoed)), echoed);
+}
+
+TEST(Fields, RefusesByNameAndRule) {
+  EXPECT_EQ(why({{"shere", 1.0}}),
+            "shere: unknown option (has: share, count, robust, label, turn, band)");
+  EXPECT_EQ(why({{"share", 1.4}}), "share = 1.4 breaks 0 <= share <= 1");
+  EXPECT_EQ(why({{"share", std::nan("")}}), "share = nan: expected a number");
+  EXPECT_EQ(why({{"count", 1.5}}), "count = 1.5: expected a whole number");
+  EXPECT_EQ(why({{"count", std::int64_t{1} << 40}}),
+            "count = 1099511627776: expected a whole number");
+  EXPECT_EQ(why({{"robust", std::int64_t{1}}}), "robust = 1: expected true or false");
+  EXPECT_EQ(why({{"turn", std::string("spin")}}), "turn = spin: expected one of none | slerp");
+  EXPECT_EQ(why({{"band", -0.5}}), "band = -0.5 breaks band > 0");
+}
+
+TEST(Params, TextOfADoubleReadsBack) {
+  for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e17, 6.02214076e23, 5e-324}) {
+    EXPECT_EQ(std::stod(to_text(value)), value);
+  }
+  EXPECT_EQ(to_text(1.0), "1.0");
+  EXPECT_EQ(to_text(0.1), "0.1");
+}
+
+}  // namespace
+}  // namespace loopbench
