@@ -13,9 +13,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 

@@ -1,10 +1,10 @@
 /// Named settings as they travel between a config, an options struct and a result row.
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -38,16 +38,11 @@ class OptionError : public std::invalid_argument {
 
 /// Shortest text that reads back as the same double; "1" stays "1.0" so that types survive.
 inline std::string to_text(double value) {
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::ostringstream out;
-    out.precision(digits);
-    out << value;
-    if (digits == 17 || std::isnan(value) || std::stod(out.str()) == value) {
-      const bool bare = out.str().find_first_not_of("-0123456789") == std::string::npos;
-      return bare ? out.str() + ".0" : out.str();
-    }
-  }
-  return {};
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string out(buffer.data(), end);
+  const bool bare = out.find_first_not_of("-0123456789") == std::string::npos;
+  return bare ? out + ".0" : out;
 }
 
 inline std::string to_text(const Param& value) {
