@@ -29,6 +29,7 @@ struct DatasetEntry {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
+  std::function<void(const Params&)> check;  ///< throws OptionError; reads no file
   /// Throws OptionError, InputError. Same settings and files give the same bits.
   std::function<Sequence(const Params&, const DataRoot&)> load;
 };
@@ -39,6 +40,7 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
           std::move(summary),
           describe(Options{}),
+          [](const Params& given) { with(Options{}, given); },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
           }};

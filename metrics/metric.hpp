@@ -22,6 +22,7 @@ struct MetricEntry {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
+  std::function<void(const Params&)> check;  ///< throws OptionError; judges nothing
   /// Throws OptionError on bad options, std::runtime_error when the metric is undefined here.
   std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
 };
@@ -32,6 +33,7 @@ MetricEntry metric(std::string name, std::string summary, Function score) {
   return {std::move(name),
           std::move(summary),
           describe(Options{}),
+          [](const Params& given) { with(Options{}, given); },
           [score](const Evaluation& evaluation, const Params& given) {
             return score(evaluation, with(Options{}, given));
           }};

@@ -1,0 +1,48 @@
+#include "harness/catalogue.hpp"
+
+#include <algorithm>
+
+#include "harness/plugins.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+template <class Entry>
+const Entry& find(const std::vector<Entry>& entries,
+                  const std::string& kind,
+                  const std::string& name) {
+  const auto found = std::ranges::find(entries, name, &Entry::name);
+  if (found != entries.end()) return *found;
+  std::vector<std::string> known;
+  for (const Entry& entry : entries) known.push_back(entry.name);
+  throw InputError(unknown_name(kind, name, known));
+}
+
+}  // namespace
+
+Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
+  Catalogue out{datasets(), methods(), metrics()};
+  for (const std::filesystem::path& plugin : plugins) {
+    for (MethodEntry& entry : load_plugin(plugin)) {
+      if (std::ranges::find(out.methods, entry.name, &MethodEntry::name) != out.methods.end()) {
+        throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
+                         "' is already in the catalogue");
+      }
+      out.methods.push_back(std::move(entry));
+    }
+  }
+  return out;
+}
+
+const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.datasets, "dataset", name);
+}
+const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.methods, "method", name);
+}
+const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.metrics, "metric", name);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,28 @@
+/// Everything a sweep can name: built-ins and what plugins bring.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "datasets/dataset.hpp"
+#include "methods/method.hpp"
+#include "metrics/metric.hpp"
+
+namespace loopbench {
+
+struct Catalogue {
+  std::vector<DatasetEntry> datasets;
+  std::vector<MethodEntry> methods;
+  std::vector<MetricEntry> metrics;
+};
+
+/// Built-ins, then each plugin's methods. Throws InputError for a plugin that may not be used or
+/// that brings a name already taken.
+Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
+
+/// The entry of that name. Throws InputError with a suggestion.
+const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);
+const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
+const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
+
+}  // namespace loopbench

@@ -1,0 +1,176 @@
+#include "harness/config/choices.hpp"
+
+#include <algorithm>
+
+#include "harness/config/grid.hpp"
+#include "harness/config/method_text.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Runs `check`; what it refuses is told with the line the option was written on.
+template <class Check>
+void located(const std::string& file,
+             std::size_t entry_line,
+             const std::string& name,
+             const std::vector<Setting>& settings,
+             const std::vector<OptionInfo>& options,
+             Check check) {
+  try {
+    check();
+  } catch (const OptionError& error) {
+    std::size_t line = entry_line;
+    for (const Setting& setting : settings) {
+      if (setting.name == error.option()) line = setting.line;
+    }
+    std::vector<std::string> known;
+    for (const OptionInfo& option : options) known.push_back(option.name);
+    const bool is_known = std::ranges::count(known, error.option()) > 0;
+    const std::string guess = is_known ? "" : closest(error.option(), known);
+    throw input_error(
+        file,
+        line,
+        name + ": " + error.what() + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+  }
+}
+
+Params to_params(const std::vector<Setting>& settings) {
+  Params out;
+  for (const Setting& setting : settings) out[setting.name] = setting.value;
+  return out;
+}
+
+/// "name (a=1, b=2)". With a label of its own, only what is swept is worth telling.
+std::string label_of(const std::string& name, const std::string& given, const GridPoint& point) {
+  std::string shown;
+  for (const Setting& setting : point.settings) {
+    if (!given.empty() && std::ranges::count(point.swept, setting.name) == 0) continue;
+    shown += (shown.empty() ? "" : ", ") + setting.name + "=" + to_text(setting.value);
+  }
+  const std::string& base = given.empty() ? name : given;
+  return shown.empty() ? base : base + " (" + shown + ")";
+}
+
+/// The entry's own name under `key` - or the entry itself when it is a bare word - and its label.
+struct Named {
+  std::string name;
+  std::string label;
+};
+
+Named named(const YamlNode& entry, const std::string& key, const std::string& file) {
+  if (entry.type == YamlNode::Type::scalar) return {to_text(entry.scalar), ""};
+  const YamlNode* name = entry.find(key);
+  if (entry.type != YamlNode::Type::map || name == nullptr ||
+      name->type != YamlNode::Type::scalar) {
+    throw input_error(file, entry.line, "expected a name or a map with '" + key + ": NAME'");
+  }
+  const YamlNode* label = entry.find("label");
+  if (label != nullptr && label->type != YamlNode::Type::scalar) {
+    throw input_error(file, label->line, "label: expected a word");
+  }
+  return {to_text(name->scalar), label == nullptr ? "" : to_text(label->scalar)};
+}
+
+template <class Find>
+const auto& found(Find find,
+                  const Catalogue& catalogue,
+                  const std::string& name,
+                  const std::string& file,
+                  std::size_t line) {
+  try {
+    return find(catalogue, name);
+  } catch (const InputError& error) {
+    throw input_error(file, line, error.what());
+  }
+}
+
+/// The stage a setting belongs to and its name there: `uniform.rotation`, or `rotation` when only
+/// one stage has it.
+std::pair<std::size_t, std::string> owner(const Setting& setting,
+                                          const std::vector<const MethodEntry*>& stages,
+                                          const std::string& file) {
+  std::vector<std::size_t> having;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const std::string prefix = stages[i]->name + ".";
+    if (setting.name.starts_with(prefix)) return {i, setting.name.substr(prefix.size())};
+    for (const OptionInfo& option : stages[i]->options) {
+      known.push_back(option.name);
+      if (option.name == setting.name) having.push_back(i);
+    }
+  }
+  if (having.size() == 1) return {having.front(), setting.name};
+  if (having.size() > 1) {
+    throw input_error(file,
+                      setting.line,
+                      setting.name + ": both stages have it; say " + stages[0]->name + "." +
+                          setting.name + " or " + stages[1]->name + "." + setting.name);
+  }
+  if (stages.size() == 1) return {0, setting.name};  // refused there, with the list of options
+  throw input_error(
+      file, setting.line, unknown_name("option of either stage", setting.name, known));
+}
+
+}  // namespace
+
+std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
+                                           const std::string& file,
+                                           const Catalogue& catalogue) {
+  const auto [name, label] = named(entry, "dataset", file);
+  const DatasetEntry& known = found(find_dataset, catalogue, name, file, entry.line);
+  std::vector<DatasetChoice> out;
+  for (const GridPoint& point : spread(entry, {"dataset", "label"}, file)) {
+    const Params options = to_params(point.settings);
+    located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
+    out.push_back({label_of(name, label, point), {name, options}});
+  }
+  return out;
+}
+
+std::vector<MetricChoice> metric_choices(const YamlNode& entry,
+                                         const std::string& file,
+                                         const Catalogue& catalogue) {
+  const auto [name, label] = named(entry, "metric", file);
+  const MetricEntry& known = found(find_metric, catalogue, name, file, entry.line);
+  std::vector<MetricChoice> out;
+  for (const GridPoint& point : spread(entry, {"metric", "label"}, file)) {
+    const Params options = to_params(point.settings);
+    located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
+    out.push_back({label_of(name, label, point), {name, options}});
+  }
+  return out;
+}
+
+std::vector<MethodChoice> method_choices(const YamlNode& entry,
+                                         const std::string& file,
+                                         const Catalogue& catalogue) {
+  const auto [text, label] = named(entry, "method", file);
+  std::vector<const MethodEntry*> stages;
+  for (const std::string& name : split_stages(text)) {
+    stages.push_back(&found(find_method, catalogue, name, file, entry.line));
+  }
+  if (const std::string why = refuses_stages(stages); !why.empty()) {
+    throw input_error(file, entry.line, text + ": " + why);
+  }
+  std::vector<MethodChoice> out;
+  for (const GridPoint& point : spread(entry, {"method", "label"}, file)) {
+    MethodChoice choice{label_of(text, label, point), {}};
+    for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
+    std::vector<std::vector<Setting>> by_stage(stages.size());
+    for (const Setting& setting : point.settings) {
+      const auto [stage, name] = owner(setting, stages, file);
+      by_stage[stage].push_back({name, setting.value, setting.line});
+    }
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      choice.stages[i].options = to_params(by_stage[i]);
+      located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
+        stages[i]->make(choice.stages[i].options);
+      });
+    }
+    out.push_back(std::move(choice));
+  }
+  return out;
+}
+
+}  // namespace loopbench

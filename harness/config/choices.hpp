@@ -1,0 +1,24 @@
+/// The three lists of a config - datasets, methods, metrics - each entry spread into choices.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/catalogue.hpp"
+#include "harness/config/yaml.hpp"
+#include "harness/sweep.hpp"
+
+namespace loopbench {
+
+/// Each throws InputError `file:line:` for an unknown name or option, or a broken rule.
+std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
+                                           const std::string& file,
+                                           const Catalogue& catalogue);
+std::vector<MethodChoice> method_choices(const YamlNode& entry,
+                                         const std::string& file,
+                                         const Catalogue& catalogue);
+std::vector<MetricChoice> metric_choices(const YamlNode& entry,
+                                         const std::string& file,
+                                         const Catalogue& catalogue);
+
+}  // namespace loopbench

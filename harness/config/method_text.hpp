@@ -1,0 +1,17 @@
+/// "uniform + dm_n4": one method, or a corrector and a smoother.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+/// The names between the plus signs, trimmed.
+std::vector<std::string> split_stages(const std::string& text);
+
+/// Why these stages do not compose, or empty: corrector, smoother, corrector + smoother, method.
+std::string refuses_stages(const std::vector<const MethodEntry*>& stages);
+
+}  // namespace loopbench

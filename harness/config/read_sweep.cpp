@@ -1,0 +1,208 @@
+#include "harness/config/read_sweep.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "harness/config/choices.hpp"
+#include "harness/config/grid.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+const std::vector<std::string> kKeys{"description",
+                                     "datasets",
+                                     "methods",
+                                     "metrics",
+                                     "times",
+                                     "protocol",
+                                     "baseline",
+                                     "repeats",
+                                     "timing",
+                                     "exclude",
+                                     "table"};
+
+/// Reads one config; knows the file for its messages.
+class Reader {
+ public:
+  Reader(std::string file, const Catalogue& catalogue)
+      : file_(std::move(file)), catalogue_(catalogue) {}
+
+  Sweep read(const YamlNode& root) const {
+    if (root.type != YamlNode::Type::map) {
+      throw input_error(file_, root.line, "expected a map with datasets, methods and metrics");
+    }
+    only_keys(root, kKeys);
+    Sweep sweep;
+    sweep.datasets = list<DatasetChoice>(root, "datasets", dataset_choices);
+    sweep.methods = list<MethodChoice>(root, "methods", method_choices);
+    sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
+    if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
+    if (const YamlNode* node = root.find("protocol")) sweep.protocol = protocol(*node);
+    if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
+    if (const YamlNode* node = root.find("timing")) sweep.timing = count(*node, "timing");
+    if (const YamlNode* node = root.find("exclude")) sweep.exclude = exclusions(*node);
+    if (const YamlNode* node = root.find("table")) sweep.table = table(*node);
+    sweep.baseline = baseline(root.find("baseline"), sweep.methods);
+    return sweep;
+  }
+
+ private:
+  void only_keys(const YamlNode& node, const std::vector<std::string>& known) const {
+    for (const auto& [key, value] : node.map) {
+      if (std::ranges::count(known, key) == 0) {
+        throw input_error(file_, value.line, unknown_name("setting", key, known));
+      }
+    }
+  }
+
+  std::string word(const YamlNode& node, const std::string& key) const {
+    if (node.type == YamlNode::Type::scalar) return to_text(node.scalar);
+    throw input_error(file_, node.line, key + ": expected a word");
+  }
+
+  /// A list of words, or one word.
+  std::vector<std::string> words(const YamlNode& node, const std::string& key) const {
+    if (node.type != YamlNode::Type::list) return {word(node, key)};
+    std::vector<std::string> out;
+    for (const YamlNode& item : node.list) out.push_back(word(item, key));
+    return out;
+  }
+
+  int count(const YamlNode& node, const std::string& key) const {
+    const auto* whole = std::get_if<std::int64_t>(&node.scalar);
+    if (node.type != YamlNode::Type::scalar || whole == nullptr || *whole < 1 || *whole > 1000000) {
+      throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
+    }
+    return static_cast<int>(*whole);
+  }
+
+  template <class Choice, class Read>
+  std::vector<Choice> list(const YamlNode& root, const std::string& key, Read read) const {
+    const YamlNode* node = root.find(key);
+    if (node == nullptr) throw input_error(file_, root.line, "'" + key + "' is missing");
+    if (node->type != YamlNode::Type::list || node->list.empty()) {
+      throw input_error(file_, node->line, key + ": expected a list with at least one entry");
+    }
+    std::vector<Choice> out;
+    for (const YamlNode& entry : node->list) {
+      for (Choice& choice : read(entry, file_, catalogue_)) {
+        if (std::ranges::count(out, choice.label, &Choice::label) > 0) {
+          throw input_error(
+              file_,
+              entry.line,
+              "two entries of " + key + " are called '" + choice.label + "'; give one a label");
+        }
+        out.push_back(std::move(choice));
+      }
+    }
+    return out;
+  }
+
+  std::vector<Times> times(const YamlNode& node) const {
+    std::vector<Times> out;
+    for (const std::string& name : words(node, "times")) {
+      const auto value = from_text<Times>(name);
+      if (!value) throw input_error(file_, node.line, "times: expected " + choice_list<Times>());
+      if (std::ranges::count(out, *value) == 0) out.push_back(*value);
+    }
+    if (out.empty()) throw input_error(file_, node.line, "times: expected " + choice_list<Times>());
+    return out;
+  }
+
+  Protocol protocol(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::map) {
+      throw input_error(file_, node.line, "protocol: expected a map");
+    }
+    Params given;
+    for (const Setting& setting : spread(node, {}, file_).front().settings) {
+      given[setting.name] = setting.value;
+    }
+    try {
+      return with(Protocol{}, given);
+    } catch (const OptionError& error) {
+      const YamlNode* place = node.find(error.option());
+      throw input_error(
+          file_, place ? place->line : node.line, std::string("protocol: ") + error.what());
+    }
+  }
+
+  std::vector<Exclusion> exclusions(const YamlNode& node) const {
+    std::vector<Exclusion> out;
+    if (node.type != YamlNode::Type::list) {
+      throw input_error(file_, node.line, "exclude: expected a list of {dataset, method} patterns");
+    }
+    for (const YamlNode& entry : node.list) {
+      only_keys(entry, {"dataset", "method"});
+      Exclusion exclusion;
+      if (const YamlNode* d = entry.find("dataset")) exclusion.dataset = pattern(*d, "dataset");
+      if (const YamlNode* m = entry.find("method")) exclusion.method = pattern(*m, "method");
+      out.push_back(exclusion);
+    }
+    return out;
+  }
+
+  std::string pattern(const YamlNode& node, const std::string& key) const {
+    const std::string text = word(node, key);
+    try {
+      std::regex{text};
+    } catch (const std::regex_error&) {
+      throw input_error(file_, node.line, key + ": '" + text + "' is not a regular expression");
+    }
+    return text;
+  }
+
+  TableSpec table(const YamlNode& node) const {
+    only_keys(node, {"rows", "columns", "split", "value"});
+    TableSpec out;
+    if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
+    if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
+    if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
+    if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
+    return out;
+  }
+
+  std::string baseline(const YamlNode* node, const std::vector<MethodChoice>& methods) const {
+    std::vector<std::string> labels;
+    for (const MethodChoice& method : methods) labels.push_back(method.label);
+    if (node == nullptr) {
+      for (const char* usual : {"raw", "raw + polyline", "polyline"}) {
+        if (std::ranges::count(labels, usual) > 0) return usual;
+      }
+      return "";
+    }
+    const std::string name = word(*node, "baseline");
+    if (std::ranges::count(labels, name) == 0) {
+      throw input_error(file_, node->line, "baseline: " + unknown_name("method", name, labels));
+    }
+    return name;
+  }
+
+  std::string file_;
+  const Catalogue& catalogue_;
+};
+
+}  // namespace
+
+Sweep parse_sweep(const std::string& text,
+                  const std::filesystem::path& file,
+                  const Catalogue& catalogue) {
+  Sweep sweep = Reader(file.string(), catalogue).read(parse_yaml(text, file.string()));
+  sweep.name = file.stem().string();
+  sweep.config = file;
+  sweep.text = text;
+  return sweep;
+}
+
+Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw InputError(file.string() + ": cannot be read, expected a YAML config");
+  }
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return parse_sweep(text, file, catalogue);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,85 @@
+#include "harness/config/yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
+#include <optional>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+template <class Number>
+std::optional<Number> parse_number(const std::string& text) {
+  Number value{};
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+Param to_param(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
+  if (node.Tag() == "!") return text;  // quoted
+  if (text == "true") return true;
+  if (text == "false") return false;
+  if (const auto whole = parse_number<std::int64_t>(text)) return *whole;
+  if (const auto real = parse_number<double>(text)) return *real;
+  return text;
+}
+
+std::size_t line_of(const YAML::Node& node) {
+  return static_cast<std::size_t>(node.Mark().line + 1);
+}
+
+YamlNode convert(const YAML::Node& node, const std::string& file) {
+  YamlNode out;
+  out.line = line_of(node);
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      out.type = YamlNode::Type::scalar;
+      out.scalar = to_param(node);
+      break;
+    case YAML::NodeType::Sequence:
+      out.type = YamlNode::Type::list;
+      for (const YAML::Node& item : node) out.list.push_back(convert(item, file));
+      break;
+    case YAML::NodeType::Map:
+      out.type = YamlNode::Type::map;
+      for (const auto& item : node) {
+        if (!item.first.IsScalar()) {
+          throw input_error(file, line_of(item.first), "a key must be a word");
+        }
+        const std::string& key = item.first.Scalar();
+        // yaml-cpp keeps both and answers with the first: a silent loss of the second.
+        if (out.find(key) != nullptr) {
+          throw input_error(file, line_of(item.first), "'" + key + "' is given twice");
+        }
+        out.map.emplace_back(key, convert(item.second, file));
+        out.map.back().second.line = line_of(item.first);
+      }
+      break;
+    case YAML::NodeType::Null:
+    case YAML::NodeType::Undefined:
+      break;
+  }
+  return out;
+}
+
+}  // namespace
+
+YamlNode parse_yaml(const std::string& text, const std::string& file) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty()) throw InputError(file + ": is empty, expected a map of settings");
+    if (documents.size() > 1) throw InputError(file + ": holds more than one YAML document");
+    return convert(documents.front(), file);
+  } catch (const YAML::Exception& error) {
+    const auto line = error.mark.is_null() ? 0 : static_cast<std::size_t>(error.mark.line + 1);
+    throw input_error(file, line, "not valid YAML: " + error.msg);
+  }
+}
+
+}  // namespace loopbench

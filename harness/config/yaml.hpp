@@ -1,0 +1,36 @@
+/// A YAML tree that remembers its lines: the only place that knows yaml-cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datasets/core/params.hpp"
+
+namespace loopbench {
+
+/// A scalar, a list or a map, with the line it starts on. Maps keep their order.
+struct YamlNode {
+  enum class Type { null, scalar, list, map };
+
+  Type type = Type::null;
+  std::size_t line = 0;  ///< counted from 1
+  Param scalar;
+  std::vector<YamlNode> list;
+  std::vector<std::pair<std::string, YamlNode>> map;
+
+  const YamlNode* find(const std::string& key) const {
+    for (const auto& [name, value] : map) {
+      if (name == key) return &value;
+    }
+    return nullptr;
+  }
+};
+
+/// Plain scalars become bool, whole number, real number or text, in that order of trying; quoted
+/// ones stay text. Throws InputError `file:line:` on broken YAML, a key given twice, a key that is
+/// not text, or more than one document.
+YamlNode parse_yaml(const std::string& text, const std::string& file);
+
+}  // namespace loopbench

@@ -1,0 +1,64 @@
+/// What a config asks for, every grid already spread out: plain data, validated, ready to run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/core/params.hpp"
+#include "metrics/protocol.hpp"
+
+namespace loopbench {
+
+/// A catalogue name and the options that differ from its defaults.
+struct Choice {
+  std::string name;
+  Params options;
+};
+
+struct DatasetChoice {
+  std::string label;  ///< name, plus the swept options
+  Choice dataset;
+};
+
+struct MethodChoice {
+  std::string label;
+  std::vector<Choice> stages;  ///< one method; or corrector, smoother, or both in that order
+};
+
+struct MetricChoice {
+  std::string label;
+  Choice metric;
+};
+
+/// Cells whose sequence and method labels both match are left out (ECMAScript regex, whole label).
+struct Exclusion {
+  std::string dataset = ".*";
+  std::string method = ".*";
+};
+
+/// How the table at the end is laid out; names are columns of the long table (see export/record).
+struct TableSpec {
+  std::vector<std::string> rows{"method"};
+  std::vector<std::string> columns{"metric", "relation", "axis"};
+  std::vector<std::string> split{"sequence", "times"};
+  std::string value = "rmse";
+};
+
+struct Sweep {
+  std::string name;              ///< stem of the config file
+  std::filesystem::path config;  ///< as given
+  std::string text;              ///< the config, byte for byte
+  std::vector<DatasetChoice> datasets;
+  std::vector<MethodChoice> methods;
+  std::vector<MetricChoice> metrics;
+  std::vector<Times> times{Times::keyframes, Times::dense};
+  Protocol protocol;
+  std::string baseline;  ///< method label that gain is measured from; empty: no gain
+  int repeats = 1;       ///< instances of each seeded dataset
+  int timing = 1;        ///< runs of each method's verb
+  std::vector<Exclusion> exclude;
+  TableSpec table;
+};
+
+}  // namespace loopbench
