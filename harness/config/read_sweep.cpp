@@ -116,10 +116,12 @@ class Reader {
     if (node.type != YamlNode::Type::map) {
       throw input_error(file_, node.line, "protocol: expected a map");
     }
-    Params given;
-    for (const Setting& setting : spread(node, {}, file_).front().settings) {
-      given[setting.name] = setting.value;
+    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
+      throw input_error(file_, node.line, "protocol: is one for the whole sweep, not swept");
     }
+    const std::vector<GridPoint> points = spread(node, {}, file_);
+    Params given;
+    for (const Setting& setting : points.front().settings) given[setting.name] = setting.value;
     try {
       return with(Protocol{}, given);
     } catch (const OptionError& error) {
