@@ -23,7 +23,7 @@ inline auto choices(Format) {
 }
 
 /// What to do with a pose whose stamp equals the one before it, which some published files hold.
-/// Stamps that go back are always refused.
+/// Stamps that go back are always refused, and so are repeats in a times file.
 enum class Repeats { refuse, keep_first };
 inline auto choices(Repeats) {
   return std::array{std::pair{"refuse", Repeats::refuse},

@@ -12,48 +12,48 @@
 namespace loopbench {
 namespace {
 
-enum class Pose3 { se2, quaternion, euler, quaternion_and_scale };
+enum class Layout { se2, quaternion, euler, quaternion_and_scale };
 
 struct Tag {
   const char* word;
   bool is_edge;
   GraphKind kind;
-  Pose3 pose;
+  Layout pose;
   const char* columns;  ///< for messages
 };
 
 constexpr std::array kTags{
-    Tag{"VERTEX_SE2", false, GraphKind::planar, Pose3::se2, "5: VERTEX_SE2 id x y yaw"},
+    Tag{"VERTEX_SE2", false, GraphKind::planar, Layout::se2, "5: VERTEX_SE2 id x y yaw"},
     Tag{"EDGE_SE2",
         true,
         GraphKind::planar,
-        Pose3::se2,
+        Layout::se2,
         "12: EDGE_SE2 i j x y yaw and 6 of information"},
     Tag{"VERTEX_SE3:QUAT",
         false,
         GraphKind::spatial,
-        Pose3::quaternion,
+        Layout::quaternion,
         "9: VERTEX_SE3:QUAT id x y z qx qy qz qw"},
     Tag{"EDGE_SE3:QUAT",
         true,
         GraphKind::spatial,
-        Pose3::quaternion,
+        Layout::quaternion,
         "31: EDGE_SE3:QUAT i j x y z qx qy qz qw and 21 of information"},
     Tag{"VERTEX_RST3:QUAT",
         false,
         GraphKind::similarity,
-        Pose3::quaternion_and_scale,
+        Layout::quaternion_and_scale,
         "10: VERTEX_RST3:QUAT id x y z qx qy qz qw scale"},
     Tag{"EDGE_RST3:QUAT",
         true,
         GraphKind::similarity,
-        Pose3::quaternion_and_scale,
+        Layout::quaternion_and_scale,
         "32 or 39: EDGE_RST3:QUAT i j x y z qx qy qz qw scale and 21 or 28 of information"},
-    Tag{"VERTEX3", false, GraphKind::spatial, Pose3::euler, "8: VERTEX3 id x y z roll pitch yaw"},
+    Tag{"VERTEX3", false, GraphKind::spatial, Layout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
     Tag{"EDGE3",
         true,
         GraphKind::spatial,
-        Pose3::euler,
+        Layout::euler,
         "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
 };
 
@@ -100,12 +100,12 @@ class Record {
     Pose out;
     out.translation.x() = number("x");
     out.translation.y() = number("y");
-    if (tag_.pose == Pose3::se2) {
+    if (tag_.pose == Layout::se2) {
       out.rotation = exp_so3({0.0, 0.0, number("yaw")});
       return out;
     }
     out.translation.z() = number("z");
-    if (tag_.pose == Pose3::euler) {
+    if (tag_.pose == Layout::euler) {
       const double roll = number("roll");
       const double pitch = number("pitch");
       const double yaw = number("yaw");
@@ -118,7 +118,7 @@ class Record {
     const double z = number("qz");
     const double w = number("qw");
     out.rotation = unit_rotation(file_, line_.number, {w, x, y, z});
-    if (tag_.pose == Pose3::quaternion_and_scale) {
+    if (tag_.pose == Layout::quaternion_and_scale) {
       scale = number("scale");
       if (!(scale > 0.0)) {
         throw file_.error(line_.number, "scale is " + to_text(scale) + ", expected scale > 0");
@@ -130,13 +130,13 @@ class Record {
   /// The rest of the line, as information of a twist.
   Matrix6 information() {
     switch (tag_.pose) {
-      case Pose3::se2:
+      case Layout::se2:
         return lift_planar(upper<3>());
-      case Pose3::euler:
+      case Layout::euler:
         return upper<6>();
-      case Pose3::quaternion:
+      case Layout::quaternion:
         return from_half_angles(upper<6>());
-      case Pose3::quaternion_and_scale:
+      case Layout::quaternion_and_scale:
         break;
     }
     const bool has_scale = count_columns(file_, line_) > 32;
@@ -171,8 +171,8 @@ class Record {
 VertexRecord read_vertex(Record record, const Line& line) {
   VertexRecord out;
   out.id = record.id("id");
-  double scale_is_in_the_pose_already = 1.0;
-  out.world_from_body = record.pose(scale_is_in_the_pose_already);
+  double checked_only = 1.0;
+  out.world_from_body = record.pose(checked_only);
   record.end();
   out.line = line.number;
   return out;
@@ -216,6 +216,7 @@ Records read_records(TextFile& file) {
     }
     const Record record(file, line, tag);
     if (tag.is_edge) {
+      if (out.edges.empty()) out.edges.reserve(file.lines_like(line));
       out.edges.push_back(read_edge(file, record, line));
     } else {
       out.vertices.push_back(read_vertex(record, line));

@@ -63,6 +63,14 @@ TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
             folder.string() + ": is a directory, expected a text file");
 }
 
+TEST(BadFiles, AbsurdSizesAreRefusedUnread) {
+  const Scratch scratch;
+  const auto file = scratch.file("huge.txt", "0 0 0 0 0 0 0 1\n");
+  std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse: takes no room
+  EXPECT_EQ(refusal([&] { read_trajectory(file); }),
+            file.string() + ": has 9663676416 bytes, expected at most 8589934592");
+}
+
 TEST(BadFiles, TimesMustMatchThePoses) {
   const auto poses = sample("good/kitti.txt");
   const auto refuse = [&](const std::string& name) {
