@@ -1,8 +1,10 @@
 /// What a method is given, kept apart from what only the judge may see.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "datasets/core/se3.hpp"
@@ -31,22 +33,49 @@ struct Problem {
 };
 
 /// Throws InputError naming `name` and the rule when edges or trajectories break their promise.
+/// O(keyframes + frames + edges).
 inline void check(const Problem& problem, const std::string& name) {
   check(problem.keyframes, name + ": keyframes");
   check(problem.frames, name + ": frames");
   const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Edge& edge = edges[i];
-      const std::string where = name + ": " + kind + " " + std::to_string(i) + ": ";
-      if (edge.from >= edge.to) throw InputError(where + "from is not before to");
-      if (edge.to >= problem.keyframes.size()) throw InputError(where + "names no keyframe");
+      const auto refuse = [&](const std::string& what) {
+        return InputError(name + ": " + kind + " " + std::to_string(i) + ": " + what);
+      };
+      if (edge.from >= edge.to) throw refuse("from is not before to");
+      if (edge.to >= problem.keyframes.size()) throw refuse("names no keyframe");
       if (!is_finite(edge.from_from_to) || !edge.information.allFinite() || !(edge.scale > 0.0)) {
-        throw InputError(where + "is not finite");
+        throw refuse("is not finite");
+      }
+      if (std::abs(edge.from_from_to.rotation.norm() - 1.0) > 1e-6) {
+        throw refuse("quaternion is not unit");
+      }
+      const double largest = edge.information.cwiseAbs().maxCoeff();
+      const Matrix6 skew = edge.information - edge.information.transpose();
+      if (skew.cwiseAbs().maxCoeff() > 1e-9 * largest) throw refuse("information is not symmetric");
+      if (edge.information.llt().info() != Eigen::Success) {
+        throw refuse("information is not positive definite");
       }
     }
   };
   check_edges(problem.odometry, "odometry edge");
   check_edges(problem.closures, "closure");
+  for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
+    const Edge& edge = problem.odometry[i];
+    const std::string where = name + ": odometry edge " + std::to_string(i) + ": ";
+    if (edge.to != edge.from + 1) throw InputError(where + "does not join consecutive keyframes");
+    if (i > 0 && edge.from <= problem.odometry[i - 1].from) {
+      throw InputError(where + "is not sorted by from");
+    }
+  }
+  for (std::size_t i = 1; i < problem.closures.size(); ++i) {
+    const Edge& before = problem.closures[i - 1];
+    const Edge& edge = problem.closures[i];
+    if (std::tie(edge.to, edge.from) < std::tie(before.to, before.from)) {
+      throw InputError(name + ": closure " + std::to_string(i) + ": is not sorted by (to, from)");
+    }
+  }
 }
 
 }  // namespace loopbench

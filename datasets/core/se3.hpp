@@ -48,8 +48,10 @@ inline Matrix3 coupling_block_se3(const Vector3& rho, const Vector3& phi) {
   if (angle >= 0.05) {
     const double s = std::sin(angle);
     const double k = std::cos(angle);
+    const double chord = 2.0 * std::sin(0.5 * angle);
     a = (angle - s) / (square * angle);
-    b = (square + 2.0 * k - 2.0) / (2.0 * square * square);
+    // square + 2 k - 2, as a product that does not cancel.
+    b = (angle - chord) * (angle + chord) / (2.0 * square * square);
     c = (2.0 * angle - 3.0 * s + angle * k) / (2.0 * square * square * angle);
   } else {
     a += square * square / 5040.0;

@@ -42,10 +42,9 @@ inline Vector3 log_so3(const Rotation& rotation) {
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;  // q and -q are the same rotation
   const double w = sign * rotation.w();
   const double sine = rotation.vec().norm();
-  const double twice_half_angle_over_sine = sine < kSmallAngle
-                                                ? (2.0 / w) * (1.0 - sine * sine / (3.0 * w * w))
-                                                : 2.0 * std::atan2(sine, w) / sine;
-  return sign * twice_half_angle_over_sine * rotation.vec();
+  // Only 0 / 0 needs care: atan2 itself loses nothing at small angles.
+  const double angle_over_sine = sine > 0.0 ? 2.0 * std::atan2(sine, w) / sine : 2.0 / w;
+  return sign * angle_over_sine * rotation.vec();
 }
 
 /// Angle of the shortest rotation between two attitudes [rad], in 0..pi.

@@ -1,0 +1,83 @@
+#include "datasets/simulated/closures.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/random.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr int kTries = 1000;  // pairs looked at before a path is said to stay in one place
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// `count` of them at even distances in the list, the last one among them.
+Pairs spread(const Pairs& pairs, std::size_t count) {
+  if (pairs.size() <= count) return pairs;
+  Pairs out;
+  for (std::size_t k = 1; k <= count; ++k) out.push_back(pairs[k * pairs.size() / count - 1]);
+  return out;
+}
+
+Matrix6 information(const SimulatedClosures& options) {
+  const double sigma_t = std::max(options.sigma_t, kSigmaFloor);
+  const double sigma_r = std::max(options.sigma_r, kSigmaFloor);
+  Matrix6 out = Matrix6::Zero();
+  out.diagonal().head<3>().setConstant(1.0 / (sigma_t * sigma_t));
+  out.diagonal().tail<3>().setConstant(1.0 / (sigma_r * sigma_r));
+  return out;
+}
+
+/// A pair far apart in time and clearly not in the same place.
+std::pair<std::size_t, std::size_t> strangers(const Trajectory& truth,
+                                              const SamePlace& same,
+                                              Random& random) {
+  const SamePlace clearly{2.0 * same.radius, 2.0 * same.angle, same.min_gap};
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    auto [from, to] = std::minmax({random.index(truth.size()), random.index(truth.size())});
+    if (truth[to].stamp - truth[from].stamp < same.min_gap) continue;
+    if (clearly.holds(truth[from].world_from_body, truth[to].world_from_body)) continue;
+    return {from, to};
+  }
+  throw OptionError("closures.false_share",
+                    "closures.false_share: no false closure exists on a path that stays where it "
+                    "is (or is shorter than closures.min_gap)");
+}
+
+}  // namespace
+
+std::vector<Edge> measure_closures(const Trajectory& truth,
+                                   const SamePlace& same,
+                                   const SimulatedOptions& options) {
+  const SimulatedClosures& closures = options.closures;
+  const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
+  std::vector<Edge> out;
+
+  Random noise(options.seed, Purpose::closures);
+  const Pairs pairs = spread(revisits(truth, same), static_cast<std::size_t>(closures.max));
+  for (const auto& [from, to] : pairs) {
+    const Pose true_one = truth[from].world_from_body.inverse() * truth[to].world_from_body;
+    const Twist error = kept.cwiseProduct(noise.normal_twist(closures.sigma_t, closures.sigma_r));
+    out.push_back({from, to, true_one * exp_se3(error), information(closures)});
+  }
+
+  const double share = closures.false_share;
+  const auto wrong = static_cast<std::size_t>(
+      std::llround(static_cast<double>(pairs.size()) * share / (1.0 - share)));
+  Random confusion(options.seed, Purpose::false_closures);
+  for (std::size_t k = 0; k < wrong; ++k) {
+    const auto [from, to] = strangers(truth, same, confusion);
+    // What a recogniser believes: here again, about as far off as true revisits are.
+    const Twist seen =
+        kept.cwiseProduct(confusion.normal_twist(0.5 * same.radius, 0.5 * same.angle));
+    out.push_back({from, to, exp_se3(seen), information(closures)});
+  }
+  std::sort(out.begin(), out.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.to, a.from) < std::tie(b.to, b.from);
+  });
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,58 @@
+/// Normal draws that are the same with every standard library.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "datasets/core/se3.hpp"
+
+namespace loopbench {
+
+/// What draws are for: a stream each, so that asking for more of one leaves the others alone.
+enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures = 3 };
+
+class Random {
+ public:
+  Random(std::int64_t seed, Purpose purpose) {
+    const auto bits = static_cast<std::uint64_t>(seed);
+    std::seed_seq sequence{static_cast<std::uint32_t>(bits),
+                           static_cast<std::uint32_t>(bits >> 32),
+                           static_cast<std::uint32_t>(purpose)};
+    bits_.seed(sequence);
+  }
+
+  /// In [0, 1).
+  double uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+
+  /// Whole, in [0, count).
+  std::size_t index(std::size_t count) {
+    return static_cast<std::size_t>(uniform() * static_cast<double>(count));
+  }
+
+  /// Three independent normal draws of unit variance; always costs the stream four words.
+  Vector3 normal3() {
+    const auto [a, b] = pair();
+    const auto [c, unused] = pair();
+    return {a, b, c};
+  }
+
+  Twist normal_twist(double sigma_t, double sigma_r) {
+    const Vector3 rho = sigma_t * normal3();
+    return twist(rho, sigma_r * normal3());
+  }
+
+ private:
+  /// Box and Muller.
+  std::pair<double, double> pair() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    const double angle = 2.0 * std::numbers::pi * uniform();
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+  }
+
+  std::mt19937_64 bits_;
+};
+
+}  // namespace loopbench

@@ -1,0 +1,95 @@
+#include "datasets/simulated/simulated.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "datasets/simulated/closures.hpp"
+#include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/path.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr double kMostPoses = 1e8;  // 6.4 GB: more is a slip of the pen
+
+Pose flattened(const Pose& pose) {
+  const Vector3 ahead = pose.rotation * Vector3::UnitX();
+  return {heading(std::atan2(ahead.y(), ahead.x()), 0.0, 0.0),
+          {pose.translation.x(), pose.translation.y(), 0.0}};
+}
+
+/// Poses at k / rate from 0 to `seconds`.
+Trajectory sampled(const Path& path, double rate, double seconds, bool planar) {
+  // A tail of rounding must not cost the last pose.
+  const double steps = std::floor(seconds * rate * (1.0 + 1e-12));
+  if (steps >= kMostPoses) {
+    throw OptionError("laps", fmt::format("laps: {} s at {} Hz are too many poses", seconds, rate));
+  }
+  Trajectory out(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double stamp = static_cast<double>(k) / rate;
+    const Pose pose = path.at(stamp);
+    out[k] = {stamp, planar ? flattened(pose) : pose};
+  }
+  return out;
+}
+
+/// `count` indices below `size`, even, both ends among them.
+std::vector<std::size_t> chosen(std::size_t count, std::size_t size) {
+  if (count > size) {
+    throw OptionError(
+        "keyframes",
+        fmt::format("keyframes = {} breaks keyframes <= {}, the number of frames", count, size));
+  }
+  std::vector<std::size_t> out(count, 0);
+  for (std::size_t k = 1; k < count; ++k) {
+    out[k] = (2 * k * (size - 1) + (count - 1)) / (2 * (count - 1));  // rounded to nearest
+  }
+  return out;
+}
+
+Trajectory at(const std::vector<std::size_t>& indices, const Trajectory& poses) {
+  Trajectory out;
+  out.reserve(indices.size());
+  for (const std::size_t index : indices) out.push_back(poses[index]);
+  return out;
+}
+
+}  // namespace
+
+Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
+  const Path path = path_of(options.path);
+  const double seconds = path.duration * static_cast<double>(options.laps);
+  const double frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
+  // Four is a power of two, so k / frame_rate and 4 k / (4 frame_rate) are the same bits and every
+  // frame has a reference pose of its own.
+  const double reference_rate =
+      options.reference_rate > 0.0 ? options.reference_rate : 4.0 * frame_rate;
+  const std::int64_t wanted =
+      options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps;
+
+  const Trajectory truth = sampled(path, frame_rate, seconds, options.planar);
+  const std::vector<std::size_t> keyframes = chosen(static_cast<std::size_t>(wanted), truth.size());
+  Odometry odometry = measure_odometry(truth, keyframes, options);
+  const SimulatedClosures& closures = options.closures;
+  const SamePlace same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
+                       closures.angle * std::numbers::pi / 180.0,
+                       closures.min_gap};
+
+  Sequence out;
+  out.name = "simulated_" + to_text(options.path);
+  out.problem.keyframes = at(keyframes, odometry.frames);
+  out.problem.odometry = std::move(odometry.edges);
+  out.problem.closures = measure_closures(at(keyframes, truth), same, options);
+  out.problem.frames = std::move(odometry.frames);
+  out.problem.planar = options.planar;
+  out.reference = sampled(path, reference_rate, seconds, options.planar);
+  out.provenance.sensor = "simulated";
+  out.provenance.closures = out.problem.closures.empty() ? "none" : "simulated";
+  out.provenance.licence = "none needed";
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <numbers>
+
+#include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/path.hpp"
+#include "datasets/simulated/simulated.hpp"
+
+namespace loopbench {
+namespace {
+
+SimulatedOptions quiet(SimulatedPath path) {
+  SimulatedOptions out;
+  out.path = path;
+  out.noise.translation = {0.0, 0.0, 0.0, 0.0};
+  out.noise.rotation = {0.0, 0.0, 0.0, 0.0};
+  out.reference_rate = 1.0;
+  return out;
+}
+
+/// Covariance that the first edge claims.
+Matrix6 covariance(const SimulatedOptions& options) {
+  return load_simulated(options).problem.odometry.front().information.inverse();
+}
+
+Pose last(const SimulatedOptions& options) {
+  return load_simulated(options).problem.keyframes.back().world_from_body;
+}
+
+/// Errors of all edges over many seeds, whitened by the information they claim.
+struct Whitened {
+  double edges = 0.0;
+  double chi_square = 0.0;  // mean over edges
+  Twist mean = Twist::Zero();
+  Matrix6 square = Matrix6::Zero();  // mean of e e^T
+
+  Whitened(SimulatedOptions options, int seeds) {
+    const Path path = path_of(options.path);
+    options.reference_rate = 1.0;
+    for (options.seed = 0; options.seed < seeds; ++options.seed) {
+      const Problem problem = load_simulated(options).problem;
+      for (const Edge& edge : problem.odometry) {
+        const Pose a = path.at(problem.keyframes[edge.from].stamp);
+        const Pose b = path.at(problem.keyframes[edge.to].stamp);
+        const Twist e = log_se3(edge.from_from_to.inverse() * (a.inverse() * b));
+        const Twist white = edge.information.llt().matrixU() * e;
+        edges += 1.0;
+        chi_square += white.squaredNorm();
+        mean += white;
+        square += white * white.transpose();
+      }
+    }
+    chi_square /= edges;
+    mean /= edges;
+    square /= edges;
+  }
+};
+
+// Mean of n chi-squares of 6 has deviation sqrt(12 / n); bands below are about four of them.
+TEST(SimulatedOdometry, ErrorsAreAsLargeAsTheInformationSays) {
+  SimulatedOptions options;
+  const Whitened room(options, 40);  // 7160 edges
+  EXPECT_NEAR(room.chi_square, 6.0, 0.16);
+  options.path = SimulatedPath::driving;
+  const Whitened driving(options, 20);  // 7980 edges
+  EXPECT_NEAR(driving.chi_square, 6.0, 0.16);
+}
+
+TEST(SimulatedOdometry, InformationOfLongEdgesKnowsTheLeverArms) {
+  SimulatedOptions options;
+  options.path = SimulatedPath::driving;
+  options.keyframes = 21;                // 97 steps an edge, through corners
+  const Whitened driving(options, 300);  // 6000 edges
+  EXPECT_NEAR(driving.chi_square, 6.0, 0.18);
+  EXPECT_LE(driving.mean.cwiseAbs().maxCoeff(), 4.0 / std::sqrt(driving.edges) + 0.01);
+  EXPECT_LE((driving.square - Matrix6::Identity()).cwiseAbs().maxCoeff(), 0.08);
+}
+
+TEST(SimulatedOdometry, NoiseOfEverySourceIsAsLargeAsTheInformationSays) {
+  SimulatedOptions options;
+  options.noise.translation = {1e-5, 1e-4, 2e-5, 3e-4};
+  options.noise.rotation = {1e-6, 2e-6, 1e-5, 4e-5};
+  EXPECT_NEAR(Whitened(options, 40).chi_square, 6.0, 0.16);
+}
+
+// `line`: 0.5 m/s, five steps of 0.1 s an edge; `spin` with 41 keyframes: 2 pi / 40 an edge.
+TEST(SimulatedOdometry, VarianceGrowsWithTime) {
+  SimulatedOptions options = quiet(SimulatedPath::line);
+  options.noise.translation.per_second = 1e-4;
+  EXPECT_NEAR(covariance(options)(0, 0), 0.5e-4, 1e-10);
+  options.noise.gain = 2.0;
+  EXPECT_NEAR(covariance(options)(2, 2), 2e-4, 1e-10);
+}
+
+TEST(SimulatedOdometry, VarianceGrowsWithDistance) {
+  SimulatedOptions options = quiet(SimulatedPath::line);
+  options.noise.translation.per_metre = 1e-4;
+  EXPECT_NEAR(covariance(options)(1, 1), 0.25e-4, 1e-10);
+}
+
+TEST(SimulatedOdometry, VarianceGrowsWithTurning) {
+  SimulatedOptions options = quiet(SimulatedPath::spin);
+  options.keyframes = 41;
+  options.noise.rotation.per_radian = 1e-4;
+  EXPECT_NEAR(covariance(options)(5, 5), 1e-4 * std::numbers::pi / 20.0, 1e-10);
+  options.path = SimulatedPath::line;
+  options.keyframes = 0;
+  EXPECT_NEAR(covariance(options)(5, 5), 0.0, 1e-10);
+}
+
+TEST(SimulatedOdometry, VarianceGrowsWithSquaredSpeed) {
+  SimulatedOptions options = quiet(SimulatedPath::line);
+  options.noise.rotation.per_speed = 1e-4;
+  EXPECT_NEAR(covariance(options)(3, 3), 1e-4 * 0.25 * 0.5, 1e-10);
+}
+
+TEST(SimulatedOdometry, TurningErrorsMoveTheEndOfTheEdge) {
+  SimulatedOptions options = quiet(SimulatedPath::line);
+  options.noise.rotation.per_second = 1e-2;  // 1e-3 rad^2 a step
+  const Matrix6 S = covariance(options);
+  // Steps of 0.05 m: 0.20, 0.15, 0.10, 0.05 and 0 m are still ahead when each error is made.
+  EXPECT_NEAR(S(1, 1), 1e-3 * 0.075, 1e-9);
+  EXPECT_NEAR(S(1, 5), 1e-3 * 0.5, 1e-9);
+  EXPECT_NEAR(S(2, 4), -1e-3 * 0.5, 1e-9);
+  EXPECT_NEAR(S(0, 0), 0.0, 1e-9);
+}
+
+TEST(SimulatedOdometry, SystematicDriftIsWhatItsNameSays) {
+  SimulatedOptions line = quiet(SimulatedPath::line);
+  line.drift.scale = 0.01;
+  EXPECT_LE((last(line).translation - Vector3(30.3, 0.0, 0.0)).norm(), 1e-6);
+  line.drift = {};
+  line.drift.yaw_per_metre = 0.01;
+  EXPECT_LE((log_so3(last(line).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 1e-9);
+  EXPECT_NEAR(last(line).translation.y(), (1.0 - std::cos(0.3)) / 0.01, 0.02) << "to the left";
+  line.drift = {};
+  line.drift.pitch_per_metre = -0.01;
+  EXPECT_NEAR(last(line).translation.z(), (1.0 - std::cos(0.3)) / 0.01, 0.02) << "nose up";
+
+  SimulatedOptions still = quiet(SimulatedPath::still);
+  still.drift.yaw_per_second = 0.01;
+  EXPECT_LE((log_so3(last(still).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 1e-9);
+  still.drift = {};
+  still.drift.pitch_per_second = 0.01;
+  EXPECT_LE((log_so3(last(still).rotation) - Vector3(0.0, 0.3, 0.0)).norm(), 1e-9);
+
+  SimulatedOptions spin = quiet(SimulatedPath::spin);
+  spin.drift.yaw_per_radian = 0.01;
+  EXPECT_NEAR(log_so3(last(spin).rotation).z(), 0.02 * std::numbers::pi, 1e-9);
+}
+
+TEST(SimulatedOdometry, EdgesAreTheKeyframesOwnSteps) {
+  const Problem problem = load_simulated({}).problem;
+  for (const Edge& edge : problem.odometry) {
+    const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
+                      problem.keyframes[edge.to].world_from_body;
+    EXPECT_TRUE(is_close(step, edge.from_from_to, 1e-12, 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
