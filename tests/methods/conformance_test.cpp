@@ -10,6 +10,10 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+/// ctest shows this as the name; the default would be the bytes of the entry.
+void PrintTo(const MethodEntry& entry, std::ostream* out) { *out << entry.name; }
+
 namespace {
 
 using namespace test;

@@ -71,7 +71,8 @@ TEST(Uniform, SpreadsAPositionErrorByIndexAndCarriesTheRestAlong) {
 TEST(Uniform, TurnsAboutTheStartOfTheLoop) {
   // The end of 4 m along x is seen to lie 4 m along y, turned by a quarter: dt is zero, so each
   // pose turns about the start by its share of 90 degrees.
-  Problem problem = along_x({0, 1, 2, 3, 4, 5});
+  Problem problem = along_x({7, 8, 9, 10, 11, 12});
+  const Vector3 start(7.0, 0.0, 0.0);
   const double quarter = 0.5 * std::numbers::pi;
   problem.closures = {closure(0, 4, {0.0, 4.0, 0.0}, quarter)};
   const Result got = corrected(problem);
@@ -79,10 +80,10 @@ TEST(Uniform, TurnsAboutTheStartOfTheLoop) {
     const double radius = static_cast<double>(i);
     const double angle = 0.25 * radius * quarter;
     EXPECT_NEAR(got.yaw(i), angle, 1e-12);
-    expect_place(got.place(i), radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
+    expect_place(got.place(i), start + radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
   }
   EXPECT_NEAR(got.yaw(5), quarter, 1e-12);  // rigidly behind the end
-  expect_place(got.place(5), {0.0, 5.0, 0.0});
+  expect_place(got.place(5), {7.0, 5.0, 0.0});
 }
 
 TEST(Uniform, WithRotationNoneOnlyPositionsMove) {
