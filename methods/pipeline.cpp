@@ -1,5 +1,6 @@
 #include "methods/pipeline.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,13 @@
 
 namespace loopbench {
 namespace {
+
+void require_same_stamps(const Trajectory& before, const Trajectory& after) {
+  const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
+  if (!std::equal(before.begin(), before.end(), after.begin(), after.end(), same)) {
+    throw std::runtime_error("corrector did not keep the keyframe stamps");
+  }
+}
 
 class Pipeline final : public Method {
  public:
@@ -27,6 +35,7 @@ class Pipeline final : public Method {
     if (!corrector_) return smoothed(problem, report);
     Trajectory keyframes =
         report.time("correct", [&] { return corrector_->correct(problem, report); });
+    require_same_stamps(problem.keyframes, keyframes);
     if (!smoother_) return std::make_unique<Polyline>(std::move(keyframes));
     return smoothed(with_keyframes(problem, std::move(keyframes)), report);
   }
@@ -45,10 +54,7 @@ class Pipeline final : public Method {
 
 Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   const Trajectory& before = problem.keyframes;
-  const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
-  if (!std::equal(before.begin(), before.end(), keyframes.begin(), keyframes.end(), same)) {
-    throw std::runtime_error("corrector did not keep the keyframe stamps");
-  }
+  require_same_stamps(before, keyframes);
   // Field by field: copying the whole problem would copy keyframes that are thrown away.
   Problem moved{std::move(keyframes), problem.odometry, problem.closures, {}, problem.planar};
   moved.frames.reserve(problem.frames.size());

@@ -1,0 +1,110 @@
+#include "methods/smoothers/cubic_spline.hpp"
+
+#include <utility>
+
+#include "datasets/core/interpolate.hpp"
+#include "datasets/core/knot_span.hpp"
+#include "datasets/core/polyline.hpp"
+#include "methods/smoothers/spline_controls.hpp"
+
+namespace loopbench {
+namespace {
+
+/// What one interval reads: side by side in memory, four neighbours at a time.
+struct Control {
+  Vector3 point;      ///< [m]
+  Rotation rotation;  ///< C_j
+  Vector3 step = Vector3::Zero();  ///< d_j = Log(C_{j-1}^T C_j) [rad]; unused at j = 0
+};
+
+class SplineCurve final : public Curve {
+ public:
+  SplineCurve(CubicBasis basis, std::vector<Control> controls)
+      : basis_(std::move(basis)), controls_(std::move(controls)) {}
+
+  double start() const override { return basis_.stamps().front(); }
+  double end() const override { return basis_.stamps().back(); }
+
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    KnotSpan span(basis_.stamps());
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const std::size_t i = span.find(times[k]);
+      const std::array<double, 4> N = basis_.values(i, times[k]);
+      const Control* c = &controls_[i];
+      poses[k].translation =
+          N[0] * c[0].point + N[1] * c[1].point + N[2] * c[2].point + N[3] * c[3].point;
+      poses[k].rotation = (c[0].rotation * exp_so3((N[1] + N[2] + N[3]) * c[1].step) *
+                           exp_so3((N[2] + N[3]) * c[2].step) * exp_so3(N[3] * c[3].step))
+                              .normalized();
+    }
+  }
+
+ private:
+  CubicBasis basis_;
+  std::vector<Control> controls_;
+};
+
+/// Positions of one curve, attitudes of another over the same span.
+class TwoCurves final : public Curve {
+ public:
+  TwoCurves(std::unique_ptr<const Curve> positions, std::unique_ptr<const Curve> attitudes)
+      : positions_(std::move(positions)), attitudes_(std::move(attitudes)) {}
+
+  double start() const override { return positions_->start(); }
+  double end() const override { return positions_->end(); }
+
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    attitudes_->sample(times, poses);
+    std::vector<Pose> places(times.size());
+    positions_->sample(times, places);
+    for (std::size_t k = 0; k < poses.size(); ++k) poses[k].translation = places[k].translation;
+  }
+
+ private:
+  std::unique_ptr<const Curve> positions_;
+  std::unique_ptr<const Curve> attitudes_;
+};
+
+}  // namespace
+
+std::optional<std::string> CubicSpline::declines(const Problem& problem) const {
+  if (problem.keyframes.empty()) return "no keyframes";
+  return std::nullopt;
+}
+
+std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report& report) const {
+  const Trajectory& keyframes = problem.keyframes;
+  if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
+  CubicBasis basis(stamps(keyframes));
+  std::vector<Vector3> places;
+  std::vector<Rotation> attitudes;
+  for (const StampedPose& keyframe : keyframes) {
+    places.push_back(keyframe.world_from_body.translation);
+    attitudes.push_back(keyframe.world_from_body.rotation);
+  }
+  std::vector<Control> controls(basis.size());
+  const std::vector<Vector3> points = interpolating_points(basis, places);
+  for (std::size_t j = 0; j < controls.size(); ++j) controls[j].point = points[j];
+
+  std::optional<ControlRotations> turned;
+  if (options_.rotation == Turn::spline) {
+    turned = interpolating_rotations(basis, attitudes);
+    if (turned) {
+      report.count("iterations", turned->iterations);
+    } else {
+      report.notes.push_back("no attitude spline found, great arcs instead");
+    }
+  }
+  for (std::size_t j = 0; turned && j < controls.size(); ++j) {
+    controls[j].rotation = turned->rotations[j];
+    if (j > 0)
+      controls[j].step = log_so3(controls[j - 1].rotation.conjugate() * controls[j].rotation);
+  }
+  auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
+  if (turned) return spline;
+  return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
+}
+
+}  // namespace loopbench

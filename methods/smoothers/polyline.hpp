@@ -1,0 +1,26 @@
+/// Straight lines and great arcs between the keyframes: the smoother every gain is measured from.
+#pragma once
+
+#include "datasets/core/polyline.hpp"
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+class PolylineSmoother final : public Smoother {
+ public:
+  struct Options {};
+  explicit PolylineSmoother(const Options&) {}
+
+  std::optional<std::string> declines(const Problem& problem) const override {
+    return problem.keyframes.empty() ? std::optional<std::string>("no keyframes") : std::nullopt;
+  }
+
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
+    return std::make_unique<Polyline>(problem.keyframes);
+  }
+};
+
+template <class Visit>
+void fields(PolylineSmoother::Options&, Visit) {}
+
+}  // namespace loopbench

@@ -1,0 +1,142 @@
+#include "methods/smoothers/spline_controls.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/interpolate.hpp"
+#include "methods/smoothers/tridiagonal.hpp"
+
+namespace loopbench {
+namespace {
+
+/// The largest miss that still counts as passing through [rad]; rounding reaches 1e-15.
+constexpr double kTolerance = 1e-13;
+/// Where rounding stops Newton short of kTolerance, this is still called a solution [rad].
+constexpr double kGoodEnough = 1e-11;
+constexpr int kMostSteps = 30;
+constexpr int kMostHalvings = 12;
+
+using Row = TridiagonalRow<Matrix3, Vector3>;
+
+/// Values of the three functions that are not zero at stamp i: N_i, N_{i+1}, N_{i+2}.
+std::array<double, 4> values_at_stamp(const CubicBasis& basis, std::size_t i) {
+  return basis.values(i, basis.stamps()[i]);
+}
+
+/// A Exp(share * Log(A^T B)) and how it turns when B does, both in the world frame:
+/// A and B perturbed by Exp(a), Exp(b) on the left turn it by a + M (b - a).
+struct Arc {
+  Rotation rotation;
+  Matrix3 M;
+};
+
+Arc arc(const Rotation& frame, const Rotation& a, const Rotation& b, double share) {
+  const Vector3 step = log_so3(a.conjugate() * b);
+  const Matrix3 K = share * left_jacobian_so3(share * step) * inverse_left_jacobian_so3(step);
+  return {frame * exp_so3(share * step),
+          frame.toRotationMatrix() * K * a.conjugate().toRotationMatrix()};
+}
+
+/// One row per unknown control C_1..C_n; `right` is what the curve still misses, as a rotation
+/// vector in the world frame.
+std::vector<Row> linearised(const CubicBasis& basis,
+                            const std::vector<Rotation>& controls,
+                            const std::vector<Rotation>& rotations) {
+  const std::size_t n = rotations.size();
+  std::vector<Row> rows(n);
+  const Matrix3 I = Matrix3::Identity();
+  const auto natural = [&](Row& row, Matrix3 Row::*side, std::size_t outer, int inward, double u) {
+    const auto at = [&](int steps) {
+      return controls[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(outer) +
+                                               steps * inward)];
+    };
+    const Rotation end = at(0);
+    const Arc wanted = arc(end, end, at(2), u);
+    row = {Matrix3::Zero(), I, Matrix3::Zero(), log_so3(wanted.rotation * at(1).conjugate())};
+    // With two keyframes the inner control is the other unknown all the same.
+    row.*side = -wanted.M;
+  };
+  natural(rows.front(), &Row::upper, 0, 1, basis.natural_fraction_at_start());
+  natural(rows.back(), &Row::lower, n + 1, -1, basis.natural_fraction_at_end());
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const std::array<double, 4> N = values_at_stamp(basis, i);
+    const Arc first = arc(controls[i], controls[i], controls[i + 1], N[1] + N[2]);
+    const Arc second = arc(first.rotation, controls[i + 1], controls[i + 2], N[2]);
+    rows[i] = {I - first.M,
+               first.M - second.M,
+               second.M,
+               log_so3(rotations[i] * second.rotation.conjugate())};
+  }
+  return rows;
+}
+
+double largest_miss(const std::vector<Row>& rows) {
+  double out = 0.0;
+  for (const Row& row : rows) out = std::max(out, row.right.norm());
+  return out;
+}
+
+/// On the great arcs through the rotations, at the Greville abscissae: exact for a steady turn.
+std::vector<Rotation> first_guess(const CubicBasis& basis, const std::vector<Rotation>& rotations) {
+  const std::vector<double>& stamps = basis.stamps();
+  std::vector<Rotation> out(basis.size());
+  for (std::size_t j = 1; j + 1 < out.size(); ++j) {
+    const double time = basis.greville(j);
+    // Between the stamps j - 2 and j, so at most one interval from stamp j - 1.
+    std::size_t i = std::min(j - 1, stamps.size() - 2);
+    if (i > 0 && time < stamps[i]) --i;
+    const double u = (time - stamps[i]) / (stamps[i + 1] - stamps[i]);
+    out[j] = slerp(rotations[i], rotations[i + 1], u);
+  }
+  out.front() = rotations.front();
+  out.back() = rotations.back();
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vector3> interpolating_points(const CubicBasis& basis,
+                                          const std::vector<Vector3>& points) {
+  const std::size_t n = points.size();
+  const double a = basis.natural_fraction_at_start();
+  const double b = basis.natural_fraction_at_end();
+  std::vector<TridiagonalRow<double, Vector3>> rows(n);  // unknowns c_1..c_n
+  rows.front() = {0.0, 1.0, -a, (1.0 - a) * points.front()};
+  rows.back() = {-b, 1.0, 0.0, (1.0 - b) * points.back()};
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const std::array<double, 4> N = values_at_stamp(basis, i);
+    rows[i] = {N[0], N[1], N[2], points[i]};
+  }
+  std::vector<Vector3> out = solve_tridiagonal(rows);
+  out.insert(out.begin(), points.front());
+  out.push_back(points.back());
+  return out;
+}
+
+std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
+                                                        const std::vector<Rotation>& rotations) {
+  ControlRotations out{first_guess(basis, rotations), 0};
+  std::vector<Row> rows = linearised(basis, out.rotations, rotations);
+  double miss = largest_miss(rows);
+  for (; miss > kTolerance && out.iterations < kMostSteps; ++out.iterations) {
+    const std::vector<Vector3> step = solve_tridiagonal(rows);
+    bool better = false;
+    double share = 1.0;
+    for (int halving = 0; halving <= kMostHalvings && !better; ++halving, share *= 0.5) {
+      std::vector<Rotation> trial = out.rotations;
+      for (std::size_t i = 0; i < step.size(); ++i) {
+        trial[i + 1] = (exp_so3(share * step[i]) * trial[i + 1]).normalized();
+      }
+      rows = linearised(basis, trial, rotations);
+      const double now = largest_miss(rows);
+      better = now < miss;  // false for NaN as well
+      if (!better) continue;
+      miss = now;
+      out.rotations = std::move(trial);
+    }
+    if (!better) break;
+  }
+  if (miss > kGoodEnough) return std::nullopt;
+  return out;
+}
+
+}  // namespace loopbench

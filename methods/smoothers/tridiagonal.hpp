@@ -1,0 +1,47 @@
+/// Systems with one band on each side of the diagonal, solved in O(n).
+#pragma once
+
+#include <Eigen/LU>
+#include <cstddef>
+#include <vector>
+
+#include "datasets/core/so3.hpp"
+
+namespace loopbench {
+
+/// Row i reads: lower * x[i - 1] + diagonal * x[i] + upper * x[i + 1] = right.
+/// `Block` is double or Matrix3, `Value` what it multiplies.
+template <class Block, class Value>
+struct TridiagonalRow {
+  Block lower;
+  Block diagonal;
+  Block upper;
+  Value right;
+};
+
+inline double inverse(double block) { return 1.0 / block; }
+inline Matrix3 inverse(const Matrix3& block) { return block.inverse(); }
+
+/// Elimination without pivoting: backward stable for the totally positive matrices of B-spline
+/// interpolation (de Boor & Pinkus 1977), which is what it is used for here. Destroys `rows`.
+template <class Block, class Value>
+std::vector<Value> solve_tridiagonal(std::vector<TridiagonalRow<Block, Value>>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto& row = rows[i];
+    if (i > 0) {
+      row.diagonal -= row.lower * rows[i - 1].upper;
+      row.right -= row.lower * rows[i - 1].right;
+    }
+    const Block pivot = inverse(row.diagonal);
+    row.upper = pivot * row.upper;
+    row.right = pivot * row.right;
+  }
+  std::vector<Value> out(rows.size());
+  for (std::size_t i = rows.size(); i-- > 0;) {
+    out[i] = rows[i].right;
+    if (i + 1 < rows.size()) out[i] -= rows[i].upper * out[i + 1];
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,267 @@
+// What every method in the catalogue must hold to; a new line in methods.cpp inherits all of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
+#include "datasets/core/polyline.hpp"
+#include "methods/pipeline.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+
+/// ctest shows this as the name; the default would be the bytes of the entry.
+void PrintTo(const MethodEntry& entry, std::ostream* out) { *out << entry.name; }
+
+namespace {
+
+using namespace test;
+
+/// A law that a listed method does not keep, and why that is right. Keep it short.
+struct Exemption {
+  std::string method, law, reason;
+};
+std::vector<Exemption> exemptions() { return {}; }
+
+/// Corrector alone (then a polyline), smoother alone, or the method itself.
+std::unique_ptr<const Method> made(const MethodEntry& entry, const Params& params = {}) {
+  Stage stage = entry.make(params);
+  if (auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
+    return compose(std::move(*corrector), nullptr);
+  }
+  if (auto* smoother = std::get_if<std::unique_ptr<const Smoother>>(&stage)) {
+    return compose(nullptr, std::move(*smoother));
+  }
+  return std::get<std::unique_ptr<const Method>>(std::move(stage));
+}
+
+/// Every keyframe, and `between` times in every gap.
+std::vector<double> asked(const Trajectory& keyframes, int between = 3) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    const double step = (keyframes[i + 1].stamp - keyframes[i].stamp) / (between + 1);
+    for (int k = 0; k <= between; ++k) out.push_back(keyframes[i].stamp + k * step);
+  }
+  if (!keyframes.empty()) out.push_back(keyframes.back().stamp);
+  return out;
+}
+
+bool same_bits(const Trajectory& a, const Trajectory& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+
+/// Extent of the keyframes [m], at least 1: what 1e-9 is relative to.
+double size_of(const Problem& problem) {
+  double out = 1.0;
+  for (const StampedPose& pose : problem.keyframes) {
+    const Vector3 span =
+        pose.world_from_body.translation - problem.keyframes.front().world_from_body.translation;
+    out = std::max(out, span.norm());
+  }
+  return out;
+}
+
+void expect_close(const Trajectory& a, const Trajectory& b, double metres, double radians) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, metres, radians))
+        << "at " << a[i].stamp
+        << " s: " << (a[i].world_from_body.translation - b[i].world_from_body.translation).norm()
+        << " m, " << angle_between(a[i].world_from_body.rotation, b[i].world_from_body.rotation)
+        << " rad";
+  }
+}
+
+void expect_sound(const Trajectory& poses) {
+  for (const StampedPose& pose : poses) {
+    ASSERT_TRUE(is_finite(pose.world_from_body)) << "at " << pose.stamp << " s";
+    ASSERT_NEAR(pose.world_from_body.rotation.norm(), 1.0, 1e-12) << "at " << pose.stamp << " s";
+  }
+}
+
+class Conformance : public ::testing::TestWithParam<MethodEntry> {
+ protected:
+  void SetUp() override {
+    const std::string law = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    for (const Exemption& exemption : exemptions()) {
+      if (exemption.method == GetParam().name && law.starts_with(exemption.law + "/")) {
+        GTEST_SKIP() << "exempt: " << exemption.reason;
+      }
+    }
+  }
+
+  Trajectory sampled(const Problem& problem) const { return sampled(*method_, problem); }
+
+  static Trajectory sampled(const Method& method, const Problem& problem) {
+    Report report;
+    return method.estimate(problem, report)->sample(asked(problem.keyframes));
+  }
+
+  std::unique_ptr<const Method> method_ = made(GetParam());
+};
+
+TEST_P(Conformance, TakesOrdinaryProblems) {
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(method_->declines(problem), std::nullopt);
+  }
+}
+
+TEST_P(Conformance, KeepsTheSpan) {
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    Report report;
+    const auto curve = method_->estimate(problem, report);
+    EXPECT_EQ(curve->start(), problem.keyframes.front().stamp);
+    EXPECT_EQ(curve->end(), problem.keyframes.back().stamp);
+  }
+}
+
+TEST_P(Conformance, CorrectorKeepsEveryStamp) {
+  const Stage stage = GetParam().make({});
+  const auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage);
+  if (corrector == nullptr) return;
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    Report report;
+    EXPECT_EQ(stamps((*corrector)->correct(problem, report)), stamps(problem.keyframes));
+  }
+}
+
+TEST_P(Conformance, GivesFiniteUnitPoses) {
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    expect_sound(sampled(problem));
+  }
+}
+
+TEST_P(Conformance, RefusesTimesOutsideTheSpan) {
+  const Problem problem = hand_held();
+  Report report;
+  const auto curve = method_->estimate(problem, report);
+  EXPECT_THROW(curve->at(curve->start() - 1e-6), std::out_of_range);
+  EXPECT_THROW(curve->at(curve->end() + 1e-6), std::out_of_range);
+  EXPECT_THROW(curve->at(std::nan("")), std::out_of_range);
+}
+
+TEST_P(Conformance, SameInputTwiceGivesTheSameBits) {
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(same_bits(sampled(problem), sampled(*made(GetParam()), problem)));
+  }
+}
+
+TEST_P(Conformance, ThreadsDoNotMatter) {
+  const Problem problem = hand_held();
+  Trajectory one, other;
+  std::thread first([&] { one = sampled(problem); });
+  std::thread second([&] { other = sampled(problem); });
+  first.join();
+  second.join();
+  EXPECT_TRUE(same_bits(one, other));
+  EXPECT_TRUE(same_bits(one, sampled(problem)));
+}
+
+TEST_P(Conformance, OrderAndCompanyOfTheTimesDoNotMatter) {
+  const Problem problem = hand_held();
+  Report report;
+  const auto curve = method_->estimate(problem, report);
+  std::vector<double> times = asked(problem.keyframes);
+  const Trajectory sorted = curve->sample(times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_TRUE(same_bits({sorted[i]}, {{times[i], curve->at(times[i])}})) << times[i];
+  }
+  std::ranges::reverse(times);
+  Trajectory backwards = curve->sample(times);
+  std::ranges::reverse(backwards);
+  EXPECT_TRUE(same_bits(sorted, backwards));
+}
+
+TEST_P(Conformance, DoesNotCareWhereTheWorldIs) {
+  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    const Trajectory here = sampled(problem);
+    Trajectory there = sampled(moved_by(elsewhere, problem));
+    for (StampedPose& pose : there) {
+      pose.world_from_body = elsewhere.inverse() * pose.world_from_body;
+    }
+    const double size = size_of(problem) + elsewhere.translation.norm();
+    expect_close(here, there, 1e-9 * size, 1e-9);
+  }
+}
+
+TEST_P(Conformance, StaysOnTheFloorWhenMeasuredThere) {
+  for (const StampedPose& pose : sampled(planar())) {
+    EXPECT_NEAR(pose.world_from_body.translation.z(), 0.0, 1e-9);
+    EXPECT_NEAR(pose.world_from_body.rotation.x(), 0.0, 1e-9);
+    EXPECT_NEAR(pose.world_from_body.rotation.y(), 0.0, 1e-9);
+  }
+}
+
+TEST_P(Conformance, LeavesWhatIsPerfectAlone) {
+  // A smoother may round a perfect bend off; a straight line it may not.
+  const Problem problem = GetParam().kind == Kind::corrector ? perfect() : straight();
+  const Trajectory expected = Polyline(problem.keyframes).sample(asked(problem.keyframes));
+  expect_close(sampled(problem), expected, 1e-9 * size_of(problem), 1e-9);
+}
+
+TEST_P(Conformance, DeclinesOrSucceedsWhenItIsAwkward) {
+  for (const auto& [name, problem] : awkward_problems()) {
+    SCOPED_TRACE(name);
+    ASSERT_NO_THROW(check(problem, name));
+    if (const auto why = method_->declines(problem)) {
+      EXPECT_FALSE(why->empty());
+      continue;
+    }
+    Report report;
+    const auto curve = method_->estimate(problem, report);
+    ASSERT_NE(curve, nullptr);
+    EXPECT_EQ(curve->start(), problem.keyframes.front().stamp);
+    EXPECT_EQ(curve->end(), problem.keyframes.back().stamp);
+    expect_sound(curve->sample(asked(problem.keyframes)));
+  }
+}
+
+TEST_P(Conformance, RefusesAnUnknownOption) {
+  EXPECT_THROW(GetParam().make({{"no_such_option", true}}), OptionError);
+}
+
+TEST_P(Conformance, TakesItsOwnDefaults) {
+  Params defaults;
+  for (const OptionInfo& option : GetParam().options) defaults.emplace(option.name, option.value);
+  const Problem problem = hand_held();
+  EXPECT_TRUE(same_bits(sampled(problem), sampled(*made(GetParam(), defaults), problem)));
+}
+
+TEST_P(Conformance, DescribesItselfAndItsOptions) {
+  EXPECT_FALSE(GetParam().summary.empty());
+  for (const OptionInfo& option : GetParam().options) {
+    EXPECT_FALSE(option.help.empty()) << option.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue,
+                         Conformance,
+                         ::testing::ValuesIn(methods()),
+                         [](const auto& entry) { return entry.param.name; });
+
+TEST(Catalogue, NamesAreUnique) {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  std::ranges::sort(names);
+  EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+TEST(Catalogue, EveryExemptionNamesAMethod) {
+  for (const Exemption& exemption : exemptions()) {
+    EXPECT_TRUE(std::ranges::any_of(methods(), [&](const MethodEntry& entry) {
+      return entry.name == exemption.method;
+    })) << exemption.method;
+    EXPECT_FALSE(exemption.reason.empty());
+  }
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,285 @@
+#include "methods/smoothers/cubic_spline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "datasets/core/interpolate.hpp"
+#include "methods/smoothers/spline_controls.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+std::unique_ptr<const Curve> spline(Trajectory keyframes, const Params& params = {}) {
+  Report report;
+  Problem problem;
+  problem.keyframes = std::move(keyframes);
+  auto curve = CubicSpline(with(CubicSpline::Options{}, params)).smooth(problem, report);
+  EXPECT_TRUE(report.notes.empty());
+  return curve;
+}
+
+/// Uneven stamps, steps up to half a metre and about half a radian.
+Trajectory wandering(std::size_t n, std::uint64_t seed = 7) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  const auto any = [&] { return Vector3(even(random), even(random), even(random)); };
+  Trajectory out{{1000.0, {exp_so3(2.0 * any()), 10.0 * any()}}};
+  while (out.size() < n) {
+    const auto& [stamp, pose] = out.back();
+    const Pose step{exp_so3(0.35 * any()), 0.3 * any()};
+    out.push_back({stamp + 0.35 + 0.25 * even(random), normalized(pose * step)});
+  }
+  return out;
+}
+
+/// One natural cubic spline of a scalar by its second derivatives M, as textbooks have it:
+/// h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i - slope_{i-1}), M_0 = M_n =
+/// 0.
+class Textbook {
+ public:
+  Textbook(std::vector<double> t, std::vector<double> y) : t_(std::move(t)), y_(std::move(y)) {
+    const auto n = static_cast<Eigen::Index>(t_.size());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index i = 1; i + 1 < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double before = t_[k] - t_[k - 1], after = t_[k + 1] - t_[k];
+      A(i, i - 1) = before;
+      A(i, i) = 2.0 * (before + after);
+      A(i, i + 1) = after;
+      b(i) = 6.0 * ((y_[k + 1] - y_[k]) / after - (y_[k] - y_[k - 1]) / before);
+    }
+    M_ = A.fullPivLu().solve(b);
+  }
+
+  double at(double time) const {
+    std::size_t i = 0;
+    while (i + 2 < t_.size() && t_[i + 1] <= time) ++i;
+    const double h = t_[i + 1] - t_[i];
+    const double a = (t_[i + 1] - time) / h, b = (time - t_[i]) / h;
+    const auto m = static_cast<Eigen::Index>(i);
+    return a * y_[i] + b * y_[i + 1] +
+           ((a * a * a - a) * M_(m) + (b * b * b - b) * M_(m + 1)) * h * h / 6.0;
+  }
+
+ private:
+  std::vector<double> t_, y_;
+  Eigen::VectorXd M_;
+};
+
+std::vector<double> evenly(double begin, double end, int count) {
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(begin + (end - begin) * k / count);
+  out.push_back(end);
+  return out;
+}
+
+TEST(CubicBasis, IsAPartitionOfUnityAndNeverNegative) {
+  const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const double time : evenly(basis.stamps()[i], basis.stamps()[i + 1], 20)) {
+      const std::array<double, 4> N = basis.values(i, time);
+      EXPECT_NEAR(N[0] + N[1] + N[2] + N[3], 1.0, 1e-15);
+      for (const double value : N) EXPECT_GE(value, 0.0);
+    }
+  }
+}
+
+TEST(CubicBasis, ReproducesTimeFromTheGrevilleAbscissae) {
+  const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const double time : evenly(basis.stamps()[i], basis.stamps()[i + 1], 7)) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        sum += basis.values(i, time)[k] * basis.greville(i + k);
+      }
+      EXPECT_NEAR(sum, time, 1e-14);
+    }
+  }
+}
+
+TEST(CubicSpline, PassesThroughTheKeyframes) {
+  for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 200u}) {
+    const Trajectory keyframes = wandering(n);
+    const auto curve = spline(keyframes);
+    EXPECT_EQ(curve->start(), keyframes.front().stamp);
+    EXPECT_EQ(curve->end(), keyframes.back().stamp);
+    for (const auto& [stamp, pose] : keyframes) {
+      EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << n << " at " << stamp;
+    }
+  }
+}
+
+TEST(CubicSpline, EqualsTheTextbookNaturalSpline) {
+  for (const std::size_t n : {3u, 4u, 30u}) {
+    const Trajectory keyframes = wandering(n);
+    const auto curve = spline(keyframes);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (const StampedPose& pose : keyframes) {
+        values.push_back(pose.world_from_body.translation(axis));
+      }
+      const Textbook textbook(stamps(keyframes), values);
+      for (const double time : evenly(curve->start(), curve->end(), 173)) {
+        EXPECT_NEAR(curve->at(time).translation(axis), textbook.at(time), 1e-11);
+      }
+    }
+  }
+}
+
+TEST(CubicSpline, TurningAboutOneAxisItIsTheNaturalSplineOfTheAngle) {
+  const std::vector<double> times{0.0, 0.4, 1.3, 1.5, 2.6, 3.0};
+  const std::vector<double> angles{0.0, 0.3, -0.2, 0.1, 0.9, 1.1};
+  const Vector3 axis = Vector3(1.0, -2.0, 2.0) / 3.0;
+  Trajectory keyframes;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    keyframes.push_back({times[i], {exp_so3(angles[i] * axis), Vector3::Zero()}});
+  }
+  const auto curve = spline(keyframes);
+  const Textbook textbook(times, angles);
+  for (const double time : evenly(0.0, 3.0, 97)) {
+    EXPECT_LT((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 1e-12);
+  }
+}
+
+TEST(CubicSpline, ReproducesUniformMotion) {
+  const Pose start{exp_so3({0.3, 0.1, -1.0}), {5.0, -2.0, 1.0}};
+  const auto truth = [&](double time) {
+    return Pose{start.rotation * exp_so3(time * Vector3(0.2, -0.5, 0.9)),
+                start.translation + time * Vector3(0.4, 0.3, -0.1)};
+  };
+  for (const std::size_t n : {2u, 3u, 4u, 12u}) {
+    Trajectory keyframes;
+    double time = 0.0;
+    for (std::size_t i = 0; i < n; ++i, time += i % 2 == 0 ? 0.9 : 0.2) {
+      keyframes.push_back({time, truth(time)});
+    }
+    const auto curve = spline(keyframes);
+    for (const double at : evenly(curve->start(), curve->end(), 50)) {
+      EXPECT_TRUE(is_close(curve->at(at), truth(at), 1e-12, 1e-12)) << n << " at " << at;
+    }
+  }
+}
+
+/// Position and body-frame angular velocity, differenced with the given side's stencil.
+Vector3 acceleration(const Curve& curve, double time, double h) {
+  const auto place = [&](int k) { return curve.at(time + k * h).translation; };
+  return (2.0 * place(0) - 5.0 * place(1) + 4.0 * place(2) - place(3)) / (h * h);
+}
+Vector3 angular_acceleration(const Curve& curve, double time, double h) {
+  const Rotation here = curve.at(time).rotation;
+  const auto turn = [&](int k) {
+    return log_so3(here.conjugate() * curve.at(time + k * h).rotation);
+  };
+  return (-5.0 * turn(1) + 4.0 * turn(2) - turn(3)) / (h * h);
+}
+Vector3 velocity(const Curve& curve, double time, double h) {
+  const auto place = [&](int k) { return curve.at(time + k * h).translation; };
+  return (-3.0 * place(0) + 4.0 * place(1) - place(2)) / (2.0 * h);
+}
+Vector3 angular_velocity(const Curve& curve, double time, double h) {
+  const Rotation here = curve.at(time).rotation;
+  const auto turn = [&](int k) {
+    return log_so3(here.conjugate() * curve.at(time + k * h).rotation);
+  };
+  return (4.0 * turn(1) - turn(2)) / (2.0 * h);
+}
+
+TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAtTheKeyframes) {
+  Trajectory keyframes = wandering(14);
+  for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;  // keeps digits for the differences
+  const auto curve = spline(keyframes);
+  const double h = 1e-4;
+  for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
+    const double time = keyframes[i].stamp;
+    // One-sided stencils are exact to h^2 times the jerk on their own side.
+    EXPECT_LT((velocity(*curve, time, h) - velocity(*curve, time, -h)).norm(), 1e-5);
+    EXPECT_LT((acceleration(*curve, time, h) - acceleration(*curve, time, -h)).norm(), 1e-3);
+    EXPECT_LT((angular_velocity(*curve, time, h) - angular_velocity(*curve, time, -h)).norm(),
+              1e-5);
+    EXPECT_LT(
+        (angular_acceleration(*curve, time, h) - angular_acceleration(*curve, time, -h)).norm(),
+        5e-3);
+  }
+}
+
+TEST(CubicSpline, HasNoAccelerationAtItsEnds) {
+  Trajectory keyframes = wandering(9);
+  for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;
+  const auto curve = spline(keyframes);
+  for (const auto& [time, h] : {std::pair{curve->start(), 1e-4}, {curve->end(), -1e-4}}) {
+    EXPECT_LT(acceleration(*curve, time, h).norm(), 1e-3);
+    EXPECT_LT(angular_acceleration(*curve, time, h).norm(), 5e-3);
+  }
+}
+
+TEST(CubicSpline, WithSlerpTheAttitudeFollowsGreatArcs) {
+  const Trajectory keyframes = wandering(6);
+  const auto curve = spline(keyframes, {{"rotation", std::string("slerp")}});
+  const auto smooth = spline(keyframes);
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    const double middle = 0.5 * (keyframes[i].stamp + keyframes[i + 1].stamp);
+    const Rotation arc = slerp(
+        keyframes[i].world_from_body.rotation, keyframes[i + 1].world_from_body.rotation, 0.5);
+    EXPECT_LT(angle_between(curve->at(middle).rotation, arc), 1e-9);
+    EXPECT_EQ(curve->at(middle).translation, smooth->at(middle).translation);
+  }
+}
+
+TEST(CubicSpline, CopesWithLargeTurnsBetweenKeyframes) {
+  Trajectory keyframes;
+  for (int i = 0; i < 20; ++i) {  // 1.5 to 2 rad a step, about an axis that leans to and fro
+    const double s = i;
+    keyframes.push_back({s,
+                         {exp_so3({0.3 * std::sin(s), 0.2 * std::cos(2.0 * s), 0.0}) *
+                              exp_so3({0.0, 0.0, 1.75 * s + 0.1 * std::sin(3.0 * s)}),
+                          Vector3::Zero()}});
+  }
+  const auto curve = spline(keyframes);
+  for (const auto& [stamp, pose] : keyframes) {
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-9, 1e-9)) << stamp;
+  }
+}
+
+TEST(CubicSpline, SaysSoWhenItFallsBackToGreatArcs) {
+  // Back and forth by almost half a turn: controls would have to lie more than pi apart.
+  Problem problem;
+  for (int i = 0; i < 12; ++i) {
+    problem.keyframes.push_back(
+        {0.5 * i, {exp_so3({0.0, 0.0, i % 2 == 0 ? 0.0 : 3.1}), Vector3::Zero()}});
+  }
+  Report report;
+  const auto curve = CubicSpline({}).smooth(problem, report);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_EQ(report.notes[0], "no attitude spline found, great arcs instead");
+  for (const auto& [stamp, pose] : problem.keyframes) {
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12));
+  }
+}
+
+TEST(CubicSpline, NeedsFewStepsWhateverTheSize) {
+  for (const std::size_t n : {100u, 100000u}) {
+    const Trajectory keyframes = wandering(n);
+    std::vector<Rotation> rotations;
+    for (const StampedPose& pose : keyframes) rotations.push_back(pose.world_from_body.rotation);
+    const auto found = interpolating_rotations(CubicBasis(stamps(keyframes)), rotations);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_LE(found->iterations, 8);
+  }
+}
+
+TEST(CubicSpline, ManyKeyframesAreInterpolatedToo) {
+  const Trajectory keyframes = wandering(100000);
+  const auto curve = spline(keyframes);
+  const Trajectory got = curve->sample(stamps(keyframes));
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    ASSERT_TRUE(is_close(got[i].world_from_body, keyframes[i].world_from_body, 1e-9, 1e-9));
+  }
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,120 @@
+#include "methods/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/correctors/uniform.hpp"
+#include "methods/smoothers/cubic_spline.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+/// A corrector made of a function, for wrong ones above all.
+class Made final : public Corrector {
+ public:
+  explicit Made(std::function<Trajectory(Trajectory)> work) : work_(std::move(work)) {}
+  Trajectory correct(const Problem& problem, Report&) const override {
+    return work_(problem.keyframes);
+  }
+
+ private:
+  std::function<Trajectory(Trajectory)> work_;
+};
+
+TEST(WithKeyframes, LeavesFramesWhereTheyAreWhenNothingMoves) {
+  const Problem before = hand_held();
+  const Problem after = with_keyframes(before, before.keyframes);
+  ASSERT_EQ(after.frames.size(), before.frames.size());
+  for (std::size_t i = 0; i < before.frames.size(); ++i) {
+    EXPECT_EQ(after.frames[i].stamp, before.frames[i].stamp);
+    EXPECT_TRUE(
+        is_close(after.frames[i].world_from_body, before.frames[i].world_from_body, 1e-12, 1e-12));
+  }
+}
+
+TEST(WithKeyframes, FramesRideOnARigidMotion) {
+  const Problem before = hand_held();
+  const Pose motion{exp_so3({0.5, 0.2, -0.9}), {3.0, 2.0, 1.0}};
+  const Problem moved = moved_by(motion, before);
+  const Problem after = with_keyframes(before, moved.keyframes);
+  for (std::size_t i = 0; i < before.frames.size(); ++i) {
+    EXPECT_TRUE(
+        is_close(after.frames[i].world_from_body, moved.frames[i].world_from_body, 1e-12, 1e-12));
+  }
+}
+
+TEST(WithKeyframes, FramesBlendBetweenTheirNeighboursByTime) {
+  Problem before;
+  before.keyframes = {{0.0, {}}, {4.0, {Rotation::Identity(), {4.0, 0.0, 0.0}}}};
+  before.frames = {{1.0, {Rotation::Identity(), {1.0, 0.1, 0.0}}}};
+  Trajectory lifted = before.keyframes;
+  lifted[1].world_from_body.translation.z() = 2.0;
+  const Problem after = with_keyframes(before, lifted);
+  ASSERT_EQ(after.frames.size(), 1u);
+  const Vector3 wanted(1.0, 0.1, 0.5);  // a quarter of the way, a quarter of the lift
+  EXPECT_LT((after.frames[0].world_from_body.translation - wanted).norm(), 1e-15);
+}
+
+TEST(WithKeyframes, DropsFramesOutsideTheKeyframes) {
+  Problem before;
+  before.keyframes = {{1.0, {}}, {2.0, {}}};
+  before.frames = {{0.5, {}}, {1.5, {}}, {2.5, {}}};
+  EXPECT_EQ(stamps(with_keyframes(before, before.keyframes).frames), std::vector{1.5});
+}
+
+TEST(WithKeyframes, KeepsEdgesAsMeasured) {
+  const Problem before = hand_held();
+  const Problem after = with_keyframes(before, before.keyframes);
+  EXPECT_EQ(after.odometry.size(), before.odometry.size());
+  EXPECT_EQ(after.closures.size(), before.closures.size());
+  EXPECT_EQ(after.planar, before.planar);
+}
+
+TEST(Compose, RefusesACorrectorThatLosesAKeyframeOrMovesAStamp) {
+  const auto expect_refused = [](const std::function<Trajectory(Trajectory)>& work) {
+    const auto alone = compose(std::make_unique<Made>(work), nullptr);
+    const auto both = compose(std::make_unique<Made>(work),
+                              std::make_unique<CubicSpline>(CubicSpline::Options{}));
+    Report report;
+    EXPECT_THROW(alone->estimate(hand_held(), report), std::runtime_error);
+    EXPECT_THROW(both->estimate(hand_held(), report), std::runtime_error);
+  };
+  expect_refused([](Trajectory poses) {
+    poses.pop_back();
+    return poses;
+  });
+  expect_refused([](Trajectory poses) {
+    poses[3].stamp += 0.001;
+    return poses;
+  });
+}
+
+TEST(Compose, SmoothsWhatTheCorrectorMade) {
+  const Problem problem = hand_held();
+  const Uniform uniform({});
+  const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
+                            std::make_unique<CubicSpline>(CubicSpline::Options{}));
+  Report report, ignored;
+  const auto curve = both->estimate(problem, report);
+  for (const auto& [stamp, pose] : uniform.correct(problem, ignored)) {
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-10, 1e-10));
+  }
+  ASSERT_EQ(report.phases.size(), 2u);
+  EXPECT_EQ(report.phases[0].name, "correct");
+  EXPECT_EQ(report.phases[1].name, "smooth");
+}
+
+TEST(Compose, DeclinesForEitherStage) {
+  Problem problem = hand_held();
+  problem.closures.clear();
+  const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
+                            std::make_unique<CubicSpline>(CubicSpline::Options{}));
+  EXPECT_EQ(both->declines(problem), "no loop closure to spread");
+  EXPECT_EQ(compose(nullptr, nullptr)->declines(Problem{}), "no keyframes");
+  EXPECT_EQ(compose(nullptr, nullptr)->declines(problem), std::nullopt);
+}
+
+}  // namespace
+}  // namespace loopbench
