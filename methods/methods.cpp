@@ -1,11 +1,20 @@
 #include "methods/correctors/raw.hpp"
 #include "methods/method.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
 
 namespace loopbench {
 
 std::vector<MethodEntry> methods() {
   return {
       method<Raw>("raw", "keyframes as the tracker left them"),
+
+      method<Dm>("dm", "the paper's manifold smoother, read robustly; N = 4"),
+      method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
+      method<Dm>("dm_n4", "dm: cubic through 4 nodes", {.planar = 4}),
+      method<Dm>("dm_n5", "dm: least-squares cubic on 5 nodes", {.planar = 5}),
+      method<Dm>("dm_m6", "dm: only heights, quadric through 6 nodes", {.planar = 0, .spatial = 6}),
+      method<Dm>("dm_m7", "dm: only heights, quadric on 7 nodes", {.planar = 0, .spatial = 7}),
+      method<Dm>("dm_m8", "dm: only heights, quadric on 8 nodes", {.planar = 0, .spatial = 8}),
   };
 }
 
