@@ -2,6 +2,7 @@
 #include "methods/correctors/uniform.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/polyline.hpp"
 
 namespace loopbench {
@@ -18,6 +19,13 @@ std::vector<MethodEntry> methods() {
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),
+      method<Dm>("dm", "the paper's manifold smoother, read robustly; N = 4"),
+      method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
+      method<Dm>("dm_n4", "dm: cubic through 4 nodes", {.planar = 4}),
+      method<Dm>("dm_n5", "dm: least-squares cubic on 5 nodes", {.planar = 5}),
+      method<Dm>("dm_m6", "dm: only heights, quadric through 6 nodes", {.planar = 0, .spatial = 6}),
+      method<Dm>("dm_m7", "dm: only heights, quadric on 7 nodes", {.planar = 0, .spatial = 7}),
+      method<Dm>("dm_m8", "dm: only heights, quadric on 8 nodes", {.planar = 0, .spatial = 8}),
   };
 }
 

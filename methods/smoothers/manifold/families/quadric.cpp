@@ -1,0 +1,49 @@
+#include "methods/smoothers/manifold/families/quadric.hpp"
+
+#include <Eigen/SVD>
+
+namespace loopbench::manifold {
+namespace {
+
+constexpr double kWeakest = 1e-3;  // [of the largest singular value]
+
+}  // namespace
+
+Quadric::Coefficients Quadric::monomials(const Vector2& u) {
+  Coefficients out;
+  out << u.x() * u.x(), u.y() * u.y(), u.x() * u.y(), u.x(), u.y(), 1.0;
+  return out;
+}
+
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  if (count < 6) return std::nullopt;
+  Vector2 low = points.front();
+  Vector2 high = points.front();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    low = low.cwiseMin(points[i]);
+    high = high.cwiseMax(points[i]);
+    sum += z[i];
+  }
+  Quadric out;
+  out.centre = 0.5 * (low + high);
+  out.scale = 0.5 * (high - low).maxCoeff();
+  out.level = sum / static_cast<double>(count);
+  if (!(out.scale > 0.0)) return std::nullopt;
+
+  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 8, 6> design(count, 6);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> height(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    design.row(i) = Quadric::monomials((points[k] - out.centre) / out.scale).transpose();
+    height[i] = z[k] - out.level;
+  }
+  Eigen::JacobiSVD<decltype(design)> svd(design, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(kWeakest);
+  out.coefficients = svd.solve(height);
+  out.rank = static_cast<int>(svd.rank());
+  return out;
+}
+
+}  // namespace loopbench::manifold

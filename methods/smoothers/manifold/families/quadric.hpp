@@ -1,0 +1,33 @@
+/// The family quadric: z = q(x, y) of the paper's seven monomials x^2, y^2, z, xy, y, x, 1.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "methods/smoothers/manifold/frame.hpp"
+
+namespace loopbench::manifold {
+
+struct Quadric {
+  using Coefficients = Eigen::Matrix<double, 6, 1>;
+
+  Vector2 centre = Vector2::Zero();                  ///< of the fitted points [m]
+  double scale = 1.0;                                ///< half their larger range [m]
+  double level = 0.0;                                ///< their mean z [m]
+  Coefficients coefficients = Coefficients::Zero();  ///< of x^2, y^2, xy, x, y, 1 [m]
+  int rank = 0;  ///< directions kept; below 6 the points lie on or near a conic
+
+  double operator()(const Vector2& point) const {
+    return level + monomials((point - centre) / scale).dot(coefficients);
+  }
+  static Coefficients monomials(const Vector2& u);
+};
+
+/// Least squares in z by truncated SVD: along a short path six nodes lie near a conic, where the
+/// full solution is noise blown up, so directions below 1/1000 of the strongest are dropped.
+/// Passes through six points when none is dropped. x and y share one scale: scaling each by
+/// itself would blow the noise across a straight path up to its length.
+/// Nothing when the points have no extent or are fewer than six; eight at most.
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z);
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,51 @@
+#include "methods/smoothers/manifold/frame.hpp"
+
+#include <numbers>
+
+namespace loopbench::manifold {
+namespace {
+
+constexpr double kLeastChord = 1e-6;   // [of the way along the nodes] below it, rounding points
+constexpr double kLeastAdvance = 0.1;  // [of the mean step]
+constexpr double kMostTurning = std::numbers::pi / 2.0;  // [rad]
+
+}  // namespace
+
+std::optional<Frame> chord_frame(const Nodes& nodes, NodeRange range, const Vector3& up) {
+  double length = 0.0;
+  for (std::size_t edge = range.first; edge < range.last; ++edge) length += nodes.step(edge).norm();
+  const Vector3 chord = nodes.points[range.last] - nodes.points[range.first];
+  const Vector3 level = chord - up.dot(chord) * up;
+  if (!(level.norm() > kLeastChord * length)) return std::nullopt;
+  const Vector3 x = level.normalized();
+  return Frame{nodes.points[range.first], x, up.cross(x)};
+}
+
+std::vector<Vector2> local(const Nodes& nodes, NodeRange range, const Frame& frame) {
+  std::vector<Vector2> out;
+  out.reserve(range.nodes());
+  for (std::size_t i = range.first; i <= range.last; ++i) {
+    out.push_back(frame.local(nodes.points[i]));
+  }
+  return out;
+}
+
+bool is_graph(std::span<const Vector2> points) {
+  double length = 0.0;
+  double turning = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vector2 step = points[i] - points[i - 1];
+    length += step.norm();
+    if (i < 2) continue;
+    const Vector2 before = points[i - 1] - points[i - 2];
+    const double cross = before.x() * step.y() - before.y() * step.x();
+    turning += std::abs(std::atan2(cross, before.dot(step)));
+  }
+  const double least = kLeastAdvance * length / static_cast<double>(points.size() - 1);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!(points[i].x() - points[i - 1].x() > least)) return false;
+  }
+  return turning < kMostTurning;
+}
+
+}  // namespace loopbench::manifold

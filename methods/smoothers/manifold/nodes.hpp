@@ -1,0 +1,46 @@
+/// What the steps of the manifold smoother pass along: the nodes it fits, and runs of them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench::manifold {
+
+/// Nodes first..last, both included; neighbouring runs share their end node.
+struct NodeRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  std::size_t nodes() const { return last - first + 1; }
+  bool operator==(const NodeRange&) const = default;
+};
+
+/// Keyframes and quasi-keyframes, positions relative to the first of them: far from the world's
+/// origin nothing is lost to rounding, and nothing can depend on where that origin is.
+struct Nodes {
+  std::vector<double> stamps;      ///< [s], strictly increasing
+  std::vector<Vector3> points;     ///< [m], from `base`
+  Vector3 base = {0.0, 0.0, 0.0};  ///< position of the first node [m]
+
+  explicit Nodes(const Trajectory& poses) : stamps(loopbench::stamps(poses)) {
+    if (!poses.empty()) base = poses.front().world_from_body.translation;
+    points.reserve(poses.size());
+    for (const StampedPose& pose : poses) {
+      points.push_back(pose.world_from_body.translation - base);
+    }
+  }
+
+  std::size_t size() const { return points.size(); }
+  Vector3 step(std::size_t edge) const { return points[edge + 1] - points[edge]; }
+  double duration(std::size_t edge) const { return stamps[edge + 1] - stamps[edge]; }
+};
+
+/// Angle between two directions, 0..pi [rad]; 0 when either has no length. atan2 because acos
+/// loses half its digits on nearly straight motion.
+inline double turn_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace loopbench::manifold

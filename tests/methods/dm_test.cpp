@@ -1,0 +1,265 @@
+#include "methods/smoothers/manifold/dm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/core/interpolate.hpp"
+#include "manifold_paths.hpp"
+
+namespace loopbench {
+namespace {
+
+Dm::Options planar(int N) { return {.planar = N}; }
+Dm::Options spatial(int M) { return {.planar = 0, .spatial = M}; }
+
+std::unique_ptr<const Curve> smoothed(const Problem& problem, const Dm::Options& options) {
+  Report report;
+  return Dm(options).smooth(problem, report);
+}
+
+double counted(const Problem& problem, const Dm::Options& options, const std::string& name) {
+  Report report;
+  Dm(options).smooth(problem, report);
+  for (const Count& count : report.counts) {
+    if (count.name == name) return count.value;
+  }
+  ADD_FAILURE() << "no count " << name;
+  return -1.0;
+}
+
+Vector3 place(const Curve& curve, double time) { return curve.at(time).translation; }
+
+class EveryVariant : public testing::TestWithParam<Dm::Options> {};
+INSTANTIATE_TEST_SUITE_P(Dm,
+                         EveryVariant,
+                         testing::Values(planar(0),
+                                         planar(3),
+                                         planar(4),
+                                         planar(5),
+                                         spatial(6),
+                                         spatial(7),
+                                         spatial(8),
+                                         Dm::Options{.planar = 4, .spatial = 6},
+                                         Dm::Options{.planar = 5, .spatial = 8}));
+
+TEST_P(EveryVariant, MovesWithTheWorld) {
+  Problem problem = keyframes_only(wandering(80, 3));
+  problem.frames = wandering(80, 3);
+  problem.keyframes.erase(problem.keyframes.begin() + 20, problem.keyframes.begin() + 26);
+  const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
+  const auto here = smoothed(problem, GetParam());
+  const auto there = smoothed(moved_by(there_from_here, problem), GetParam());
+  EXPECT_GT(counted(problem, GetParam(), "quasi_keyframes"), 0.0);
+  for (const double t : times_over(problem.keyframes, 997)) {
+    EXPECT_TRUE(is_close(there_from_here * here->at(t), there->at(t), 1e-9, 1e-9)) << t;
+  }
+}
+
+TEST_P(EveryVariant, LeavesUniformMotionAlone) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < 20; ++i) points.push_back(Vector3(5, 1, 2) + i * Vector3(0.3, -0.2, 0.1));
+  const auto curve = smoothed(keyframes_only(through(points)), GetParam());
+  for (double t = 0.0; t <= 19.0; t += 0.13) {
+    EXPECT_LT((place(*curve, t) - (Vector3(5, 1, 2) + t * Vector3(0.3, -0.2, 0.1))).norm(), 1e-12);
+  }
+}
+
+TEST_P(EveryVariant, IsTwiceContinuouslyDifferentiable) {
+  const Trajectory keyframes = wandering(60, 5);
+  const auto curve = smoothed(keyframes_only(keyframes), GetParam());
+  // One-sided second differences err by h f'''; halving h takes that term away.
+  for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
+    const double t = keyframes[i].stamp;
+    const auto second = [&](double h) -> Vector3 {
+      return (place(*curve, t) - 2.0 * place(*curve, t + h) + place(*curve, t + 2.0 * h)) / (h * h);
+    };
+    const auto first = [&](double h) -> Vector3 {
+      return (-3.0 * place(*curve, t) + 4.0 * place(*curve, t + h) - place(*curve, t + 2.0 * h)) /
+             (2.0 * h);
+    };
+    const double h = 4e-4;
+    const Vector3 after = 2.0 * second(h / 2) - second(h);
+    const Vector3 before = 2.0 * second(-h / 2) - second(-h);
+    EXPECT_LT((after - before).norm(), 2e-3) << "node " << i;
+    EXPECT_LT((first(h) - first(-h)).norm(), 2e-5) << "node " << i;
+  }
+}
+
+TEST_P(EveryVariant, SpansTheKeyframesAndNoMore) {
+  const Trajectory keyframes = wandering(12, 8);
+  const auto curve = smoothed(keyframes_only(keyframes), GetParam());
+  EXPECT_EQ(curve->start(), keyframes.front().stamp);
+  EXPECT_EQ(curve->end(), keyframes.back().stamp);
+  EXPECT_THROW(curve->at(keyframes.front().stamp - 1e-6), std::out_of_range);
+  EXPECT_THROW(curve->at(keyframes.back().stamp + 1e-6), std::out_of_range);
+  EXPECT_THROW(curve->at(std::nan("")), std::out_of_range);
+}
+
+TEST_P(EveryVariant, PassesOrientationThrough) {
+  const Trajectory keyframes = wandering(25, 9);
+  const auto curve = smoothed(keyframes_only(keyframes), GetParam());
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    const auto& [stamp, pose] = keyframes[i];
+    EXPECT_LT(angle_between(curve->at(stamp).rotation, pose.rotation), 1e-12);
+    const double middle = 0.5 * (stamp + keyframes[i + 1].stamp);
+    const Rotation expected = slerp(pose.rotation, keyframes[i + 1].world_from_body.rotation, 0.5);
+    EXPECT_LT(angle_between(curve->at(middle).rotation, expected), 1e-9);
+  }
+}
+
+TEST_P(EveryVariant, TakesFewKeyframesStandingStillAndSpinning) {
+  EXPECT_TRUE(Dm(GetParam()).declines(Problem{}));
+  for (std::size_t count = 1; count <= 9; ++count) {
+    const Trajectory keyframes = wandering(count, 11);
+    const auto curve = smoothed(keyframes_only(keyframes), GetParam());
+    EXPECT_EQ(curve->start(), keyframes.front().stamp);
+    EXPECT_LT((place(*curve, curve->end()) - keyframes.back().world_from_body.translation).norm(),
+              0.05);
+  }
+  Trajectory spin = through(std::vector<Vector3>(12, Vector3(1e5, 2, 3)));
+  for (StampedPose& pose : spin) pose.world_from_body.rotation = exp_so3({0, 0, 0.5 * pose.stamp});
+  const auto curve = smoothed(keyframes_only(spin), GetParam());
+  for (const double t : times_over(spin, 50)) EXPECT_EQ(place(*curve, t), Vector3(1e5, 2, 3));
+}
+
+TEST_P(EveryVariant, SameProblemGivesSameBits) {
+  const Problem problem = keyframes_only(wandering(50, 13));
+  const auto once = smoothed(problem, GetParam());
+  const auto again = smoothed(problem, GetParam());
+  for (const double t : times_over(problem.keyframes, 300)) {
+    EXPECT_EQ(place(*once, t), place(*again, t));
+  }
+}
+
+TEST(Dm, ExactFamiliesKeepEveryKeyframe) {
+  for (const int N : {3, 4}) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Trajectory keyframes = wandering(60, seed);
+      const auto curve = smoothed(keyframes_only(keyframes), planar(N));
+      for (const auto& [stamp, pose] : keyframes) {
+        EXPECT_LT((place(*curve, stamp) - pose.translation).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Dm, ExactFamiliesKeepEveryNodeInTheFittingFrame) {
+  const manifold::Nodes nodes(wandering(120, 21));
+  const manifold::NodeSpline spline(nodes);
+  for (const std::size_t N : {3u, 4u}) {
+    const auto fit = manifold::fit_planar(
+        nodes, manifold::segments(nodes, {}), spline, Vector3::UnitZ(), N, manifold::Fallback::arc);
+    std::size_t graphs = 0;
+    for (std::size_t k = 0; k < fit.pieces.size(); ++k) {
+      const auto* graph = std::get_if<manifold::Graph>(&fit.pieces[k]);
+      if (graph == nullptr) continue;
+      ++graphs;
+      for (const auto& point : manifold::local(nodes, fit.windows[k].fitted, graph->frame)) {
+        EXPECT_NEAR(graph->curve(point.x()), point.y(), 1e-9);
+      }
+    }
+    EXPECT_GT(graphs, 20u);
+  }
+}
+
+TEST(Dm, LeastSquaresFamiliesMoveKeyframes) {
+  const Trajectory keyframes = wandering(60, 2);
+  double moved = 0.0;
+  const auto curve = smoothed(keyframes_only(keyframes), planar(5));
+  for (const auto& [stamp, pose] : keyframes) {
+    moved = std::max(moved, (place(*curve, stamp) - pose.translation).norm());
+  }
+  EXPECT_GT(moved, 1e-4);
+  EXPECT_LT(moved, 0.05);
+}
+
+// One window: its chord lies along x, so its frame is the world's up to sign.
+void expect_on_curve(int N, const std::vector<double>& xs, double (*y)(double)) {
+  std::vector<Vector3> points;
+  for (const double x : xs) points.push_back({x, y(x), 0.0});
+  const auto curve = smoothed(keyframes_only(through(points)), planar(N));
+  for (double t = 0.0; t <= static_cast<double>(xs.size() - 1); t += 0.05) {
+    const Vector3 p = place(*curve, t);
+    EXPECT_NEAR(p.y(), y(p.x()), 1e-9);
+  }
+}
+
+TEST(Dm, StaysOnAParabolaBetweenKeyframes) {
+  expect_on_curve(3, {-1.0, 0.2, 1.0}, [](double x) { return 0.4 * (1.0 - x * x); });
+}
+
+TEST(Dm, StaysOnACubicBetweenKeyframes) {
+  expect_on_curve(4, {-1.0, -0.4, 0.5, 1.0}, [](double x) { return 0.5 * (x - x * x * x); });
+}
+
+TEST(Dm, StaysOnAQuadricBetweenKeyframes) {
+  // Windows share z' = up, and a quadric in one level frame is one in all of them.
+  const auto height = [](const Vector3& p) {
+    return 0.5 + 0.1 * p.x() * p.x() - 0.2 * p.x() * p.y() + 0.05 * p.y() * p.y() - 0.3 * p.y();
+  };
+  std::vector<Vector3> points{{0, 0, 0},
+                              {1, 0.2, 0},
+                              {1.8, 1, 0},
+                              {1.5, 2, 0},
+                              {0.4, 1.7, 0},
+                              {1, 1, 0},
+                              {1.6, 0.3, 0},
+                              {2.5, 0.9, 0},
+                              {2.6, 2, 0},
+                              {1.4, 2.3, 0},
+                              {1.7, 1.4, 0}};
+  for (Vector3& point : points) point.z() = height(point);
+  const Problem problem = keyframes_only(through(points));
+  Dm::Options options = spatial(6);
+  options.up = manifold::Up::world_z;
+  options.segment = {10.0, 3.2};  // one segment
+  EXPECT_EQ(counted(problem, options, "spatial_windows"), 2.0);
+  EXPECT_EQ(counted(problem, options, "spatial_truncated"), 0.0);  // in general position
+  const auto curve = smoothed(problem, options);
+  for (const double t : times_over(problem.keyframes, 700)) {
+    const Vector3 p = place(*curve, t);
+    EXPECT_NEAR(p.z(), height(p), 1e-9);
+  }
+}
+
+TEST(Dm, HairpinTripsTheGuardAndIsCounted) {
+  // The window 0..3 turns back at node 2: in parts, 0..2 is a graph and 1..3 is none.
+  const Problem problem = keyframes_only(through(
+      {{0, 0, 0}, {1, 0, 0}, {2, 0.2, 0}, {1, 0.4, 0}, {0, 0.4, 0}, {-1, 0.4, 0}, {-2, 0.4, 0}}));
+  Dm::Options options = planar(4);
+  options.segment = {10.0, 3.2};  // one segment
+  EXPECT_EQ(counted(problem, options, "segments"), 1.0);
+  EXPECT_EQ(counted(problem, options, "split_windows"), 1.0);
+  EXPECT_EQ(counted(problem, options, "fallbacks"), 1.0);
+  EXPECT_EQ(counted(problem, options, "windows"), 3.0);
+  for (const auto fallback : {manifold::Fallback::arc, manifold::Fallback::spline}) {
+    options.fallback = fallback;
+    const auto curve = smoothed(problem, options);
+    for (const double t : times_over(problem.keyframes, 200)) {
+      EXPECT_LT(std::abs(place(*curve, t).y() - 0.2), 0.4) << t;
+      EXPECT_LT(place(*curve, t).x(), 2.3) << t;
+    }
+    for (const auto& [stamp, pose] : problem.keyframes) {
+      EXPECT_LT((place(*curve, stamp) - pose.translation).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(Dm, CountsWhatCannotBeFitted) {
+  const Problem still = keyframes_only(through(std::vector<Vector3>(7, Vector3(1, 2, 3))));
+  EXPECT_EQ(counted(still, planar(3), "windows"), 3.0);
+  EXPECT_EQ(counted(still, planar(3), "fallbacks"), 3.0);
+  EXPECT_EQ(counted(still, spatial(6), "spatial_fallbacks"), 2.0);
+  EXPECT_EQ(counted(keyframes_only(wandering(2, 1)), planar(4), "fallbacks"), 1.0);
+  EXPECT_EQ(counted(keyframes_only(wandering(5, 1)), spatial(6), "spatial_fallbacks"), 1.0);
+}
+
+TEST(Dm, RefusesOtherWindowSizes) {
+  EXPECT_EQ(with(Dm::Options{}, {{"planar", std::int64_t{5}}}).planar, 5);
+  EXPECT_THROW(with(Dm::Options{}, {{"planar", std::int64_t{2}}}), OptionError);
+  EXPECT_THROW(with(Dm::Options{}, {{"spatial", std::int64_t{5}}}), OptionError);
+  EXPECT_THROW(with(Dm::Options{}, {{"speed_band", 0.0}}), OptionError);
+  EXPECT_FALSE(with(Dm::Options{}, {{"speed_band", std::string("none")}}).segment.speed_band);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/families/arc.hpp"
+#include "methods/smoothers/manifold/families/polynomial.hpp"
+#include "methods/smoothers/manifold/families/quadric.hpp"
+#include "methods/smoothers/manifold/up.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+TEST(Polynomial, ParabolaPassesThroughThreePoints) {
+  const std::vector<Vector2> points{{0.0, 1.0}, {1.0, 0.0}, {3.0, 4.0}};  // y = (x - 1)^2
+  const Polynomial f = fit_polynomial(points, 2);
+  for (const double x : {-1.0, 0.0, 0.4, 2.0, 3.0}) EXPECT_NEAR(f(x), (x - 1) * (x - 1), 1e-12);
+}
+
+TEST(Polynomial, CubicPassesThroughFourPoints) {
+  const auto truth = [](double x) { return 2.0 - x + 0.5 * x * x - 0.25 * x * x * x; };
+  std::vector<Vector2> points;
+  for (const double x : {1000.0, 1000.7, 1001.1, 1003.0}) points.push_back({x, truth(x - 1001.0)});
+  const Polynomial f = fit_polynomial(points, 3);
+  for (const double x : {1000.3, 1002.0, 1003.5}) EXPECT_NEAR(f(x), truth(x - 1001.0), 1e-9);
+}
+
+TEST(Polynomial, LeastSquaresSplitsTheError) {
+  // The best line through (-1, 0) (0, 3) (1, 0) is y = 1.
+  const Polynomial f = fit_polynomial(std::vector<Vector2>{{-1, 0}, {0, 3}, {1, 0}}, 1);
+  EXPECT_NEAR(f(-1.0), 1.0, 1e-12);
+  EXPECT_NEAR(f(1.0), 1.0, 1e-12);
+}
+
+TEST(Polynomial, DegreeGivesWayToTooFewPoints) {
+  const Polynomial f = fit_polynomial(std::vector<Vector2>{{0, 1}, {2, 5}}, 3);
+  EXPECT_NEAR(f(1.0), 3.0, 1e-12);
+}
+
+double saddle(const Vector2& p) {
+  return 0.3 * p.x() * p.x() - 0.2 * p.y() * p.y() + 0.5 * p.x() * p.y() + p.x() - p.y() + 2.0;
+}
+
+std::vector<double> heights(const std::vector<Vector2>& points) {
+  std::vector<double> out;
+  for (const Vector2& point : points) out.push_back(saddle(point));
+  return out;
+}
+
+TEST(Quadric, RecoversASaddleFromSixPointsInGeneralPosition) {
+  const std::vector<Vector2> points{{0, 0}, {1, 0.2}, {1.8, 1}, {1.5, 2}, {0.4, 1.7}, {1, 1}};
+  const auto q = fit_quadric(points, heights(points));
+  ASSERT_TRUE(q);
+  EXPECT_EQ(q->rank, 6);
+  for (const Vector2& p : {Vector2(0.5, 0.5), Vector2(2.0, -1.0)})
+    EXPECT_NEAR((*q)(p), saddle(p), 1e-9);
+}
+
+TEST(Quadric, SixPointsOnACircleLoseOneDirectionAndStayTame) {
+  std::vector<Vector2> points;
+  for (int i = 0; i < 6; ++i) points.push_back({std::cos(0.5 * i), std::sin(0.5 * i)});
+  const auto q = fit_quadric(points, heights(points));
+  ASSERT_TRUE(q);
+  EXPECT_EQ(q->rank, 5);
+  // x^2 + y^2 = 1 there, so another member of the family agrees on the circle: nothing is lost.
+  for (const Vector2& p : points) EXPECT_NEAR((*q)(p), saddle(p), 1e-9);
+  EXPECT_LT(q->coefficients.norm(), 10.0);
+}
+
+TEST(Quadric, NoiseAcrossAStraightPathIsNotBlownUp) {
+  // Heights of +-1 cm, sideways jitter of 0.1 mm: the full solution reaches metres.
+  const std::vector<Vector2> points{
+      {0, 1e-4}, {1, -1e-4}, {2, 5e-5}, {3, 1e-4}, {4, 0}, {5, -1e-4}};
+  const std::vector<double> z{0.01, -0.01, 0.01, -0.01, 0.01, -0.01};
+  const auto q = fit_quadric(points, z);
+  ASSERT_TRUE(q);
+  EXPECT_LT(q->rank, 6);
+  for (double x = 0.0; x <= 5.0; x += 0.1) EXPECT_LT(std::abs((*q)(Vector2(x, 0.0))), 0.02);
+}
+
+TEST(Quadric, NeedsSixPointsWithAnExtent) {
+  EXPECT_FALSE(fit_quadric(std::vector<Vector2>(5, Vector2(1, 2)), std::vector<double>(5, 0.0)));
+  EXPECT_FALSE(fit_quadric(std::vector<Vector2>(6, Vector2(1, 2)), std::vector<double>(6, 0.0)));
+}
+
+TEST(Arc, PassesThroughItsPointsAndRefusesCoincidentOnes) {
+  const std::array<Vector3, 3> points{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 2, 0)};
+  const auto arc = fit_arc(points, std::array{0.0, 1.0, 3.0});
+  ASSERT_TRUE(arc);
+  EXPECT_TRUE((*arc)(0.0).isApprox(points[0], 1e-12));
+  EXPECT_TRUE((*arc)(1.0).isApprox(points[1], 1e-12));
+  EXPECT_TRUE((*arc)(3.0).isApprox(points[2], 1e-12));
+  EXPECT_FALSE(fit_arc(points, std::array{0.0, 0.0, 3.0}));
+}
+
+TEST(Frame, ChordIsLevelledAndUpStaysUp) {
+  const Nodes nodes(through({{1, 1, 0}, {2, 1, 5}, {4, 1, 1}}));
+  const auto frame = chord_frame(nodes, {0, 2}, Vector3::UnitZ());
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->x.isApprox(Vector3::UnitX(), 1e-12));
+  EXPECT_TRUE(frame->y.isApprox(Vector3::UnitY(), 1e-12));
+  EXPECT_TRUE(frame->local(nodes.points[2]).isApprox(Vector2(3, 0), 1e-12));
+}
+
+TEST(Frame, AVerticalAClosedAndAStillWindowHaveNoChord) {
+  const Vector3 up = Vector3::UnitZ();
+  EXPECT_FALSE(chord_frame(Nodes(through({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}})), {0, 2}, up));
+  EXPECT_FALSE(chord_frame(Nodes(through({{0, 0, 0}, {1, 0, 0}, {0, 0, 0}})), {0, 2}, up));
+  EXPECT_FALSE(chord_frame(Nodes(through({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})), {0, 2}, up));
+}
+
+TEST(Guard, RefusesAHairpinAStallAndARightAngle) {
+  EXPECT_TRUE(is_graph(std::vector<Vector2>{{0, 0}, {1, 0.3}, {2, 0}}));
+  EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {2, 0.3}, {1, 0.6}}));
+  EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {1, 0}, {1.05, 0}, {2, 0}}));
+  EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {1, 1.1}, {2, 0}}));
+}
+
+TEST(Up, IsTheNormalOfATiltedPlane) {
+  const Rotation tilt = exp_so3({0.4, -0.7, 0.1});
+  Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}});
+  for (StampedPose& pose : poses)
+    pose.world_from_body = Pose{tilt, {5e5, 5e6, 0}} * pose.world_from_body;
+  // Counter-clockwise seen from the tip.
+  EXPECT_TRUE(up_axis(poses, Up::pca).isApprox(tilt * Vector3::UnitZ(), 1e-9));
+  EXPECT_EQ(up_axis(poses, Up::world_z), Vector3::UnitZ());
+}
+
+TEST(Up, OfAStraightLineIsAcrossItAndMovesWithTheBody) {
+  Trajectory poses = through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {7, 14, 21}});
+  const Rotation turn = exp_so3({1.0, 2.0, -0.5});
+  const Vector3 here = up_axis(poses, Up::pca);
+  for (StampedPose& pose : poses)
+    pose.world_from_body = Pose{turn, {9, 9, 9}} * pose.world_from_body;
+  EXPECT_NEAR(here.dot(Vector3(1, 2, 3)), 0.0, 1e-9);
+  EXPECT_NEAR(here.cross(turn.conjugate() * up_axis(poses, Up::pca)).norm(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace loopbench::manifold

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/joints.hpp"
+#include "methods/smoothers/manifold/spline.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+TEST(NodeSpline, AgreesWithTheNaturalSplineByHand) {
+  // y = 0, 1, 0 at 0, 1, 2 s: the middle second derivative is -3.
+  const NodeSpline spline(Nodes(through({{0, 0, 0}, {0, 1, 0}, {0, 0, 0}})));
+  EXPECT_NEAR(spline.at(0, 0.5).point.y(), 0.6875, 1e-15);
+  EXPECT_NEAR(spline.at(1, 1.5).point.y(), 0.6875, 1e-15);
+}
+
+TEST(NodeSpline, PassesThroughEveryNodeAndKnowsTheWay) {
+  const Nodes nodes(wandering(30, 1));
+  const NodeSpline spline(nodes);
+  double way = 0.0;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    EXPECT_TRUE(spline.at(i, nodes.stamps[i]).point.isApprox(nodes.points[i], 1e-12));
+    EXPECT_NEAR(spline.at(i, nodes.stamps[i]).way, way, 1e-12);
+    way += nodes.step(i).norm();
+    EXPECT_TRUE(spline.at(i, nodes.stamps[i + 1]).point.isApprox(nodes.points[i + 1], 1e-12));
+  }
+  EXPECT_NEAR(spline.way(29), way, 1e-12);
+}
+
+TEST(NodeSpline, LeavesUniformMotionAlone) {
+  const NodeSpline spline(Nodes(through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}})));
+  EXPECT_TRUE(spline.at(1, 1.25).point.isApprox(Vector3(1.25, 2.5, 3.75), 1e-14));
+}
+
+TEST(Joint, WeightIsFlatToSecondOrderAtBothEnds) {
+  const Joint joint{2.0, 4.0};
+  EXPECT_EQ(joint.weight(1.0), 0.0);
+  EXPECT_EQ(joint.weight(2.0), 0.0);
+  EXPECT_EQ(joint.weight(3.0), 0.5);
+  EXPECT_NEAR(joint.weight(2.5), 0.103515625, 1e-15);
+  EXPECT_EQ(joint.weight(4.0), 1.0);
+  EXPECT_EQ(joint.weight(5.0), 1.0);
+  const double h = 1e-3;  // s = h / 2: 10 s^3 is all that is left
+  EXPECT_NEAR(joint.weight(2.0 + h), 10.0 * std::pow(h / 2, 3), 1e-12);
+  EXPECT_NEAR(1.0 - joint.weight(4.0 - h), 10.0 * std::pow(h / 2, 3), 1e-12);
+}
+
+TEST(Joint, ReachesOneNodeOfEqualSpacing) {
+  const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));
+  const Joint joint = joint_between(nodes, {{0, 2}, {0, 2}}, {{2, 4}, {2, 4}});
+  EXPECT_EQ(joint.begin, 1.0);
+  EXPECT_EQ(joint.end, 3.0);
+}
+
+TEST(Joint, ReachesNoFurtherThanAPiecesOwnLastStep) {
+  // Last step 1 m, next one 4 m in one second: the earlier piece reaches a quarter second on.
+  const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {6, 0, 0}, {9, 0, 0}}));
+  const Joint joint = joint_between(nodes, {{0, 2}, {0, 2}}, {{2, 4}, {2, 4}});
+  EXPECT_EQ(joint.begin, 1.0);
+  EXPECT_EQ(joint.end, 2.25);
+  // It may go the whole step when node 3 is among its own.
+  EXPECT_EQ(joint_between(nodes, {{1, 3}, {1, 2}}, {{2, 4}, {2, 4}}).end, 3.0);
+}
+
+TEST(Strip, BlendsNeighboursAndLeavesTheMiddleToItsPiece) {
+  const Nodes nodes(through(std::vector<Vector3>(9, Vector3::Zero())));
+  const std::vector<Window> windows{{{0, 4}, {0, 4}}, {{4, 8}, {4, 8}}};
+  const Strip<double> strip = joined(nodes, windows, std::vector{10.0, 20.0});
+  const auto identity = [](double piece) { return piece; };
+  EXPECT_EQ(strip.at(0, 0.5, identity), 10.0);
+  EXPECT_EQ(strip.at(4, 4.0, identity), 15.0);
+  EXPECT_NEAR(strip.at(4, 4.5, identity), 20.0 - 1.03515625, 1e-12);
+  EXPECT_EQ(strip.at(7, 8.0, identity), 20.0);
+}
+
+}  // namespace
+}  // namespace loopbench::manifold

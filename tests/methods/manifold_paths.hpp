@@ -1,0 +1,68 @@
+/// Small trajectories for the tests of the manifold smoother.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+
+namespace loopbench {
+
+/// One pose a second, identity attitude.
+inline Trajectory through(const std::vector<Vector3>& points) {
+  Trajectory out;
+  for (const Vector3& point : points) {
+    out.push_back({static_cast<double>(out.size()), {Rotation::Identity(), point}});
+  }
+  return out;
+}
+
+/// Hand-held: heading and height wander, steps and stamps are uneven, attitude turns.
+inline Trajectory wandering(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Trajectory out;
+  double stamp = 100.0;
+  double heading = 0.0;
+  Vector3 point(0.3, -0.2, 1.5);
+  Rotation attitude = exp_so3({0.3, -0.2, 0.9});
+  for (std::size_t i = 0; i < count; ++i) {
+    out.push_back({stamp, {attitude, point}});
+    stamp += 0.3 + 0.1 * unit(random);
+    heading += 0.5 * unit(random);
+    const double step = 0.1 + 0.05 * unit(random);
+    point += Vector3(step * std::cos(heading), step * std::sin(heading), 0.03 * unit(random));
+    attitude = attitude * exp_so3(0.2 * Vector3(unit(random), unit(random), unit(random)));
+  }
+  return out;
+}
+
+inline Problem keyframes_only(Trajectory keyframes) {
+  Problem out;
+  out.keyframes = std::move(keyframes);
+  return out;
+}
+
+inline Problem moved_by(const Pose& there_from_here, Problem problem) {
+  for (Trajectory* poses : {&problem.keyframes, &problem.frames}) {
+    for (StampedPose& pose : *poses) {
+      pose.world_from_body = normalized(there_from_here * pose.world_from_body);
+    }
+  }
+  return problem;
+}
+
+/// `count` times from the first stamp to the last, both included.
+inline std::vector<double> times_over(const Trajectory& poses, std::size_t count) {
+  std::vector<double> out;
+  const double begin = poses.front().stamp;
+  const double end = poses.back().stamp;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    out.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(count - 1));
+  }
+  out.push_back(end);
+  return out;
+}
+
+}  // namespace loopbench
