@@ -99,8 +99,8 @@ std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
   std::vector<double> merit;
   for (const Revisit& r : revisits) merit.push_back(stamps[r.to] - stamps[r.from]);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const auto best = static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) -
-                                               merit.begin());
+    const auto best =
+        static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin());
     chosen[k] = best;
     for (std::size_t i = 0; i < revisits.size(); ++i) {
       const double apart = between(revisits[i], revisits[best]);

@@ -10,7 +10,7 @@ namespace loopbench {
 namespace {
 
 struct Seen {
-  Trajectory run;                    ///< the run at those keyframe stamps where it is known
+  Trajectory run;                     ///< the run at those keyframe stamps where it is known
   std::vector<std::size_t> keyframe;  ///< which keyframe each is
 };
 
@@ -48,7 +48,9 @@ std::vector<Edge> closures_in_run(const Trajectory& keyframes,
   return closures;
 }
 
-std::vector<Edge> with_noise(std::vector<Edge> edges, const ClosureNoise& noise, std::int64_t seed) {
+std::vector<Edge> with_noise(std::vector<Edge> edges,
+                             const ClosureNoise& noise,
+                             std::int64_t seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   std::normal_distribution<double> normal;
   for (Edge& edge : edges) {

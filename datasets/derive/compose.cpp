@@ -26,7 +26,8 @@ struct Stretch {
   void append(const Edge& edge) {
     const Matrix6 carry = adjoint(edge.from_from_to.inverse());
     covariance = carry * covariance * carry.transpose() + inverse(edge.information);
-    step = normalized(step * Pose{edge.from_from_to.rotation, scale * edge.from_from_to.translation});
+    step =
+        normalized(step * Pose{edge.from_from_to.rotation, scale * edge.from_from_to.translation});
     scale *= edge.scale;
   }
 

@@ -14,13 +14,11 @@ std::vector<Edge> odometry_edges(const Trajectory& keyframes, const OdometryNois
   std::vector<Edge> edges;
   edges.reserve(keyframes.size());
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
-    const Pose step =
-        keyframes[i].world_from_body.inverse() * keyframes[i + 1].world_from_body;
+    const Pose step = keyframes[i].world_from_body.inverse() * keyframes[i + 1].world_from_body;
     const double length = step.translation.norm();
     const double variance_t = square(noise.sigma_t) + square(noise.sigma_t_per_m) * length;
     const double variance_r = square(noise.sigma_r) + square(noise.sigma_r_per_m) * length;
-    edges.push_back(
-        {i, i + 1, normalized(step), isotropic_information(variance_t, variance_r)});
+    edges.push_back({i, i + 1, normalized(step), isotropic_information(variance_t, variance_r)});
   }
   return edges;
 }
