@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "datasets/derive/chain.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/compose.hpp"
+#include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -35,37 +35,24 @@ std::vector<std::size_t> kept_poses(std::size_t size,
   return kept;
 }
 
-Trajectory graph_truth(const std::filesystem::path& file, const PoseGraph& graph, double period) {
-  const PoseGraph truth = read_g2o(file);
-  if (truth.ids != graph.ids) {
-    throw input_error(file.string(),
-                      0,
-                      fmt::format("found {} poses, expected the same ids as the graph's {}",
-                                  truth.ids.size(),
-                                  graph.ids.size()));
-  }
-  const Chain chain = truth.vertices.empty() ? as_chain(truth, file) : Chain{};
-  return initial_poses(truth, chain, period);
-}
-
+/// A graph's truth must name the same ids; other formats have no ids, only as many poses.
 Trajectory read_truth(const std::filesystem::path& file,
-                      const PoseGraph& graph,
+                      const std::vector<double>& stamps,
                       const PoseGraphOptions& o) {
-  Trajectory truth;
-  if (recognise(file) == Format::g2o) {
-    truth = graph_truth(file, graph, o.period);
-  } else {
-    truth = read_trajectory(file, {});
-    if (truth.size() != graph.ids.size()) {
-      throw input_error(
-          file.string(),
-          0,
-          fmt::format(
-              "found {} poses, expected {}, as many as the graph", truth.size(), graph.ids.size()));
+  ReadOptions how;
+  how.format = recognise(file);
+  how.period = o.period;
+  Trajectory truth = read_trajectory(file, how);
+  const auto refuse = [&](const std::string& what) { return input_error(file.string(), 0, what); };
+  if (truth.size() != stamps.size()) {
+    throw refuse(fmt::format(
+        "found {} poses, expected {}, as many as the graph", truth.size(), stamps.size()));
+  }
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (how.format == Format::g2o && truth[i].stamp != stamps[i]) {
+      throw refuse(fmt::format("its id number {} differs, expected the ids of the graph", i + 1));
     }
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      truth[i].stamp = static_cast<double>(graph.ids[i]) * o.period;
-    }
+    truth[i].stamp = stamps[i];
   }
   if (o.truth_axes == TruthAxes::kitti_camera) {
     const Pose camera_from_body{camera_from_vehicle(), Vector3::Zero()};
@@ -94,9 +81,9 @@ Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& o,
                        const std::filesystem::path& file,
                        const std::filesystem::path& true_list) {
-  Chain chain = as_chain(graph, file);
-  const Trajectory poses = initial_poses(graph, chain, o.period);
-  std::vector<Edge>& closures = chain.closures;
+  GraphParts parts = parts_of(graph, file);
+  const Trajectory poses = initial_poses(graph, parts, o.period);
+  std::vector<Edge>& closures = parts.closures;
   if (o.closures == GraphClosures::none) closures.clear();
   if (!true_list.empty()) keep_listed(closures, graph.ids, true_list);
   if (o.skip_placeholders) drop_placeholders(closures);
@@ -112,10 +99,10 @@ Problem derive_problem(const PoseGraph& graph,
   sort_closures(closures);
 
   Problem problem;
-  KeyframeSplit parts = split(poses, kept);
-  problem.keyframes = std::move(parts.keyframes);
-  problem.frames = std::move(parts.frames);
-  problem.odometry = bridge(chain.odometry, kept);
+  KeyframeSplit told_apart = split(poses, kept);
+  problem.keyframes = std::move(told_apart.keyframes);
+  problem.frames = std::move(told_apart.frames);
+  problem.odometry = bridge(parts.odometry, kept);
   problem.closures = std::move(closures);
   problem.planar = graph.planar;
   return problem;
@@ -132,7 +119,9 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   const std::filesystem::path file = open(o.path);
   const PoseGraph graph = read_g2o(file);
   sequence.problem = derive_problem(graph, o, file, open(lists ? o.true_list : ""));
-  if (!o.truth.empty()) sequence.reference = read_truth(open(o.truth), graph, o);
+  if (!o.truth.empty()) {
+    sequence.reference = read_truth(open(o.truth), stamps_of(graph, o.period), o);
+  }
 
   const std::filesystem::path path(o.path);
   const std::string folder = path.parent_path().filename().string();

@@ -119,7 +119,8 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const auto open = [&](const std::string& path) {
     return sequence.provenance.inputs.emplace_back(root.find(path));
   };
-  ReadOptions how{o.format, {}, o.period};
+  ReadOptions how;
+  how.period = o.period;
   if (!o.times.empty()) how.times = open(o.times);
   const auto read = [&](const std::string& path, Format format) {
     if (path.empty()) return Trajectory();

@@ -10,17 +10,20 @@
 namespace loopbench {
 
 /// Edges name poses by index, as in PoseGraph.
-struct Chain {
+struct GraphParts {
   std::vector<Edge> odometry;  ///< i joins pose i and i + 1
   std::vector<Edge> closures;  ///< the others, in file order; a second edge i, i + 1 too
 };
 
 /// Throws InputError naming the ids when the chain has a gap, and `file:line` when an edge's
 /// information is not positive definite or it joins a pose to itself. O(edges).
-Chain as_chain(const PoseGraph& graph, const std::filesystem::path& file);
+GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file);
 
-/// The vertices, or else the chained odometry, id * period apart [s].
-Trajectory initial_poses(const PoseGraph& graph, const Chain& chain, double period);
+/// stamp = id * period [s].
+std::vector<double> stamps_of(const PoseGraph& graph, double period);
+
+/// The vertices, or else the chained odometry.
+Trajectory initial_poses(const PoseGraph& graph, const GraphParts& parts, double period);
 
 /// Drops edges measured as exactly nothing moved: robust_slam writes these for loops that its
 /// detector proposed and nobody measured.

@@ -1,4 +1,4 @@
-#include "datasets/derive/chain.hpp"
+#include "datasets/derive/graph_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,11 @@
 
 namespace loopbench {
 
-Chain as_chain(const PoseGraph& graph, const std::filesystem::path& file) {
+GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
   const std::size_t size = graph.ids.size();
-  Chain chain;
-  chain.odometry.resize(size > 0 ? size - 1 : 0);
-  std::vector<bool> found(chain.odometry.size(), false);
+  GraphParts parts;
+  parts.odometry.resize(size > 0 ? size - 1 : 0);
+  std::vector<bool> found(parts.odometry.size(), false);
   for (std::size_t k = 0; k < graph.edges.size(); ++k) {
     const Edge& edge = graph.edges[k];
     const auto refuse = [&](const std::string& what) {
@@ -28,10 +28,10 @@ Chain as_chain(const PoseGraph& graph, const std::filesystem::path& file) {
       throw refuse("the information matrix is not positive definite");
     }
     if (edge.to == edge.from + 1 && !found[edge.from]) {
-      chain.odometry[edge.from] = edge;
+      parts.odometry[edge.from] = edge;
       found[edge.from] = true;
     } else {
-      chain.closures.push_back(edge);
+      parts.closures.push_back(edge);
     }
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -43,15 +43,21 @@ Chain as_chain(const PoseGraph& graph, const std::filesystem::path& file) {
                                   graph.ids[i],
                                   graph.ids[i + 1]));
   }
-  return chain;
+  return parts;
 }
 
-Trajectory initial_poses(const PoseGraph& graph, const Chain& chain, double period) {
-  const std::vector<Pose> poses = graph.vertices.empty() ? chained(chain.odometry) : graph.vertices;
-  Trajectory out(graph.ids.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = {static_cast<double>(graph.ids[i]) * period, poses[i]};
-  }
+std::vector<double> stamps_of(const PoseGraph& graph, double period) {
+  std::vector<double> out;
+  out.reserve(graph.ids.size());
+  for (const std::int64_t id : graph.ids) out.push_back(static_cast<double>(id) * period);
+  return out;
+}
+
+Trajectory initial_poses(const PoseGraph& graph, const GraphParts& parts, double period) {
+  const std::vector<Pose> poses = graph.vertices.empty() ? chained(parts.odometry) : graph.vertices;
+  const std::vector<double> stamps = stamps_of(graph, period);
+  Trajectory out(stamps.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {stamps[i], poses[i]};
   return out;
 }
 
