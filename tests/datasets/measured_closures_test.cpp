@@ -39,8 +39,8 @@ Trajectory two_rounds(std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     const double time = 20.0 * static_cast<double>(i) / static_cast<double>(size - 1);
     const double turn = 4.0 * M_PI * time / 20.0;
-    out.push_back({time,
-                   {exp_so3({0.0, 0.0, turn}), {2.0 * std::cos(turn), 2.0 * std::sin(turn), 0.0}}});
+    out.push_back(
+        {time, {exp_so3({0.0, 0.0, turn}), {2.0 * std::cos(turn), 2.0 * std::sin(turn), 0.0}}});
   }
   return out;
 }
@@ -80,7 +80,8 @@ TEST(MeasuredClosures, NoiseHasTheStatedSizeAndSeed) {
     variance += log_se3(edge.from_from_to).cwiseAbs2() / static_cast<double>(noisy.size());
   }
   // Relative standard error of a variance: sqrt(2 / 20000) = 0.01.
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(std::sqrt(variance[i]) / (i < 3 ? 0.05 : 0.02), 1.0, 0.02);
+  for (int i = 0; i < 6; ++i)
+    EXPECT_NEAR(std::sqrt(variance[i]) / (i < 3 ? 0.05 : 0.02), 1.0, 0.02);
   const auto again = with_noise(exact, {0.05, 0.02}, 7);
   const auto other = with_noise(exact, {0.05, 0.02}, 8);
   EXPECT_EQ(noisy[99].from_from_to.translation, again[99].from_from_to.translation);

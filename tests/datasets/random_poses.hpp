@@ -24,8 +24,8 @@ inline Trajectory random_walk(
   Trajectory out(size);
   for (std::size_t i = 1; i < size; ++i) {
     out[i].stamp = static_cast<double>(i) * period;
-    out[i].world_from_body = normalized(out[i - 1].world_from_body *
-                                        exp_se3(random_twist(random, metres, radians)));
+    out[i].world_from_body =
+        normalized(out[i - 1].world_from_body * exp_se3(random_twist(random, metres, radians)));
   }
   return out;
 }
