@@ -82,7 +82,7 @@ Problem derive_problem(const PoseGraph& graph,
                        const std::filesystem::path& file,
                        const std::filesystem::path& true_list) {
   GraphParts parts = parts_of(graph, file);
-  const Trajectory poses = initial_poses(graph, parts, o.period);
+  const Trajectory poses = initial_poses(graph, o.period);
   std::vector<Edge>& closures = parts.closures;
   if (o.closures == GraphClosures::none) closures.clear();
   if (!true_list.empty()) keep_listed(closures, graph.ids, true_list);

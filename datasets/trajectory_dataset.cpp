@@ -121,6 +121,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   };
   ReadOptions how;
   how.period = o.period;
+  how.repeats = o.repeats;
   if (!o.times.empty()) how.times = open(o.times);
   const auto read = [&](const std::string& path, Format format) {
     if (path.empty()) return Trajectory();

@@ -29,6 +29,7 @@ struct TrajectoryOptions {
   Format reference_format = Format::automatic;
   std::string times;
   double period = 0.1;
+  Repeats repeats = Repeats::refuse;
   KeyframeChoice keyframes;
   OdometryNoise odometry;
   ClosureSource closures = ClosureSource::none;
@@ -54,6 +55,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("reference_format", o.reference_format, "of the reference");
   visit("times", o.times, "times file of KITTI poses, one stamp [s] a line");
   visit("period", o.period, "between poses without stamps [s]", Above{0.0});
+  visit("repeats", o.repeats, "what to do with a pose whose stamp repeats the last one");
   visit("keyframes.rule", o.keyframes.rule, "which poses of the estimate are keyframes");
   visit("keyframes.value",
         o.keyframes.value,

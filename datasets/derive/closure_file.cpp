@@ -2,67 +2,53 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-#include <string>
+#include <utility>
 
 #include "datasets/derive/odometry.hpp"
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/g2o_information.hpp"
+#include "datasets/formats/pose_rules.hpp"
 
 namespace loopbench {
 namespace {
 
-constexpr const char* kColumns = "stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]";
-
-std::vector<double> numbers(const std::string& line, const InputError& refusal) {
-  std::istringstream words(line);
-  std::vector<double> out;
-  for (std::string word; words >> word;) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-      throw InputError(fmt::format("{}found '{}', expected a number", refusal.what(), word));
+TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& noise) {
+  const std::size_t count = count_columns(file, line);
+  if (count != 9 && count != 11) {
+    throw file.error(line.number,
+                     fmt::format("has {} columns, expected 9 or 11: stamp_from stamp_to tx ty tz "
+                                 "qx qy qz qw [sigma_t sigma_r]",
+                                 count));
+  }
+  Columns columns(file, line);
+  TimedClosure closure;
+  closure.line = line.number;
+  closure.noise = noise;
+  closure.stamp_from = columns.number("stamp_from");
+  closure.stamp_to = columns.number("stamp_to");
+  Pose& pose = closure.from_from_to;
+  for (double& x : pose.translation) x = columns.number("translation");
+  for (double& x : pose.rotation.coeffs()) x = columns.number("quaternion");
+  pose.rotation = unit_rotation(file, line.number, pose.rotation);
+  if (count == 11) {
+    closure.noise = {columns.number("sigma_t"), columns.number("sigma_r")};
+    if (!(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0)) {
+      throw file.error(line.number,
+                       fmt::format("found sigma_t {} and sigma_r {}, expected more than 0",
+                                   closure.noise.sigma_t,
+                                   closure.noise.sigma_r));
     }
-    out.push_back(value);
-  }
-  return out;
-}
-
-TimedClosure parse(const std::vector<double>& v, const ClosureNoise& noise, const char* where) {
-  const auto refuse = [&](const std::string& what) { return InputError(where + what); };
-  if (v.size() != 9 && v.size() != 11) {
-    throw refuse(fmt::format("found {} numbers, expected 9 or 11: {}", v.size(), kColumns));
-  }
-  TimedClosure closure{v[0], v[1], {Rotation(v[8], v[5], v[6], v[7]), {v[2], v[3], v[4]}}, noise};
-  const double norm = closure.from_from_to.rotation.norm();
-  if (std::abs(norm - 1.0) > 0.01) {
-    throw refuse(fmt::format("found a quaternion of norm {}, expected 1", norm));
-  }
-  closure.from_from_to.rotation.normalize();
-  if (v.size() == 11) closure.noise = {v[9], v[10]};
-  if (!(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0)) {
-    throw refuse("found a sigma of 0 or less, expected more than 0");
   }
   return closure;
 }
 
 }  // namespace
 
-std::vector<TimedClosure> read_closure_file(const std::filesystem::path& file,
+std::vector<TimedClosure> read_closure_file(const std::filesystem::path& path,
                                             const ClosureNoise& noise) {
-  std::ifstream in(file);
-  if (!in) throw input_error(file.string(), 0, "cannot be opened");
+  TextFile file(path);
   std::vector<TimedClosure> out;
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    const InputError where = input_error(file.string(), number, "");
-    const std::vector<double> values = numbers(line.substr(0, line.find('#')), where);
-    if (values.empty()) continue;
-    out.push_back(parse(values, noise, where.what()));
-    out.back().line = number;
-  }
+  for (Line line; file.next(line);) out.push_back(parse(file, line, noise));
   return out;
 }
 
@@ -93,8 +79,7 @@ std::vector<Edge> as_edges(const std::vector<TimedClosure>& closures,
     if (edge.from > edge.to) {
       std::swap(edge.from, edge.to);
       edge.from_from_to = edge.from_from_to.inverse();
-      const Matrix6 carry = adjoint(closure.from_from_to.inverse());
-      edge.information = carry.transpose() * edge.information * carry;
+      edge.information = information_of_inverse(closure.from_from_to, edge.information);
     }
     edges.push_back(edge);
   }

@@ -20,8 +20,8 @@ struct TimedClosure {
 
 /// One closure a line: `stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]`, in [s], [m],
 /// [rad]: the pose of the body at stamp_to, seen from the body at stamp_from. Either may be the
-/// later. `#` starts a comment; lines without sigmas take `noise`.
-/// Throws InputError `file:line: what`.
+/// later. Lines that start with `#` are comments; lines without sigmas take `noise`.
+/// Throws InputError `file:line: what`. O(size of the file).
 std::vector<TimedClosure> read_closure_file(const std::filesystem::path& file,
                                             const ClosureNoise& noise);
 

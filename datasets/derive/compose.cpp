@@ -63,16 +63,4 @@ std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::
   return out;
 }
 
-std::vector<Pose> chained(const std::vector<Edge>& chain) {
-  std::vector<Pose> poses(1);
-  poses.reserve(chain.size() + 1);
-  double scale = 1.0;
-  for (const Edge& edge : chain) {
-    const Pose step{edge.from_from_to.rotation, scale * edge.from_from_to.translation};
-    poses.push_back(normalized(poses.back() * step));
-    scale *= edge.scale;
-  }
-  return poses;
-}
-
 }  // namespace loopbench

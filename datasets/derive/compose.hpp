@@ -18,8 +18,4 @@ Edge compose(const Edge& a, const Edge& b);
 /// i + 1; kept is ascending. An edge that skips nothing is passed on bit for bit. O(chain).
 std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::size_t>& kept);
 
-/// Poses chain.size() + 1 long, the first one the identity; Sim(3) scale is applied on the way
-/// and left out of the result. O(chain).
-std::vector<Pose> chained(const std::vector<Edge>& chain);
-
 }  // namespace loopbench

@@ -4,11 +4,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include "datasets/derive/compose.hpp"
+#include "datasets/formats/chain.hpp"
+#include "datasets/formats/columns.hpp"
 #include "datasets/revisits.hpp"
 
 namespace loopbench {
@@ -53,8 +52,8 @@ std::vector<double> stamps_of(const PoseGraph& graph, double period) {
   return out;
 }
 
-Trajectory initial_poses(const PoseGraph& graph, const GraphParts& parts, double period) {
-  const std::vector<Pose> poses = graph.vertices.empty() ? chained(parts.odometry) : graph.vertices;
+Trajectory initial_poses(const PoseGraph& graph, double period) {
+  const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph) : graph.vertices;
   const std::vector<double> stamps = stamps_of(graph, period);
   Trajectory out(stamps.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {stamps[i], poses[i]};
@@ -71,34 +70,32 @@ void drop_placeholders(std::vector<Edge>& closures) {
 void keep_listed(std::vector<Edge>& closures,
                  const std::vector<std::int64_t>& ids,
                  const std::filesystem::path& list) {
-  std::ifstream in(list);
-  if (!in) throw input_error(list.string(), 0, "cannot be opened");
-  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<std::size_t, bool>> lines;
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    std::istringstream words(line);
-    std::int64_t a = 0;
-    std::int64_t b = 0;
-    std::string rest;
-    if (!(words >> rest)) continue;
-    words = std::istringstream(line);
-    if (!(words >> a >> b) || words >> rest) {
-      throw input_error(list.string(), number, "found '" + line + "', expected two ids");
+  struct Listed {
+    std::size_t line;
+    bool found;
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, Listed> listed;
+  TextFile file(list);
+  for (Line line; file.next(line);) {
+    const std::size_t count = count_columns(file, line);
+    if (count != 2) {
+      throw file.error(line.number, fmt::format("has {} columns, expected two ids", count));
     }
-    lines[std::minmax(a, b)] = {number, false};
+    Columns columns(file, line);
+    const std::int64_t a = columns.integer("id");
+    const std::int64_t b = columns.integer("id");
+    listed[std::minmax(a, b)] = {line.number, false};
   }
   std::erase_if(closures, [&](const Edge& edge) {
-    const auto listed = lines.find({ids[edge.from], ids[edge.to]});
-    if (listed == lines.end()) return true;
-    listed->second.second = true;
+    const auto entry = listed.find({ids[edge.from], ids[edge.to]});
+    if (entry == listed.end()) return true;
+    entry->second.found = true;
     return false;
   });
-  for (const auto& [pair, seen] : lines) {
-    if (seen.second) continue;
-    throw input_error(list.string(),
-                      seen.first,
-                      fmt::format("the graph has no closure {} {}", pair.first, pair.second));
+  for (const auto& [pair, entry] : listed) {
+    if (entry.found) continue;
+    throw file.error(entry.line,
+                     fmt::format("the graph has no closure {} {}", pair.first, pair.second));
   }
 }
 

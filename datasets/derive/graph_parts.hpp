@@ -22,8 +22,8 @@ GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file);
 /// stamp = id * period [s].
 std::vector<double> stamps_of(const PoseGraph& graph, double period);
 
-/// The vertices, or else the chained odometry.
-Trajectory initial_poses(const PoseGraph& graph, const GraphParts& parts, double period);
+/// The vertices, or else the chained odometry: see chain().
+Trajectory initial_poses(const PoseGraph& graph, double period);
 
 /// Drops edges measured as exactly nothing moved: robust_slam writes these for loops that its
 /// detector proposed and nobody measured.

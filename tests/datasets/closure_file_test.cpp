@@ -39,12 +39,12 @@ TEST(ClosureFile, IsReadByColumns) {
 
 TEST(ClosureFile, RefusalsNameFileAndLine) {
   EXPECT_THAT(refusal("# one\n1 2 3\n"), HasSubstr("closures.txt:2: "));
-  EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("expected 9 or 11"));
-  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 1 0.1\n"), HasSubstr("found 10"));
-  EXPECT_THAT(refusal("1 2 0 0 zero 0 0 0 1\n"), HasSubstr("'zero'"));
+  EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("9 or 11"));
+  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 1 0.1\n"), HasSubstr("10 columns"));
+  EXPECT_THAT(refusal("1 2 0 0 zero 0 0 0 1\n"), HasSubstr("(translation): 'zero'"));
   EXPECT_THAT(refusal("1 2 0 0 nan 0 0 0 1\n"), HasSubstr("closures.txt:1: "));
-  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 2\n"), HasSubstr("norm"));
-  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 1 0.1 0\n"), HasSubstr("sigma_r"));
+  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 2\n"), HasSubstr("closures.txt:1: "));
+  EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 1 0.1 0\n"), HasSubstr("sigma_r 0"));
   EXPECT_THAT(refusal_of([] { read_closure_file("absent.txt", kNoise); }), HasSubstr("absent.txt"));
 }
 

@@ -2,6 +2,7 @@
 
 #include "datasets/derive/compose.hpp"
 #include "datasets/derive/odometry.hpp"
+#include "datasets/formats/chain.hpp"
 #include "random_poses.hpp"
 
 namespace loopbench {
@@ -21,11 +22,22 @@ std::vector<Edge> random_chain(std::size_t size, std::uint64_t seed) {
   return chain;
 }
 
+std::vector<Pose> chained(const std::vector<Edge>& edges) {
+  PoseGraph graph;
+  graph.edges = edges;
+  for (std::size_t i = 0; i <= edges.size(); ++i) {
+    graph.ids.push_back(static_cast<std::int64_t>(i));
+    if (i < edges.size()) graph.edges[i].from = i;
+    if (i < edges.size()) graph.edges[i].to = i + 1;
+  }
+  return chain(graph);
+}
+
 TEST(ComposeEdges, JoinKeptPosesAsTheChainDoes) {
-  const std::vector<Edge> chain = random_chain(40, 3);
-  const std::vector<Pose> poses = chained(chain);
+  const std::vector<Edge> edges = random_chain(40, 3);
+  const std::vector<Pose> poses = chained(edges);
   const std::vector<std::size_t> kept = {0, 1, 7, 20, 39};
-  const std::vector<Edge> bridged = bridge(chain, kept);
+  const std::vector<Edge> bridged = bridge(edges, kept);
   ASSERT_EQ(bridged.size(), kept.size() - 1);
   for (std::size_t k = 0; k < bridged.size(); ++k) {
     EXPECT_EQ(bridged[k].from, k);
@@ -34,13 +46,13 @@ TEST(ComposeEdges, JoinKeptPosesAsTheChainDoes) {
     EXPECT_TRUE(is_close(bridged[k].from_from_to, expected, 1e-12, 1e-12)) << k;
     EXPECT_TRUE(bridged[k].information.isApprox(bridged[k].information.transpose(), 0.0));
   }
-  EXPECT_EQ(bridged[0].information, chain[0].information);
+  EXPECT_EQ(bridged[0].information, edges[0].information);
 }
 
 TEST(ComposeEdges, DoNotCareWhereTheyAreCut) {
-  const std::vector<Edge> chain = random_chain(12, 4);
-  const Edge at_once = bridge(chain, {0, 11})[0];
-  const std::vector<Edge> halves = bridge(chain, {0, 5, 11});
+  const std::vector<Edge> edges = random_chain(12, 4);
+  const Edge at_once = bridge(edges, {0, 11})[0];
+  const std::vector<Edge> halves = bridge(edges, {0, 5, 11});
   const Edge in_two = compose(halves[0], halves[1]);
   EXPECT_TRUE(is_close(at_once.from_from_to, in_two.from_from_to, 1e-12, 1e-12));
   EXPECT_TRUE(at_once.information.isApprox(in_two.information, 1e-9));
@@ -60,13 +72,13 @@ TEST(ComposeEdges, AddVariancesOnAStraightLine) {
 TEST(ComposeEdges, CovarianceAgreesWithSampling) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
-  const std::vector<Edge> chain = random_chain(4, 6);
-  const Edge whole = bridge(chain, {0, 3})[0];
+  const std::vector<Edge> edges = random_chain(4, 6);
+  const Edge whole = bridge(edges, {0, 3})[0];
   const int samples = 40000;
   Matrix6 sampled = Matrix6::Zero();
   for (int s = 0; s < samples; ++s) {
     Pose end;
-    for (const Edge& edge : chain) {
+    for (const Edge& edge : edges) {
       Twist error;
       for (double& e : error) e = normal(random);
       const Matrix6 root = Matrix6(edge.information.inverse()).llt().matrixL();
