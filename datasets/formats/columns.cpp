@@ -1,5 +1,7 @@
 #include "datasets/formats/columns.hpp"
 
+#include <fmt/format.h>
+
 #include "datasets/formats/recognise.hpp"
 
 namespace loopbench {
@@ -7,11 +9,18 @@ namespace loopbench {
 InputError Columns::refusal(const char* what, const std::string& why) const {
   // A file may hold one endless line; a message must not.
   constexpr std::size_t kLongest = 40;
-  std::string found(peek().substr(0, kLongest));
-  if (peek().size() > kLongest) found += "...";
+  const std::string_view all = peek();
+  const char* const cut = all.size() > kLongest ? "..." : "";
+  // A tag where a number was due: the whole file is another one.
+  const bool tag = index_ == 0 && guess(file_, line_) == Format::g2o;
   return file_.error(line_.number,
-                     "column " + std::to_string(index_ + 1) + " (" + what + "): '" + found + "' " +
-                         why + (tag ? " (looks like g2o)" : ""));
+                     fmt::format("column {} ({}): '{}{}' {}{}",
+                                 index_ + 1,
+                                 what,
+                                 all.substr(0, kLongest),
+                                 cut,
+                                 why,
+                                 tag ? " (looks like g2o)" : ""));
 }
 
 void Columns::refuse_number(const char* what, std::errc error, const char* stop) const {

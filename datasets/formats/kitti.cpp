@@ -1,5 +1,7 @@
 #include "datasets/formats/kitti.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 
 #include "datasets/formats/columns.hpp"
@@ -20,8 +22,8 @@ Rotation rotation_of(const TextFile& file, std::size_t line, const Row& v) {
   R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
   const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kTolerance)) {
-    throw file.error(line,
-                     "rotation is off orthonormal by " + to_text(off) + ", expected at most 0.001");
+    throw file.error(
+        line, fmt::format("rotation is off orthonormal by {:.3g}, expected at most 0.001", off));
   }
   if (R.determinant() < 0.0) {
     throw file.error(line, "rotation has determinant -1: a reflection, expected a rotation");

@@ -1,5 +1,7 @@
 #include "datasets/formats/pose_rules.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -16,7 +18,7 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
   const double norm = std::sqrt(square);
   if (norm < 1e-12) throw file.error(line, "quaternion is zero, expected unit length");
   if (!(std::abs(norm - 1.0) <= kTolerance)) {
-    throw file.error(line, "quaternion has length " + to_text(norm) + ", expected 1 +- 0.01");
+    throw file.error(line, fmt::format("quaternion has length {:.6g}, expected 1 +- 0.01", norm));
   }
   given.coeffs() /= norm;
   return given;
