@@ -130,7 +130,6 @@ TEST_F(PublishedData, Fr3OfficeRefusesAMonocularRunAsAMeasurement) {
     ADD_FAILURE() << "was taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("expected the same scale")) << error.what();
-    std::printf("%s\n", error.what());
   }
 }
 
