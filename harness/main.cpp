@@ -1,6 +1,40 @@
-#include <cstdio>
+#include <fmt/format.h>
 
-int main() {
-  std::puts("loopbench");
-  return 0;
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/params.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/version.hpp"
+
+using namespace loopbench;
+
+int main(int argc, char** argv) {
+  CLI::App app{"Which method corrects a trajectory best after a loop is detected?", "loopbench"};
+  app.set_version_flag("--version", std::string("loopbench ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 some cells failed, 2 unusable input, 3 internal error, "
+      "130 interrupted.");
+  int exit_code = kExitOk;
+  add_run(app, exit_code);
+  add_list(app, exit_code);
+  add_table(app, exit_code);
+  // add_eval(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitOk : kExitBadInput;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "loopbench: {}\n", error.what());
+    return kExitBadInput;
+  } catch (const OptionError& error) {
+    fmt::print(stderr, "loopbench: {}\n", error.what());
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "loopbench: internal error: {}\n", error.what());
+    return kExitInternal;
+  }
+  return exit_code;
 }

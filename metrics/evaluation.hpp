@@ -13,14 +13,18 @@ namespace loopbench {
 struct Coverage {
   std::size_t pairs = 0;     ///< pose pairs that were judged
   std::size_t possible = 0;  ///< estimate poses (keyframes) or reference stamps in the span (dense)
-  double span = 0.0;         ///< judged time over the reference's duration, 0..1
+  /// First to last judged reference stamp over the reference's duration, 0..1. Holes in between
+  /// do not lower it; they show in share().
+  double span = 0.0;
 
   double share() const {
     return possible == 0 ? 0.0 : static_cast<double>(pairs) / static_cast<double>(possible);
   }
 };
 
-/// reference[i] and estimate[i] belong together and share reference[i].stamp as their time.
+/// reference[i] and estimate[i] belong together and share reference[i].stamp as their time; the
+/// estimate keeps its own stamps. With association `evo` a pose may serve twice, so stamps may
+/// repeat; around bursts `nearest` and `tum` may pair across each other.
 struct Evaluation {
   Trajectory reference;
   Trajectory estimate;  ///< already moved onto the reference by `alignment`
@@ -34,7 +38,8 @@ Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
                     const Protocol& protocol);
 
-/// The same for a curve, at its keyframes or densely at the reference's times.
+/// The same for a curve, at its keyframes or densely at the reference's times: there association
+/// is not used, the curve is asked at every reference stamp (minus offset) inside its span.
 Evaluation evaluate(const Trajectory& reference,
                     const Curve& estimate,
                     const std::vector<double>& keyframe_stamps,

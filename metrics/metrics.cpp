@@ -1,7 +1,18 @@
+#include "metrics/ate.hpp"
+#include "metrics/axis_error.hpp"
+#include "metrics/coverage.hpp"
 #include "metrics/metric.hpp"
+#include "metrics/rpe.hpp"
 
 namespace loopbench {
 
-std::vector<MetricEntry> metrics() { return {}; }
+std::vector<MetricEntry> metrics() {
+  return {
+      metric<AteOptions>("ate", "distance and angle of each pose from its reference", ate),
+      metric<AxisErrorOptions>("axis_error", "position error along x, y and z", axis_error),
+      metric<RpeOptions>("rpe", "error of the motion over frames, seconds or metres", rpe),
+      metric<CoverageOptions>("coverage", "how much of the trajectory was judged", coverage),
+  };
+}
 
 }  // namespace loopbench

@@ -80,7 +80,7 @@ class Reader {
   }
 
   template <class Choice, class Read>
-  std::vector<Choice> list(const YamlNode& root, const std::string& key, Read read) const {
+  std::vector<Choice> list(const YamlNode& root, const std::string& key, Read choices) const {
     const YamlNode* node = root.find(key);
     if (node == nullptr) throw input_error(file_, root.line, "'" + key + "' is missing");
     if (node->type != YamlNode::Type::list || node->list.empty()) {
@@ -88,7 +88,7 @@ class Reader {
     }
     std::vector<Choice> out;
     for (const YamlNode& entry : node->list) {
-      for (Choice& choice : read(entry, file_, catalogue_)) {
+      for (Choice& choice : choices(entry, file_, catalogue_)) {
         if (std::ranges::count(out, choice.label, &Choice::label) > 0) {
           throw input_error(
               file_,

@@ -1,0 +1,22 @@
+/// The subcommands of the binary. Each adds itself to the parser and leaves its exit code.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace loopbench {
+
+inline constexpr int kExitOk = 0;
+inline constexpr int kExitSomeCellsFailed = 1;
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitInternal = 3;
+inline constexpr int kExitInterrupted = 130;
+
+/// The callbacks throw InputError and OptionError; main turns them into exit code 2.
+void add_run(CLI::App& app, int& exit_code);
+void add_list(CLI::App& app, int& exit_code);
+void add_table(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code);
+
+}  // namespace loopbench

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "harness/commands/commands.hpp"
+#include "harness/commands/tables.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "harness/export/text.hpp"
+#include "harness/export/write_file.hpp"
+#include "harness/run/progress.hpp"
+#include "harness/run/run_sweep.hpp"
+#include "harness/store/store.hpp"
+
+namespace loopbench {
+namespace {
+
+struct RunArguments {
+  std::string config;
+  std::string only;
+  std::string data;
+  std::string out;
+  std::vector<std::filesystem::path> plugins;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool dry_run = false;
+};
+
+std::atomic<bool> interrupted = false;
+
+void interrupt(int) { interrupted = true; }
+
+DataRoot data_root(const Sweep& sweep, const std::string& data) {
+  DataRoot root;
+  const std::filesystem::path beside = sweep.config.parent_path();
+  root.folders.push_back(beside.empty() ? "." : beside);
+  if (data.empty()) return root;
+  if (!std::filesystem::is_directory(data)) {
+    throw InputError(data + ": is not a folder; --data and $LOOPBENCH_DATA name a folder of data");
+  }
+  root.folders.emplace_back(data);
+  return root;
+}
+
+void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
+  for (const Cell& cell : planned) {
+    const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
+    fmt::print("{:5}  {}{} / {}\n",
+               cell.index,
+               sweep.datasets[cell.dataset].label,
+               repeat,
+               sweep.methods[cell.method].label);
+  }
+  fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
+}
+
+int run(const RunArguments& arguments) {
+  const Catalogue known = catalogue(arguments.plugins);
+  const Sweep sweep = read_sweep(arguments.config, known);
+  const DataRoot root = data_root(sweep, arguments.data);
+  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
+  if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
+  if (arguments.dry_run) {
+    print_plan(sweep, planned);
+    return kExitOk;
+  }
+
+  const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
+  const std::filesystem::path file = out / "results.sqlite";
+  std::size_t done = 0;
+  std::size_t failed = 0;
+  {
+    Sequences sequences(sweep, known, root, planned);
+    std::optional<Store> store;  // opened by the first result: a wrong path leaves no empty store
+    Progress progress(planned.size());
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    run_sweep(
+        sweep, planned, known, sequences, arguments.jobs, interrupted, [&](const CellResult& r) {
+          if (!store) store.emplace(file, sweep);
+          store->write(sweep, r);
+          ++done;
+          if (r.status == Status::failed) ++failed;
+          progress.step(sweep.datasets[r.cell.dataset].label + " / " +
+                        sweep.methods[r.cell.method].label);
+        });
+  }
+  if (done == 0) return kExitInterrupted;
+
+  const std::vector<Record> records = all_records(file);
+  const std::vector<Table> tables = pivot(records, sweep.table);
+  const std::string text = markdown(tables);
+  write_file(out / "table.md", text);
+  write_file(out / "table.csv", csv(tables));
+  write_file(out / "rows.csv", csv(records));
+  fmt::print("{}\n{} of {} cells done, {} failed; value: {}; protocol: {}\n{}\n",
+             text,
+             done,
+             planned.size(),
+             failed,
+             sweep.table.value,
+             to_text(echo(sweep.protocol)),
+             (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
+  if (interrupted) {
+    fmt::print(stderr, "loopbench: interrupted; the cells above are kept\n");
+    return kExitInterrupted;
+  }
+  return failed > 0 ? kExitSomeCellsFailed : kExitOk;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print its tables");
+  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
+      ->type_name("REGEX");
+  command->add_flag("--dry-run", arguments->dry_run, "Check everything, list the cells, run none");
+  command->add_option("-j,--jobs", arguments->jobs, "Threads; results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--data", arguments->data, "Folder with real data")
+      ->envname("LOOPBENCH_DATA")
+      ->type_name("DIR");
+  command->add_option("--out", arguments->out, "Folder for results (default: results/CONFIG)")
+      ->type_name("DIR");
+  command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
+      ->type_name("FILE");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace loopbench

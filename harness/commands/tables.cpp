@@ -1,0 +1,20 @@
+#include "harness/commands/tables.hpp"
+
+#include <iterator>
+
+#include "harness/export/derived.hpp"
+#include "harness/store/store.hpp"
+
+namespace loopbench {
+
+std::vector<Record> all_records(const std::filesystem::path& store) {
+  std::vector<Record> records = read_records(store);
+  const auto run = read_run(store);
+  std::vector<Record> gain = gains(records, run.at("baseline"));
+  std::vector<Record> time = run_times(records);
+  records.insert(records.end(), std::move_iterator(gain.begin()), std::move_iterator(gain.end()));
+  records.insert(records.end(), std::move_iterator(time.begin()), std::move_iterator(time.end()));
+  return records;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,14 @@
+/// From a store to the tables of a spec, gain and time included.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "harness/export/pivot.hpp"
+
+namespace loopbench {
+
+/// Stored records, then gains and run times, grouped so that each cell's columns stay together.
+std::vector<Record> all_records(const std::filesystem::path& store);
+
+}  // namespace loopbench

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include "harness/export/text.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string csv(const std::vector<Table>& tables) {
+  std::string out = "table,row,column,value,records,status\n";
+  for (const Table& table : tables) {
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        const TableCell& cell = table.cells[r][c];
+        if (!cell.value && cell.status.empty()) continue;
+        out += fmt::format("{},{},{},{},{},{}\n",
+                           quoted(table.title),
+                           quoted(table.rows[r]),
+                           quoted(table.columns[c]),
+                           cell.value ? fmt::format("{}", *cell.value) : "",
+                           cell.records,
+                           cell.value ? "ok" : cell.status);
+      }
+    }
+  }
+  return out;
+}
+
+std::string csv(const std::vector<Record>& records) {
+  std::string out =
+      "sequence,repeat,method,closures,oracle_closures,times,metric,relation,axis,unit,count,rmse,"
+      "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
+  for (const Record& r : records) {
+    const Statistics& s = r.statistics;
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                       quoted(r.sequence),
+                       r.repeat,
+                       quoted(r.method),
+                       quoted(r.closures),
+                       r.oracle_closures,
+                       r.times,
+                       quoted(r.metric),
+                       r.relation,
+                       r.axis,
+                       r.unit);
+    // An undefined score has no numbers, not zeros.
+    out += r.metric.empty() || r.status != "ok" ? std::string(",,,,,,,,,,")
+                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                                                              s.count,
+                                                              s.rmse,
+                                                              s.mean,
+                                                              s.median,
+                                                              s.std,
+                                                              s.min,
+                                                              s.max,
+                                                              s.sse,
+                                                              r.pairs,
+                                                              r.possible);
+    out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,121 @@
+#include "harness/export/pivot.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace loopbench {
+namespace {
+
+std::string joined(const Record& record, const std::vector<std::string>& names, const char* glue) {
+  std::string out;
+  for (const std::string& name : names) {
+    const std::string text = field(record, name);
+    if (!text.empty()) out += (out.empty() ? "" : glue) + text;
+  }
+  return out;
+}
+
+/// Numbers names in the order they first appear.
+class Order {
+ public:
+  std::size_t index(const std::string& name) {
+    const auto [found, is_new] = index_.emplace(name, names_.size());
+    if (is_new) names_.push_back(name);
+    return found->second;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::string> names_;
+};
+
+struct Builder {
+  Order rows;
+  Order columns;
+  std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
+  std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
+  std::vector<std::string> notes;
+
+  void note(const std::string& text) {
+    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  }
+};
+
+void add(Builder& table, const Record& record, const TableSpec& spec) {
+  const std::string name = joined(record, spec.rows, ", ");
+  const std::size_t row = table.rows.index(name);
+  if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
+  if (record.status != "ok") {
+    const std::string what = record.metric.empty() ? "" : record.metric + " ";
+    table.note(name + ": " + what + record.status + ": " + record.why);
+  } else if (record.metric.empty() && !record.why.empty()) {
+    table.note(name + ": " + record.why);
+  }
+  if (record.metric.empty()) {
+    if (record.status != "ok") table.row_status[row] = record.status;
+    return;
+  }
+  const std::string unit = record.unit.empty() ? "" : " [" + record.unit + "]";
+  const std::size_t column = table.columns.index(joined(record, spec.columns, " ") + unit);
+  TableCell& cell = table.cells[{row, column}];
+  if (record.status != "ok") {
+    cell.status = record.status;
+    return;
+  }
+  const double sum = cell.value.value_or(0.0) * static_cast<double>(cell.records);
+  ++cell.records;
+  cell.value = (sum + value(record, spec.value)) / static_cast<double>(cell.records);
+}
+
+Table finish(const Builder& table, const std::string& title, const TableSpec& spec) {
+  Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
+  for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
+  for (std::size_t r = 0; r < out.rows.size(); ++r) {
+    std::vector<TableCell> line(out.columns.size());
+    for (std::size_t c = 0; c < out.columns.size(); ++c) {
+      if (const auto found = table.cells.find({r, c}); found != table.cells.end()) {
+        line[c] = found->second;
+      } else if (const auto whole = table.row_status.find(r); whole != table.row_status.end()) {
+        line[c].status = whole->second;
+      }
+    }
+    out.cells.push_back(std::move(line));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec) {
+  Order titles;
+  std::vector<Builder> builders;
+  const auto builder = [&](const std::string& title) -> Builder& {
+    const std::size_t index = titles.index(title);
+    if (index == builders.size()) builders.emplace_back();
+    return builders[index];
+  };
+  for (const Record& record : records) {
+    if (!record.metric.empty()) add(builder(joined(record, spec.split, ", ")), record, spec);
+  }
+  // A cell without any score belongs into every table of its sequence.
+  for (const Record& record : records) {
+    if (!record.metric.empty()) continue;
+    const std::string own = joined(record, spec.split, ", ");
+    bool placed = false;
+    for (std::size_t t = 0; t < builders.size(); ++t) {
+      if (titles.names()[t].starts_with(own)) {
+        add(builders[t], record, spec);
+        placed = true;
+      }
+    }
+    if (!placed) add(builder(own), record, spec);
+  }
+  std::vector<Table> out;
+  for (std::size_t t = 0; t < builders.size(); ++t) {
+    out.push_back(finish(builders[t], titles.names()[t], spec));
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,33 @@
+/// A long table turned into rows x columns, one table per combination of the split columns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/store/record.hpp"
+#include "harness/sweep.hpp"
+
+namespace loopbench {
+
+/// One cell of a table: the mean over the records that fell into it.
+struct TableCell {
+  std::optional<double> value;
+  std::size_t records = 0;  ///< how many were averaged (repeats, for example)
+  std::string status;       ///< "declined" or "failed" when there is no value for that reason
+};
+
+struct Table {
+  std::string title;                 ///< values of the split columns
+  std::string corner;                ///< names of the row columns
+  std::vector<std::string> columns;  ///< with unit
+  std::vector<std::string> rows;
+  std::vector<std::vector<TableCell>> cells;  ///< [row][column]
+  std::vector<std::string> notes;  ///< reasons of declined and failed cells, oracle flags
+};
+
+/// Rows, columns and tables appear in the order in which the records first name them.
+/// Throws InputError for an unknown column or statistic. O(n log n).
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec);
+
+}  // namespace loopbench

@@ -1,0 +1,50 @@
+/// The sequences of a sweep, each loaded once and let go when its last cell is done.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "datasets/core/sequence.hpp"
+#include "harness/catalogue.hpp"
+#include "harness/run/cells.hpp"
+#include "harness/sweep.hpp"
+
+namespace loopbench {
+
+/// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
+std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
+
+/// Thread-safe.
+class Sequences {
+ public:
+  Sequences(const Sweep& sweep,
+            const Catalogue& catalogue,
+            DataRoot root,
+            const std::vector<Cell>& cells);
+
+  /// The sequence of a cell, loaded by whoever asks first. Throws InputError with the dataset's
+  /// label when a file is missing or broken.
+  std::shared_ptr<const Sequence> get(const Cell& cell);
+
+  /// Says that a cell will not ask again.
+  void done(const Cell& cell);
+
+ private:
+  struct Slot {
+    std::mutex mutex;
+    std::shared_ptr<const Sequence> sequence;
+    std::size_t waiting = 0;  ///< cells not done yet
+  };
+  using Key = std::pair<std::size_t, int>;  // dataset, repeat
+
+  std::shared_ptr<const Sequence> load(const Cell& cell) const;
+
+  const Sweep& sweep_;
+  const Catalogue& catalogue_;
+  DataRoot root_;
+  std::map<Key, Slot> slots_;  ///< complete after construction: only the slots' insides change
+};
+
+}  // namespace loopbench

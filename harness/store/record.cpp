@@ -1,0 +1,47 @@
+#include "harness/store/record.hpp"
+
+#include "datasets/core/error.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+
+std::string field(const Record& record, const std::string& name) {
+  if (name == "sequence") return record.sequence;
+  if (name == "repeat") return std::to_string(record.repeat);
+  if (name == "method") return record.method;
+  if (name == "closures") return record.closures;
+  if (name == "times") return record.times;
+  if (name == "metric") return record.metric;
+  if (name == "relation") return record.relation;
+  if (name == "axis") return record.axis;
+  if (name == "unit") return record.unit;
+  if (name == "status") return record.status;
+  throw InputError(unknown_name("column",
+                                name,
+                                {"sequence",
+                                 "repeat",
+                                 "method",
+                                 "closures",
+                                 "times",
+                                 "metric",
+                                 "relation",
+                                 "axis",
+                                 "unit",
+                                 "status"}));
+}
+
+double value(const Record& record, const std::string& name) {
+  const Statistics& s = record.statistics;
+  if (name == "rmse") return s.rmse;
+  if (name == "mean") return s.mean;
+  if (name == "median") return s.median;
+  if (name == "std") return s.std;
+  if (name == "min") return s.min;
+  if (name == "max") return s.max;
+  if (name == "sse") return s.sse;
+  if (name == "count") return static_cast<double>(s.count);
+  throw InputError(unknown_name(
+      "statistic", name, {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,89 @@
+#include "harness/store/sqlite.hpp"
+
+#include <sqlite3.h>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+
+void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
+void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+
+Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
+  sqlite3* handle = nullptr;
+  const int flags = mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                                         : SQLITE_OPEN_READWRITE;  // a WAL left by a kill is merged
+  int code = sqlite3_open_v2(file_.c_str(), &handle, flags, nullptr);
+  if (code != SQLITE_OK && mode == Mode::read) {
+    sqlite3_close(handle);
+    code = sqlite3_open_v2(file_.c_str(), &handle, SQLITE_OPEN_READONLY, nullptr);
+  }
+  handle_.reset(handle);
+  if (code != SQLITE_OK) fail("cannot be opened");
+  sqlite3_busy_timeout(handle, 10000);  // [ms]
+}
+
+void Database::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    fail("refused a statement");
+  }
+}
+
+Statement Database::prepare(const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  const int size = static_cast<int>(sql.size());
+  if (sqlite3_prepare_v2(handle_.get(), sql.c_str(), size, &statement, nullptr) != SQLITE_OK) {
+    fail("refused a statement");
+  }
+  return {*this, statement};
+}
+
+void Database::fail(const std::string& doing) const {
+  throw InputError(file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()));
+}
+
+void Statement::expect(int code, const char* doing) const {
+  if (code != SQLITE_OK) database_->fail(doing);
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  expect(sqlite3_bind_int64(handle_.get(), ++parameter_, value), "cannot bind");
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  expect(sqlite3_bind_double(handle_.get(), ++parameter_, value), "cannot bind");
+  return *this;
+}
+
+Statement& Statement::bind(const std::string& value) {
+  const int size = static_cast<int>(value.size());
+  expect(sqlite3_bind_text(
+             handle_.get(), ++parameter_, value.data(), size, SQLITE_TRANSIENT),  // NOLINT
+         "cannot bind");
+  return *this;
+}
+
+void Statement::run() {
+  while (step()) {
+  }
+  expect(sqlite3_reset(handle_.get()), "cannot write");
+  parameter_ = 0;
+}
+
+bool Statement::step() {
+  column_ = 0;
+  const int code = sqlite3_step(handle_.get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) database_->fail("cannot be read or written");
+  return code == SQLITE_ROW;
+}
+
+std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
+double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
+std::string Statement::text() {
+  const auto* bytes = sqlite3_column_text(handle_.get(), column_);
+  const int size = sqlite3_column_bytes(handle_.get(), column_++);
+  return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,59 @@
+/// Which reference pose and which estimate pose belong together in time.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+#include "metrics/protocol.hpp"
+
+namespace loopbench {
+
+struct IndexPair {
+  std::size_t reference = 0;
+  std::size_t estimate = 0;
+  friend bool operator==(const IndexPair&, const IndexPair&) = default;
+};
+
+/// evo (core/sync.py, commit 26d0953): for each stamp of the shorter list (the estimate when both
+/// are equally long) the nearest of the longer, the first of two equally near, kept when the
+/// difference is <= max_diff. One stamp of the longer list may serve twice. Rounding as there: the
+/// offset is added to the estimate when that is longer, else taken off the reference.
+/// In the order of the shorter list. Strictly increasing stamps. O(n + m).
+std::vector<IndexPair> match_evo(std::vector<double> reference,
+                                 std::vector<double> estimate,
+                                 double max_diff,
+                                 double offset);
+
+/// Is a difference of exactly max_diff still a pair?
+enum class Limit { strict, inclusive };
+
+/// TUM's associate.py (strict), and `nearest` (inclusive): one-to-one; of all pairs within
+/// max_diff the one first by (difference, reference, estimate) is taken, both poses leave, and so
+/// on. In the order of the reference; around a burst two pairs may cross in time. Strictly
+/// increasing stamps, also after the offset was added to the estimate. O((n + m) log(n + m))
+/// whatever max_diff is, in practice near O(n + m).
+std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
+                                        std::vector<double> estimate,
+                                        double max_diff,
+                                        Limit limit,
+                                        double offset);
+
+/// Equally long; element i of one belongs to element i of the other. The estimate keeps its stamps.
+struct Paired {
+  Trajectory reference;
+  Trajectory estimate;
+};
+
+/// `interpolate`: the reference on its straight lines and great arcs at estimate stamp + offset,
+/// unless that lies outside the reference or between two poses more than max_gap apart; a stamp
+/// the reference holds needs no neighbour. O(n + m).
+Paired interpolate_reference(const Trajectory& reference,
+                             const Trajectory& estimate,
+                             double max_gap,
+                             double offset);
+
+/// Pairs by the protocol's rule; empty when nothing matches.
+Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);
+
+}  // namespace loopbench

@@ -1,0 +1,21 @@
+#include "metrics/axis_error.hpp"
+
+#include <cmath>
+
+namespace loopbench {
+
+std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptions&) {
+  const std::size_t n = evaluation.reference.size();
+  std::array<std::vector<double>, 3> metres;
+  for (std::vector<double>& axis : metres) axis.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3 error = evaluation.estimate[i].world_from_body.translation -
+                          evaluation.reference[i].world_from_body.translation;
+    for (int a = 0; a < 3; ++a) metres[static_cast<std::size_t>(a)][i] = std::abs(error[a]);
+  }
+  return {{"translation", "x", "m", statistics(std::move(metres[0]))},
+          {"translation", "y", "m", statistics(std::move(metres[1]))},
+          {"translation", "z", "m", statistics(std::move(metres[2]))}};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,66 @@
+#include "metrics/rpe.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "metrics/angle.hpp"
+#include "metrics/pair_search.hpp"
+
+namespace loopbench {
+namespace {
+
+std::vector<FromTo> pairs(const Evaluation& evaluation, const RpeOptions& o) {
+  const double tolerance = o.tolerance * o.delta;
+  if (o.unit == DeltaUnit::s) {
+    return pairs_by_measure(stamps(evaluation.reference), o.delta, tolerance);
+  }
+  if (o.unit == DeltaUnit::m) {
+    const bool is_reference = o.distance_of == DistanceOf::reference;
+    const Trajectory& measured = is_reference ? evaluation.reference : evaluation.estimate;
+    return pairs_by_measure(accumulated_distances(measured), o.delta, tolerance);
+  }
+  if (o.delta != std::floor(o.delta)) {
+    throw OptionError("delta", "delta = " + to_text(o.delta) + ": frames come whole");
+  }
+  const std::size_t n = evaluation.reference.size();
+  if (o.delta >= static_cast<double>(n)) return {};
+  return pairs_by_frames(n, static_cast<std::size_t>(o.delta));
+}
+
+}  // namespace
+
+std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
+  const std::vector<FromTo> found = pairs(evaluation, options);
+  if (found.empty()) {
+    throw std::runtime_error("rpe: none of " + std::to_string(evaluation.reference.size()) +
+                             " poses is " + to_text(options.delta) + " " + to_text(options.unit) +
+                             " before another");
+  }
+  std::vector<double> metres(found.size());
+  std::vector<double> degrees(found.size());
+  std::array<std::vector<double>, 3> axes;
+  for (std::vector<double>& axis : axes) axis.resize(found.size());
+
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const auto& [i, j] = found[k];
+    const Pose& Q_i = evaluation.reference[i].world_from_body;
+    const Pose& Q_j = evaluation.reference[j].world_from_body;
+    const Pose& P_i = evaluation.estimate[i].world_from_body;
+    const Pose& P_j = evaluation.estimate[j].world_from_body;
+    const Pose E = (Q_i.inverse() * Q_j).inverse() * (P_i.inverse() * P_j);
+    metres[k] = E.translation.norm();
+    degrees[k] = kDegrees * log_so3(E.rotation).norm();
+    const Vector3 change =
+        options.frame == RpeFrame::body
+            ? E.translation
+            : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
+    for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
+  }
+  return {{"translation", "3d", "m", statistics(std::move(metres))},
+          {"translation", "x", "m", statistics(std::move(axes[0]))},
+          {"translation", "y", "m", statistics(std::move(axes[1]))},
+          {"translation", "z", "m", statistics(std::move(axes[2]))},
+          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+}
+
+}  // namespace loopbench

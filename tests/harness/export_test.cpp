@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+#include "harness/export/derived.hpp"
+#include "harness/export/text.hpp"
+
+namespace loopbench {
+namespace {
+
+Record ate(const std::string& method, double rmse, const std::string& times = "keyframes") {
+  Record r;
+  r.sequence = "room";
+  r.method = method;
+  r.times = times;
+  r.metric = "ate";
+  r.relation = "translation";
+  r.axis = "3d";
+  r.unit = "m";
+  r.statistics.rmse = rmse;
+  r.milliseconds = 2.5;
+  return r;
+}
+
+Record failed(const std::string& method, const std::string& why) {
+  Record r;
+  r.sequence = "room";
+  r.method = method;
+  r.status = "failed";
+  r.why = why;
+  return r;
+}
+
+TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
+  const std::vector<Record> g = gains({ate("raw", 0.2),
+                                       ate("uniform", 0.05),
+                                       ate("raw", 0.4, "dense"),
+                                       ate("uniform", 0.5, "dense")},
+                                      "raw");
+  ASSERT_EQ(g.size(), 4u);
+  EXPECT_DOUBLE_EQ(g[0].statistics.rmse, 0.0);
+  EXPECT_DOUBLE_EQ(g[1].statistics.rmse, 75.0);
+  EXPECT_DOUBLE_EQ(g[3].statistics.rmse, -25.0);  // worse is negative
+  EXPECT_EQ(g[3].unit, "%");
+  EXPECT_TRUE(gains({ate("raw", 0.2)}, "").empty());
+}
+
+TEST(RunTimes, AreOnePerCellAndTimes) {
+  std::vector<Record> records{ate("raw", 0.2), ate("raw", 0.1), failed("bad", "why")};
+  records[1].axis = "x";
+  const std::vector<Record> t = run_times(records);
+  ASSERT_EQ(t.size(), 1u);
+  EXPECT_EQ(t[0].statistics.rmse, 2.5);
+  EXPECT_EQ(t[0].unit, "ms");
+}
+
+TEST(Markdown, IsPaddedAndTellsReasons) {
+  const std::vector<Table> tables =
+      pivot({ate("raw", 0.25), ate("a|b", 12.5), failed("bad", "no such luck")}, TableSpec{});
+  EXPECT_EQ(markdown(tables),
+            "### room, keyframes\n"
+            "\n"
+            "| method | ate translation 3d [m] |\n"
+            "| ------ | ---------------------: |\n"
+            "| raw    |                   0.25 |\n"
+            "| a\\|b   |                  12.50 |\n"
+            "| bad    |                 failed |\n"
+            "\n"
+            "- bad: failed: no such luck\n");
+}
+
+TEST(Pivot, AveragesWhatFallsTogether) {
+  std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
+  records[1].repeat = 1;
+  const std::vector<Table> tables = pivot(records, TableSpec{});
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_DOUBLE_EQ(*tables[0].cells[0][0].value, 2.0);
+  EXPECT_EQ(tables[0].cells[0][0].records, 2u);
+}
+
+TEST(Pivot, RefusesUnknownColumnsByName) {
+  TableSpec spec;
+  spec.rows = {"mehtod"};
+  EXPECT_THROW(pivot({ate("raw", 1.0)}, spec), InputError);
+  spec = {};
+  spec.value = "rms";
+  EXPECT_THROW(pivot({ate("raw", 1.0)}, spec), InputError);
+}
+
+TEST(Csv, QuotesAndKeepsFullPrecision) {
+  std::vector<Record> records{ate("a, \"b\"", 0.1)};
+  const std::string text = csv(records);
+  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,keyframes,ate,translation,3d,m,0,0.1,"),
+            std::string::npos)
+      << text;
+  records[0].statistics.rmse = 1.0 / 3.0;
+  EXPECT_NE(csv(pivot(records, TableSpec{})).find("0.3333333333333333"), std::string::npos);
+}
+
+TEST(Decimals, KeepFourSignificantDigitsOfTheLargest) {
+  EXPECT_EQ(decimals(0.109), 4);
+  EXPECT_EQ(decimals(9.9), 3);
+  EXPECT_EQ(decimals(31.5), 2);
+  EXPECT_EQ(decimals(31500.0), 1);
+  EXPECT_EQ(decimals(0.0), 4);
+}
+
+}  // namespace
+}  // namespace loopbench

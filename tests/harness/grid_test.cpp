@@ -1,0 +1,85 @@
+#include "harness/config/grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+std::vector<GridPoint> grid(const std::string& text) {
+  return spread(parse_yaml(text, "c.yaml"), {"method", "label"}, "c.yaml");
+}
+
+std::string text_of(const GridPoint& point) {
+  std::string out;
+  for (const Setting& s : point.settings) out += s.name + "=" + to_text(s.value) + " ";
+  return out;
+}
+
+std::string why(const std::string& text) {
+  try {
+    grid(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Grid, FlattensNestedMapsAndSkipsReservedKeys) {
+  const auto points = grid("method: dm\nsegment: {speed: {band: 0.33}, min: 3}\n");
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(text_of(points[0]), "segment.speed.band=0.33 segment.min=3 ");
+  EXPECT_TRUE(points[0].swept.empty());
+}
+
+TEST(Grid, TakesEveryCombinationFirstKeySlowest) {
+  const auto points = grid("method: m\nsweep:\n  a: [1, 2]\n  b: [x, y]\n");
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_EQ(text_of(points[0]), "a=1 b=x ");
+  EXPECT_EQ(text_of(points[1]), "a=1 b=y ");
+  EXPECT_EQ(text_of(points[2]), "a=2 b=x ");
+  EXPECT_EQ(points[3].swept, (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Grid, WalksZippedListsTogether) {
+  const auto points = grid("method: m\nzip: {a: [1, 2], b: [x, y]}\nsweep: {c: [true, false]}\n");
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_EQ(text_of(points[0]), "c=true a=1 b=x ");
+  EXPECT_EQ(text_of(points[1]), "c=true a=2 b=y ");
+}
+
+TEST(Grid, RangesReachTheirEndsExactly) {
+  const auto linear = grid("method: m\nsweep: {a: {from: 0.1, to: 0.7, steps: 3}}\n");
+  ASSERT_EQ(linear.size(), 3u);
+  EXPECT_EQ(linear[0].settings[0].value, Param(0.1));
+  EXPECT_DOUBLE_EQ(std::get<double>(linear[1].settings[0].value), 0.4);
+  EXPECT_EQ(linear[2].settings[0].value, Param(0.7));
+
+  const auto log = grid("method: m\nsweep: {a: {from: 1, to: 100, steps: 3, log: true}}\n");
+  EXPECT_DOUBLE_EQ(std::get<double>(log[1].settings[0].value), 10.0);
+
+  const auto whole = grid("method: m\nsweep: {a: {from: 10, to: 30, steps: 3}}\n");
+  EXPECT_EQ(whole[1].settings[0].value, Param(std::int64_t{20}));
+}
+
+TEST(Grid, RefusesWithFileAndLine) {
+  EXPECT_EQ(why("method: m\na: [1, 2]\n"), "c.yaml:2: a: a list belongs under 'sweep' or 'zip'");
+  EXPECT_EQ(why("method: m\na:\n"), "c.yaml:2: a: has no value");
+  EXPECT_EQ(why("method: m\nsweep: {a: 3}\n"), "c.yaml:2: a: expected a list or {from, to, steps}");
+  EXPECT_EQ(why("method: m\nsweep: {a: []}\n"),
+            "c.yaml:2: a: expected a list or {from, to, steps}");
+  EXPECT_EQ(why("method: m\nzip:\n  a: [1, 2]\n  b: [1]\n"),
+            "c.yaml:4: b: has 1 values, the others under 'zip' have 2");
+  EXPECT_EQ(why("method: m\na: 1\nsweep: {a: [1, 2]}\n"),
+            "c.yaml:3: a: is set twice in this entry");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 3, log: true}}\n"),
+            "c.yaml:2: a range with log: true needs from > 0 and to > 0");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1}}\n"),
+            "c.yaml:2: a range needs from, to and steps; 'steps' is missing");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 0}}\n"),
+            "c.yaml:2: steps: expected a whole number, 1 to 100000");
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,100 @@
+#include "harness/config/read_sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/tiny_catalogue.hpp"
+
+namespace loopbench {
+namespace {
+
+Sweep parse(const std::string& text) { return parse_sweep(text, "c.yaml", tiny::catalogue()); }
+
+std::string why(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A valid config with `line` put in place of one of its parts.
+std::string config(const std::string& datasets = "- line",
+                   const std::string& methods = "- shift",
+                   const std::string& metrics = "- ate",
+                   const std::string& rest = "") {
+  return "datasets:\n  " + datasets + "\nmethods:\n  " + methods + "\nmetrics:\n  " + metrics +
+         "\n" + rest;
+}
+
+TEST(ReadSweep, FillsInDefaults) {
+  const Sweep sweep = parse(config());
+  EXPECT_EQ(sweep.name, "c");
+  ASSERT_EQ(sweep.datasets.size(), 1u);
+  EXPECT_EQ(sweep.methods[0].label, "shift");
+  EXPECT_EQ(sweep.repeats, 1);
+  EXPECT_EQ(sweep.times, (std::vector<Times>{Times::keyframes, Times::dense}));
+  EXPECT_EQ(sweep.protocol.align, Align::se3);
+  EXPECT_EQ(sweep.baseline, "");
+}
+
+TEST(ReadSweep, ComposesStagesAndDistributesOptions) {
+  const Sweep sweep = parse(
+      config("- line", "- {method: shift + straight, fail: false, straight.by: 2, label: both}"));
+  ASSERT_EQ(sweep.methods.size(), 1u);
+  EXPECT_EQ(sweep.methods[0].label, "both");
+  ASSERT_EQ(sweep.methods[0].stages.size(), 2u);
+  EXPECT_EQ(to_text(sweep.methods[0].stages[0].options), "fail=false");
+  EXPECT_EQ(to_text(sweep.methods[0].stages[1].options), "by=2");
+}
+
+TEST(ReadSweep, LabelsTellWhatIsSwept) {
+  const Sweep sweep = parse(config("- {dataset: line, seed: 4, sweep: {bias: [0.1, 0.2]}}",
+                                   "- {method: shift, label: s, by: 2, sweep: {fail: [true]}}"));
+  EXPECT_EQ(sweep.datasets[0].label, "line (seed=4, bias=0.1)");
+  EXPECT_EQ(sweep.datasets[1].label, "line (seed=4, bias=0.2)");
+  EXPECT_EQ(sweep.methods[0].label, "s (fail=true)");
+}
+
+TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
+  EXPECT_EQ(why(config("- lien")), "c.yaml:2: no dataset is named 'lien'; did you mean 'line'?");
+  EXPECT_EQ(why(config("- line", "- shfit + straight")),
+            "c.yaml:4: no method is named 'shfit'; did you mean 'shift'?");
+  EXPECT_EQ(why(config("- dataset: line\n    bias: 2")),
+            "c.yaml:3: line: bias = 2.0 breaks 0 <= bias <= 1");
+  EXPECT_EQ(why(config("- dataset: line\n    bais: 0.5")),
+            "c.yaml:3: line: bais: unknown option (has: bias, seed); did you mean 'bias'?");
+  EXPECT_EQ(why(config("- line", "- {method: shift + straight, by: 1}")),
+            "c.yaml:4: by: both stages have it; say shift.by or straight.by");
+  EXPECT_EQ(why(config("- line", "- {method: shift + straight, fial: true}")),
+            "c.yaml:4: no option of either stage is named 'fial'; did you mean 'fail'?");
+  EXPECT_EQ(why(config("- line", "- straight + shift")),
+            "c.yaml:4: straight + shift: is smoother + corrector; stages compose as corrector + "
+            "smoother");
+  EXPECT_EQ(why(config("- line", "- shift\n  - shift")),
+            "c.yaml:5: two entries of methods are called 'shift'; give one a label");
+  EXPECT_EQ(why(config("- line", "- shift", "- {metric: ate, power: 7}")),
+            "c.yaml:6: ate: power = 7 breaks 1 <= power <= 2");
+}
+
+TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "repaets: 3\n")),
+            "c.yaml:7: no setting is named 'repaets'; did you mean 'repeats'?");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "repeats: 0\n")),
+            "c.yaml:7: repeats: expected a whole number, 1 to 1000000");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "times: [keyframes, sometimes]\n")),
+            "c.yaml:7: times: expected keyframes | dense");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "protocol:\n  align: se4\n")),
+            "c.yaml:8: protocol: align = se4: expected one of se3 | sim3 | origin | none");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "baseline: shifd\n")),
+            "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
+            "c.yaml:7: method: '(' is not a regular expression");
+  EXPECT_EQ(why("methods: [shift]\nmetrics: [ate]\n"), "c.yaml:1: 'datasets' is missing");
+  EXPECT_EQ(why("datasets: []\nmethods: [shift]\nmetrics: [ate]\n"),
+            "c.yaml:1: datasets: expected a list with at least one entry");
+  EXPECT_EQ(why("- 1\n"), "c.yaml:1: expected a map with datasets, methods and metrics");
+}
+
+}  // namespace
+}  // namespace loopbench

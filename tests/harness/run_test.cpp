@@ -1,0 +1,129 @@
+/// A whole sweep on the tiny catalogue: cells, store, threads, resilience.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "harness/config/read_sweep.hpp"
+#include "harness/run/run_sweep.hpp"
+#include "harness/store/store.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/tiny_catalogue.hpp"
+
+namespace loopbench {
+namespace {
+
+const char* const kConfig = R"(
+datasets:
+  - {dataset: line, sweep: {bias: [0.1, 0.2, 0.3]}}
+methods:
+  - straight
+  - {method: shift + straight, label: shifted}
+  - {method: shift, fail: true, label: fails}
+  - {method: shift, decline: true, label: declines}
+metrics: [ate, {metric: ate, power: 2, label: undefined}]
+times: keyframes
+baseline: straight
+repeats: 3
+)";
+
+class RunSweep : public testing::Test {
+ protected:
+  std::vector<Record> run(int jobs) {
+    const std::filesystem::path file = folder_.path() / std::to_string(jobs) / "results.sqlite";
+    const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
+    Sequences sequences(sweep_, known_, {}, planned);
+    std::atomic<bool> stop = false;
+    Store store(file, sweep_);
+    run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
+      store.write(sweep_, result);
+    });
+    return read_records(file);
+  }
+
+  TemporaryFolder folder_;
+  Catalogue known_ = tiny::catalogue();
+  Sweep sweep_ = parse_sweep(kConfig, "c.yaml", known_);
+};
+
+TEST_F(RunSweep, EveryCellLeavesItsRow) {
+  const std::vector<Record> records = run(1);
+  // 3 datasets x 3 repeats x (2 methods x 2 metrics + failed + declined)
+  EXPECT_EQ(records.size(), 3u * 3u * 6u);
+  const auto count = [&](const std::string& status) {
+    return std::ranges::count(records, status, &Record::status);
+  };
+  EXPECT_EQ(count("ok"), 18);
+  EXPECT_EQ(count("failed"), 9 + 18);  // the method, and the undefined metric of the others
+  EXPECT_EQ(count("declined"), 9);
+  const auto fails = std::ranges::find(records, std::string("fails"), &Record::method);
+  EXPECT_EQ(fails->why, "told to fail");
+  const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::metric);
+  EXPECT_EQ(undefined->why, "told to be undefined");
+}
+
+TEST_F(RunSweep, SameBitsOnAnyNumberOfThreads) {
+  const std::vector<Record> one = run(1);
+  const std::vector<Record> many = run(4);
+  ASSERT_EQ(one.size(), many.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].cell, many[i].cell);
+    EXPECT_EQ(one[i].method, many[i].method);
+    EXPECT_EQ(one[i].statistics.rmse, many[i].statistics.rmse) << i;
+  }
+}
+
+TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
+  const std::vector<Record> records = run(2);
+  EXPECT_NE(records[0].statistics.rmse, records[6].statistics.rmse);
+  EXPECT_EQ(records[6].repeat, 1);
+}
+
+TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
+  known_.datasets[0].load = [](const Params& given, const DataRoot&) -> Sequence {
+    if (given.at("bias") == Param(0.3)) throw InputError("gone.txt: no such file");
+    return tiny::load_line({}, {});
+  };
+  const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
+  Sequences sequences(sweep_, known_, {}, planned);
+  std::atomic<bool> stop = false;
+  int finished = 0;
+  EXPECT_THROW(
+      run_sweep(sweep_, planned, known_, sequences, 2, stop, [&](const auto&) { ++finished; }),
+      InputError);
+  EXPECT_EQ(finished, 0);
+}
+
+TEST_F(RunSweep, StopLeavesWholeCellsOnly) {
+  const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
+  Sequences sequences(sweep_, known_, {}, planned);
+  std::atomic<bool> stop = false;
+  std::size_t finished = 0;
+  run_sweep(sweep_, planned, known_, sequences, 1, stop, [&](const auto&) {
+    if (++finished == 5) stop = true;
+  });
+  EXPECT_EQ(finished, 5u);
+}
+
+TEST_F(RunSweep, AStoreKeepsTheOneBefore) {
+  run(1);
+  run(1);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "1" / "previous.sqlite"));
+  EXPECT_EQ(read_records(folder_.path() / "1" / "previous.sqlite").size(), 54u);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "1" / "results.sqlite-wal"));
+}
+
+TEST_F(RunSweep, WhatIsNotAStoreIsRefused) {
+  EXPECT_THROW(read_records(folder_.path() / "nothing"), InputError);
+  const std::filesystem::path text = folder_.path() / "text.sqlite";
+  {
+    std::ofstream(text)
+        << "this is not a database, and long enough not to be taken for an empty one";
+  }
+  EXPECT_THROW(read_records(text), InputError);
+  { std::ofstream(text, std::ios::trunc); }
+  EXPECT_THROW(read_records(text), InputError);
+}
+
+}  // namespace
+}  // namespace loopbench

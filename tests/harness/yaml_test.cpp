@@ -1,0 +1,45 @@
+#include "harness/config/yaml.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string why(const std::string& text) {
+  try {
+    parse_yaml(text, "c.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Yaml, KeepsTypesAndLines) {
+  const YamlNode root = parse_yaml("a: 1\nb: 2.5\nc: true\nd: word\ne: '7'\nf: 1e-3\ng: +4\n", "c");
+  EXPECT_EQ(root.find("a")->scalar, Param(std::int64_t{1}));
+  EXPECT_EQ(root.find("b")->scalar, Param(2.5));
+  EXPECT_EQ(root.find("c")->scalar, Param(true));
+  EXPECT_EQ(root.find("d")->scalar, Param(std::string("word")));
+  EXPECT_EQ(root.find("e")->scalar, Param(std::string("7")));
+  EXPECT_EQ(root.find("f")->scalar, Param(1e-3));
+  EXPECT_EQ(root.find("g")->scalar, Param(std::int64_t{4}));
+  EXPECT_EQ(root.find("d")->line, 4u);
+  EXPECT_EQ(root.find("z"), nullptr);
+}
+
+TEST(Yaml, RefusesWhatWouldBeLostSilently) {
+  EXPECT_EQ(why("a: 1\nb: 2\na: 3\n"), "c.yaml:3: 'a' is given twice");
+  EXPECT_EQ(why(""), "c.yaml: is empty, expected a map of settings");
+  EXPECT_EQ(why("a: 1\n---\nb: 2\n"), "c.yaml: holds more than one YAML document");
+  EXPECT_EQ(why("a: 1\n[x]: 2\n"), "c.yaml:2: a key must be a word");
+}
+
+TEST(Yaml, TellsTheLineOfBrokenSyntax) {
+  const std::string text = why("a: 1\nb: [1, 2\nc: 3\n");
+  EXPECT_TRUE(text.starts_with("c.yaml:3: not valid YAML")) << text;
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,95 @@
+/// What the metric tests share: files, made-up trajectories, finding a score.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "datasets/core/se3.hpp"
+#include "datasets/core/trajectory.hpp"
+#include "metrics/metric.hpp"
+
+namespace loopbench::test {
+
+/// TUM text, quaternions normalised at loading as every original tool does.
+inline Trajectory read_tum(const std::string& name) {
+  std::ifstream file(std::string(LOOPBENCH_TEST_DATA) + "/" + name);
+  if (!file) throw std::runtime_error("cannot open " + name);
+  Trajectory out;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream numbers(line);
+    StampedPose pose;
+    auto& [rotation, translation] = pose.world_from_body;
+    numbers >> pose.stamp >> translation.x() >> translation.y() >> translation.z() >>
+        rotation.x() >> rotation.y() >> rotation.z() >> rotation.w();
+    if (!numbers) throw std::runtime_error(name + ": bad line " + line);
+    rotation.normalize();
+    out.push_back(pose);
+  }
+  return out;
+}
+
+inline Vector3 random_vector(std::mt19937_64& random, double size) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  const double x = uniform(random);
+  const double y = uniform(random);
+  return {x, y, uniform(random)};
+}
+
+inline Pose random_pose(std::mt19937_64& random, double metres, double radians) {
+  return {exp_so3(random_vector(random, radians)), random_vector(random, metres)};
+}
+
+/// A walk of `size` poses, 0.1 s apart.
+inline Trajectory random_walk(std::mt19937_64& random, std::size_t size) {
+  Trajectory out;
+  Pose pose = random_pose(random, 5.0, 1.0);
+  for (std::size_t i = 0; i < size; ++i) {
+    out.push_back({0.1 * static_cast<double>(i), pose});
+    pose = normalized(pose * random_pose(random, 0.3, 0.2));
+  }
+  return out;
+}
+
+/// Every pose shaken on its own.
+inline Trajectory noisy(std::mt19937_64& random, Trajectory poses, double metres, double radians) {
+  for (auto& [stamp, pose] : poses) pose = normalized(pose * random_pose(random, metres, radians));
+  return poses;
+}
+
+inline Trajectory moved_by(const Pose& there_from_here, double scale, Trajectory poses) {
+  for (auto& [stamp, pose] : poses) {
+    pose.translation *= scale;
+    pose = normalized(there_from_here * pose);
+  }
+  return poses;
+}
+
+inline Statistics find(const std::vector<Score>& scores,
+                       const std::string& relation,
+                       const std::string& axis) {
+  for (const Score& score : scores) {
+    if (score.relation == relation && score.axis == axis) return score.statistics;
+  }
+  throw std::runtime_error("no score " + relation + " " + axis);
+}
+
+/// The text of the exception `action` must throw.
+template <class Error, class Action>
+std::string why(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
+}  // namespace loopbench::test
