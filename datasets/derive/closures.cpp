@@ -1,0 +1,80 @@
+#include "datasets/derive/closures.hpp"
+
+#include <algorithm>
+#include <random>
+#include <tuple>
+
+#include "datasets/derive/odometry.hpp"
+
+namespace loopbench {
+namespace {
+
+struct Seen {
+  Trajectory run;                     ///< the run at those keyframe stamps where it is known
+  std::vector<std::size_t> keyframe;  ///< which keyframe each is
+};
+
+Seen at_keyframes(const Trajectory& keyframes, const Trajectory& run, const Reach& reach) {
+  const auto poses = poses_at(run, stamps(keyframes), reach);
+  Seen seen;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (!poses[i]) continue;
+    seen.run.push_back({keyframes[i].stamp, *poses[i]});
+    seen.keyframe.push_back(i);
+  }
+  return seen;
+}
+
+}  // namespace
+
+std::vector<Edge> closures_in_run(const Trajectory& keyframes,
+                                  const Trajectory& run,
+                                  const RevisitRule& rule,
+                                  std::size_t max,
+                                  const Reach& reach,
+                                  const ClosureNoise& noise) {
+  const Seen seen = at_keyframes(keyframes, run, reach);
+  const std::vector<Revisit> revisits = find_revisits(seen.run, rule);
+  const Matrix6 information =
+      isotropic_information(noise.sigma_t * noise.sigma_t, noise.sigma_r * noise.sigma_r);
+  std::vector<Edge> closures;
+  for (const std::size_t k : spread(revisits, stamps(seen.run), max == 0 ? revisits.size() : max)) {
+    const auto [from, to] = revisits[k];
+    const Pose from_from_to =
+        seen.run[from].world_from_body.inverse() * seen.run[to].world_from_body;
+    closures.push_back(
+        {seen.keyframe[from], seen.keyframe[to], normalized(from_from_to), information});
+  }
+  return closures;
+}
+
+std::vector<Edge> with_noise(std::vector<Edge> edges,
+                             const ClosureNoise& noise,
+                             std::int64_t seed) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  std::normal_distribution<double> normal;
+  for (Edge& edge : edges) {
+    Twist error;
+    for (double& e : error) e = normal(random);
+    error.head<3>() *= noise.sigma_t;
+    error.tail<3>() *= noise.sigma_r;
+    edge.from_from_to = normalized(edge.from_from_to * exp_se3(error));
+  }
+  return edges;
+}
+
+double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reach& reach) {
+  const Seen seen = at_keyframes(keyframes, run, reach);
+  Trajectory shared;
+  for (const std::size_t i : seen.keyframe) shared.push_back(keyframes[i]);
+  const double ours = path_length(shared);
+  return ours > 0.0 ? path_length(seen.run) / ours : 1.0;
+}
+
+void sort_closures(std::vector<Edge>& closures) {
+  std::stable_sort(closures.begin(), closures.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.to, a.from) < std::tie(b.to, b.from);
+  });
+}
+
+}  // namespace loopbench

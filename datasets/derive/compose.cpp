@@ -1,0 +1,66 @@
+#include "datasets/derive/compose.hpp"
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+
+namespace loopbench {
+namespace {
+
+Matrix6 inverse(const Matrix6& matrix) {
+  const Eigen::LLT<Matrix6> factor(matrix);
+  if (factor.info() != Eigen::Success) {
+    throw std::invalid_argument("information is not positive definite");
+  }
+  return factor.solve(Matrix6::Identity());
+}
+
+/// What joins two kept poses, its uncertainty still a covariance so that it is inverted once.
+struct Stretch {
+  Pose step;
+  double scale;
+  Matrix6 covariance;
+
+  explicit Stretch(const Edge& edge)
+      : step(edge.from_from_to), scale(edge.scale), covariance(inverse(edge.information)) {}
+
+  void append(const Edge& edge) {
+    const Matrix6 carry = adjoint(edge.from_from_to.inverse());
+    covariance = carry * covariance * carry.transpose() + inverse(edge.information);
+    step =
+        normalized(step * Pose{edge.from_from_to.rotation, scale * edge.from_from_to.translation});
+    scale *= edge.scale;
+  }
+
+  Edge edge(std::size_t from, std::size_t to) const {
+    Matrix6 information = inverse(covariance);
+    information = 0.5 * (information + information.transpose()).eval();
+    return {from, to, step, information, scale};
+  }
+};
+
+}  // namespace
+
+Edge compose(const Edge& a, const Edge& b) {
+  Stretch stretch(a);
+  stretch.append(b);
+  return stretch.edge(a.from, b.to);
+}
+
+std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::size_t>& kept) {
+  std::vector<Edge> out;
+  out.reserve(kept.size());
+  for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
+    if (kept[k + 1] == kept[k] + 1) {
+      out.push_back(chain[kept[k]]);
+      out.back().from = k;
+      out.back().to = k + 1;
+      continue;
+    }
+    Stretch stretch(chain[kept[k]]);
+    for (std::size_t i = kept[k] + 1; i < kept[k + 1]; ++i) stretch.append(chain[i]);
+    out.push_back(stretch.edge(k, k + 1));
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,111 @@
+#include "datasets/derive/graph_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+
+#include "datasets/formats/chain.hpp"
+#include "datasets/formats/columns.hpp"
+#include "datasets/revisits.hpp"
+
+namespace loopbench {
+
+GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
+  const std::size_t size = graph.ids.size();
+  GraphParts parts;
+  parts.odometry.resize(size > 0 ? size - 1 : 0);
+  std::vector<bool> found(parts.odometry.size(), false);
+  for (std::size_t k = 0; k < graph.edges.size(); ++k) {
+    const Edge& edge = graph.edges[k];
+    const auto refuse = [&](const std::string& what) {
+      return input_error(file.string(), k < graph.lines.size() ? graph.lines[k] : 0, what);
+    };
+    if (edge.from == edge.to) throw refuse("the edge joins a pose to itself");
+    if (Eigen::LLT<Matrix6>(edge.information).info() != Eigen::Success) {
+      throw refuse("the information matrix is not positive definite");
+    }
+    if (edge.to == edge.from + 1 && !found[edge.from]) {
+      parts.odometry[edge.from] = edge;
+      found[edge.from] = true;
+    } else {
+      parts.closures.push_back(edge);
+    }
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i]) continue;
+    throw input_error(file.string(),
+                      0,
+                      fmt::format("found no edge between {} and {}, expected odometry between "
+                                  "consecutive poses",
+                                  graph.ids[i],
+                                  graph.ids[i + 1]));
+  }
+  return parts;
+}
+
+std::vector<double> stamps_of(const PoseGraph& graph, double period) {
+  std::vector<double> out;
+  out.reserve(graph.ids.size());
+  for (const std::int64_t id : graph.ids) out.push_back(static_cast<double>(id) * period);
+  return out;
+}
+
+Trajectory initial_poses(const PoseGraph& graph, double period) {
+  const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph) : graph.vertices;
+  const std::vector<double> stamps = stamps_of(graph, period);
+  Trajectory out(stamps.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {stamps[i], poses[i]};
+  return out;
+}
+
+void drop_placeholders(std::vector<Edge>& closures) {
+  std::erase_if(closures, [](const Edge& edge) {
+    const auto& [rotation, translation] = edge.from_from_to;
+    return translation.isZero(0.0) && rotation.vec().isZero(0.0);
+  });
+}
+
+void keep_listed(std::vector<Edge>& closures,
+                 const std::vector<std::int64_t>& ids,
+                 const std::filesystem::path& list) {
+  struct Listed {
+    std::size_t line;
+    bool found;
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, Listed> listed;
+  TextFile file(list);
+  for (Line line; file.next(line);) {
+    const std::size_t count = count_columns(file, line);
+    if (count != 2) {
+      throw file.error(line.number, fmt::format("has {} columns, expected two ids", count));
+    }
+    Columns columns(file, line);
+    const std::int64_t a = columns.integer("id");
+    const std::int64_t b = columns.integer("id");
+    listed[std::minmax(a, b)] = {line.number, false};
+  }
+  std::erase_if(closures, [&](const Edge& edge) {
+    const auto entry = listed.find({ids[edge.from], ids[edge.to]});
+    if (entry == listed.end()) return true;
+    entry->second.found = true;
+    return false;
+  });
+  for (const auto& [pair, entry] : listed) {
+    if (entry.found) continue;
+    throw file.error(entry.line,
+                     fmt::format("the graph has no closure {} {}", pair.first, pair.second));
+  }
+}
+
+void keep_spread(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max) {
+  if (max == 0) return;
+  std::vector<Revisit> loops;
+  for (const Edge& edge : closures) loops.push_back({edge.from, edge.to});
+  std::vector<Edge> kept;
+  for (const std::size_t k : spread(loops, stamps(poses), max)) kept.push_back(closures[k]);
+  closures = std::move(kept);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,26 @@
+#include "datasets/derive/odometry.hpp"
+
+namespace loopbench {
+
+Matrix6 isotropic_information(double variance_t, double variance_r) {
+  Matrix6 out = Matrix6::Zero();
+  out.diagonal().head<3>().setConstant(1.0 / variance_t);
+  out.diagonal().tail<3>().setConstant(1.0 / variance_r);
+  return out;
+}
+
+std::vector<Edge> odometry_edges(const Trajectory& keyframes, const OdometryNoise& noise) {
+  const auto square = [](double x) { return x * x; };
+  std::vector<Edge> edges;
+  edges.reserve(keyframes.size());
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    const Pose step = keyframes[i].world_from_body.inverse() * keyframes[i + 1].world_from_body;
+    const double length = step.translation.norm();
+    const double variance_t = square(noise.sigma_t) + square(noise.sigma_t_per_m) * length;
+    const double variance_r = square(noise.sigma_r) + square(noise.sigma_r_per_m) * length;
+    edges.push_back({i, i + 1, normalized(step), isotropic_information(variance_t, variance_r)});
+  }
+  return edges;
+}
+
+}  // namespace loopbench

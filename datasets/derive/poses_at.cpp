@@ -1,0 +1,51 @@
+#include "datasets/derive/poses_at.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/core/interpolate.hpp"
+#include "datasets/core/knot_span.hpp"
+
+namespace loopbench {
+
+std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, double max_diff) {
+  const auto after = std::lower_bound(
+      run.begin(), run.end(), time, [](const StampedPose& p, double t) { return p.stamp < t; });
+  std::optional<std::size_t> best;
+  double least = max_diff;
+  const auto offer = [&](Trajectory::const_iterator pose) {
+    const double difference = std::abs(pose->stamp - time);
+    if (difference > least || (best && difference == least)) return;
+    least = difference;
+    best = static_cast<std::size_t>(pose - run.begin());
+  };
+  if (after != run.begin()) offer(after - 1);
+  if (after != run.end()) offer(after);
+  return best;
+}
+
+std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
+                                          const std::vector<double>& times,
+                                          const Reach& reach) {
+  std::vector<std::optional<Pose>> out(times.size());
+  if (run.empty()) return out;
+  const std::vector<double> knots = stamps(run);
+  KnotSpan span(knots);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double time = times[k];
+    if (run.size() > 1 && time >= knots.front() && time <= knots.back()) {
+      const std::size_t i = span.find(time);
+      const double gap = knots[i + 1] - knots[i];
+      if (gap <= reach.max_gap) {
+        out[k] = interpolate(
+            run[i].world_from_body, run[i + 1].world_from_body, (time - knots[i]) / gap);
+        continue;
+      }
+    }
+    const auto nearest = nearest_pose(run, time, reach.max_diff);
+    if (nearest) out[k] = run[*nearest].world_from_body;
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,138 @@
+#include "datasets/pose_graph_dataset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "datasets/derive/closures.hpp"
+#include "datasets/derive/compose.hpp"
+#include "datasets/derive/graph_parts.hpp"
+#include "datasets/formats/formats.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Columns are the vehicle's axes in the camera: x forward = z, y left = -x, z up = -y.
+Rotation camera_from_vehicle() {
+  Matrix3 axes;
+  axes << 0.0, -1.0, 0.0,  //
+      0.0, 0.0, -1.0,      //
+      1.0, 0.0, 0.0;
+  return Rotation(axes);
+}
+
+std::vector<std::size_t> kept_poses(std::size_t size,
+                                    std::size_t step,
+                                    const std::vector<Edge>& closures) {
+  std::vector<bool> keep(size, false);
+  for (std::size_t i = 0; i < size; i += step) keep[i] = true;
+  if (size > 0) keep.back() = true;
+  for (const Edge& edge : closures) keep[edge.from] = keep[edge.to] = true;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (keep[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// A graph's truth must name the same ids; other formats have no ids, only as many poses.
+Trajectory read_truth(const std::filesystem::path& file,
+                      const std::vector<double>& stamps,
+                      const PoseGraphOptions& o) {
+  ReadOptions how;
+  how.format = recognise(file);
+  how.period = o.period;
+  Trajectory truth = read_trajectory(file, how);
+  const auto refuse = [&](const std::string& what) { return input_error(file.string(), 0, what); };
+  if (truth.size() != stamps.size()) {
+    throw refuse(fmt::format(
+        "found {} poses, expected {}, as many as the graph", truth.size(), stamps.size()));
+  }
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (how.format == Format::g2o && truth[i].stamp != stamps[i]) {
+      throw refuse(fmt::format("its id number {} differs, expected the ids of the graph", i + 1));
+    }
+    truth[i].stamp = stamps[i];
+  }
+  if (o.truth_axes == TruthAxes::kitti_camera) {
+    const Pose camera_from_body{camera_from_vehicle(), Vector3::Zero()};
+    for (auto& [stamp, pose] : truth) {
+      pose = normalized(camera_from_body.inverse() * pose * camera_from_body);
+    }
+  }
+  return truth;
+}
+
+std::string told(const PoseGraphOptions& o, const PoseGraph& graph, std::size_t count) {
+  std::string text = "none";
+  if (o.closures == GraphClosures::edges) {
+    text =
+        fmt::format("edges of {} ({})", std::filesystem::path(o.path).filename().string(), count);
+    if (!o.true_list.empty()) text += ", only those in " + o.true_list;
+    if (o.skip_placeholders) text += ", without placeholders";
+  }
+  if (graph.similarity) text += "; Sim(3) chain: keyframes are its rigid part";
+  return text;
+}
+
+}  // namespace
+
+Problem derive_problem(const PoseGraph& graph,
+                       const PoseGraphOptions& o,
+                       const std::filesystem::path& file,
+                       const std::filesystem::path& true_list) {
+  GraphParts parts = parts_of(graph, file);
+  const Trajectory poses = initial_poses(graph, o.period);
+  std::vector<Edge>& closures = parts.closures;
+  if (o.closures == GraphClosures::none) closures.clear();
+  if (!true_list.empty()) keep_listed(closures, graph.ids, true_list);
+  if (o.skip_placeholders) drop_placeholders(closures);
+  keep_spread(closures, poses, static_cast<std::size_t>(o.closures_max));
+
+  const auto kept = kept_poses(poses.size(), static_cast<std::size_t>(o.keyframes_every), closures);
+  std::vector<std::size_t> keyframe_of(poses.size(), 0);
+  for (std::size_t k = 0; k < kept.size(); ++k) keyframe_of[kept[k]] = k;
+  for (Edge& edge : closures) {
+    edge.from = keyframe_of[edge.from];
+    edge.to = keyframe_of[edge.to];
+  }
+  sort_closures(closures);
+
+  Problem problem;
+  KeyframeSplit told_apart = split(poses, kept);
+  problem.keyframes = std::move(told_apart.keyframes);
+  problem.frames = std::move(told_apart.frames);
+  problem.odometry = bridge(parts.odometry, kept);
+  problem.closures = std::move(closures);
+  problem.planar = graph.planar;
+  return problem;
+}
+
+Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
+  if (o.path.empty()) throw OptionError("path", "path: names no file");
+  const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
+  Sequence sequence;
+  auto& inputs = sequence.provenance.inputs;
+  const auto open = [&](const std::string& path) {
+    return path.empty() ? std::filesystem::path() : inputs.emplace_back(root.find(path));
+  };
+  const std::filesystem::path file = open(o.path);
+  const PoseGraph graph = read_g2o(file);
+  sequence.problem = derive_problem(graph, o, file, open(lists ? o.true_list : ""));
+  if (!o.truth.empty()) {
+    sequence.reference = read_truth(open(o.truth), stamps_of(graph, o.period), o);
+  }
+
+  const std::filesystem::path path(o.path);
+  const std::string folder = path.parent_path().filename().string();
+  sequence.name =
+      o.name.empty() ? (folder.empty() ? "" : folder + "_") + path.stem().string() : o.name;
+  sequence.provenance.sensor = o.sensor;
+  sequence.provenance.licence = o.licence;
+  sequence.provenance.closures = told(o, graph, sequence.problem.closures.size());
+  check(sequence.problem, sequence.name);
+  check(sequence.reference, sequence.name + ": reference");
+  return sequence;
+}
+
+}  // namespace loopbench

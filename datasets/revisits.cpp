@@ -1,0 +1,115 @@
+#include "datasets/revisits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace loopbench {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t c : cell) {  // large odd multiplier: neighbours land far apart
+      hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ULL;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+};
+
+class Grid {
+ public:
+  explicit Grid(double size) : size_(size) {}
+
+  void add(const Vector3& point, std::size_t index) { cells_[cell_of(point)].push_back(index); }
+
+  /// Calls visit(index) for every point in the 27 cells about `point`.
+  template <class Visit>
+  void near(const Vector3& point, Visit visit) const {
+    const Cell centre = cell_of(point);
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          const auto found = cells_.find({centre[0] + x, centre[1] + y, centre[2] + z});
+          if (found == cells_.end()) continue;
+          for (const std::size_t index : found->second) visit(index);
+        }
+      }
+    }
+  }
+
+ private:
+  Cell cell_of(const Vector3& point) const {
+    const auto along = [&](double x) {
+      // Far beyond any trajectory; keeps the conversion defined for absurd files.
+      return static_cast<std::int64_t>(std::clamp(std::floor(x / size_), -1e18, 1e18));
+    };
+    return {along(point.x()), along(point.y()), along(point.z())};
+  }
+
+  double size_;
+  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
+};
+
+}  // namespace
+
+std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& rule) {
+  std::vector<Revisit> out;
+  Grid grid(rule.radius);
+  std::size_t old = 0;  // poses before it are old enough and in the grid
+  for (std::size_t to = 0; to < poses.size(); ++to) {
+    const Pose& here = poses[to].world_from_body;
+    for (; old < to && poses[to].stamp - poses[old].stamp >= rule.min_gap; ++old) {
+      grid.add(poses[old].world_from_body.translation, old);
+    }
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t from = to;
+    grid.near(here.translation, [&](std::size_t i) {
+      const Pose& there = poses[i].world_from_body;
+      const double distance = (there.translation - here.translation).norm();
+      if (distance > rule.radius || distance > nearest || (distance == nearest && i > from)) return;
+      if (angle_between(there.rotation, here.rotation) > rule.angle) return;
+      nearest = distance;
+      from = i;
+    });
+    if (from != to) out.push_back({from, to});
+  }
+  return out;
+}
+
+std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
+                                const std::vector<double>& stamps,
+                                std::size_t count) {
+  std::vector<std::size_t> chosen(std::min(revisits.size(), count));
+  if (chosen.size() == revisits.size()) {
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    return chosen;
+  }
+  const auto between = [&](const Revisit& a, const Revisit& b) {
+    return std::hypot(stamps[a.from] - stamps[b.from], stamps[a.to] - stamps[b.to]);
+  };
+  // How far each is from all taken so far; before the first, the length of its loop.
+  std::vector<double> merit;
+  for (const Revisit& r : revisits) merit.push_back(stamps[r.to] - stamps[r.from]);
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const auto best =
+        static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin());
+    chosen[k] = best;
+    for (std::size_t i = 0; i < revisits.size(); ++i) {
+      const double apart = between(revisits[i], revisits[best]);
+      merit[i] = k == 0 ? apart : std::min(merit[i], apart);
+    }
+    for (std::size_t i = 0; i <= k; ++i) merit[chosen[i]] = -1.0;  // equal ones are not retaken
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace loopbench

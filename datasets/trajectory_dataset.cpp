@@ -1,0 +1,153 @@
+#include "datasets/trajectory_dataset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace loopbench {
+namespace {
+
+// Drift changes a path's length by a few per cent; a monocular run's unit is arbitrary.
+constexpr double kSameScale = 1.25;
+
+RevisitRule revisit_rule(const TrajectoryOptions& o) {
+  return {o.closures_radius, o.closures_angle * std::numbers::pi / 180.0, o.closures_min_gap};
+}
+
+std::vector<Edge> in_run(const Trajectory& keyframes,
+                         const Trajectory& run,
+                         const TrajectoryOptions& o) {
+  return closures_in_run(keyframes,
+                         run,
+                         revisit_rule(o),
+                         static_cast<std::size_t>(o.closures_max),
+                         o.reach,
+                         o.closures_noise);
+}
+
+void refuse_other_scale(const Trajectory& keyframes,
+                        const TrajectoryInputs& in,
+                        const Reach& reach,
+                        const std::string& file) {
+  const double ratio = path_ratio(keyframes, in.other_run, reach);
+  if (ratio < kSameScale && ratio > 1.0 / kSameScale) return;
+  throw input_error(file,
+                    0,
+                    fmt::format("its path is {:.3g} times as long as the estimate's at the same "
+                                "stamps, expected the same scale (monocular runs have one each)",
+                                ratio));
+}
+
+std::size_t position(const std::vector<std::size_t>& kept, std::size_t pose) {
+  return static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), pose) - kept.begin());
+}
+
+std::string default_name(const std::string& estimate) {
+  const std::filesystem::path path(estimate);
+  const std::string folder = path.parent_path().filename().string();
+  return (folder.empty() ? "" : folder + "_") + path.stem().string();
+}
+
+std::string told(const TrajectoryOptions& o, std::size_t count) {
+  const auto& [sigma_t, sigma_r] = o.closures_noise;
+  switch (o.closures) {
+    case ClosureSource::none:
+      return "none";
+    case ClosureSource::file:
+      return fmt::format("file: {} ({})", o.closures_file, count);
+    case ClosureSource::reference:
+      return fmt::format(
+          "reference with noise {} m, {} rad, seed {} ({})", sigma_t, sigma_r, o.seed, count);
+    case ClosureSource::estimate:
+      return fmt::format("estimate: {} ({})", o.closures_file, count);
+  }
+  return "";
+}
+
+void require(bool holds, const std::string& option, const std::string& wanted) {
+  if (!holds) throw OptionError(option, option + ": " + wanted);
+}
+
+void check_combination(const TrajectoryOptions& o) {
+  require(!o.estimate.empty(), "estimate", "names no file");
+  const bool takes_file =
+      o.closures == ClosureSource::file || o.closures == ClosureSource::estimate;
+  require(!takes_file || !o.closures_file.empty(),
+          "closures.file",
+          "names no file, and closures.source = " + to_text(o.closures) + " needs one");
+  require(o.closures != ClosureSource::reference || !o.reference.empty(),
+          "reference",
+          "names no file, and closures.source = reference needs one");
+}
+
+}  // namespace
+
+Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
+  std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);
+  std::vector<Edge> closures;
+  if (o.closures == ClosureSource::file) {
+    closures = as_edges(in.closures, in.estimate, o.reach.max_diff, o.closures_file);
+    for (const Edge& edge : closures) kept.insert(kept.end(), {edge.from, edge.to});
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    for (Edge& edge : closures) {
+      edge.from = position(kept, edge.from);
+      edge.to = position(kept, edge.to);
+    }
+  }
+
+  Problem problem;
+  KeyframeSplit poses = split(in.estimate, kept);
+  problem.keyframes = std::move(poses.keyframes);
+  problem.frames =
+      in.frames.empty() ? std::move(poses.frames) : frames_between(problem.keyframes, in.frames);
+  problem.odometry = odometry_edges(problem.keyframes, o.odometry);
+  if (o.closures == ClosureSource::reference) {
+    closures = with_noise(in_run(problem.keyframes, in.reference, o), o.closures_noise, o.seed);
+  } else if (o.closures == ClosureSource::estimate) {
+    refuse_other_scale(problem.keyframes, in, o.reach, o.closures_file);
+    closures = in_run(problem.keyframes, in.other_run, o);
+  }
+  problem.closures = std::move(closures);
+  return problem;
+}
+
+Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
+  check_combination(o);
+  Sequence sequence;
+  const auto open = [&](const std::string& path) {
+    return sequence.provenance.inputs.emplace_back(root.find(path));
+  };
+  ReadOptions how;
+  how.period = o.period;
+  how.repeats = o.repeats;
+  if (!o.times.empty()) how.times = open(o.times);
+  const auto read = [&](const std::string& path, Format format) {
+    if (path.empty()) return Trajectory();
+    how.format = format;
+    return read_trajectory(open(path), how);
+  };
+
+  TrajectoryInputs in;
+  in.estimate = read(o.estimate, o.format);
+  in.frames = read(o.frames, o.format);
+  in.reference = read(o.reference, o.reference_format);
+  if (o.closures == ClosureSource::estimate) in.other_run = read(o.closures_file, o.format);
+  if (o.closures == ClosureSource::file) {
+    in.closures = read_closure_file(open(o.closures_file), o.closures_noise);
+  }
+
+  sequence.name = o.name.empty() ? default_name(o.estimate) : o.name;
+  sequence.problem = derive_problem(in, o);
+  sequence.reference = std::move(in.reference);
+  sequence.provenance.sensor = o.sensor;
+  sequence.provenance.licence = o.licence;
+  sequence.provenance.closures = told(o, sequence.problem.closures.size());
+  sequence.provenance.oracle_closures = o.closures == ClosureSource::reference;
+  check(sequence.problem, sequence.name);
+  check(sequence.reference, sequence.name + ": reference");
+  return sequence;
+}
+
+}  // namespace loopbench

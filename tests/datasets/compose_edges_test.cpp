@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include "datasets/derive/compose.hpp"
+#include "datasets/derive/odometry.hpp"
+#include "datasets/formats/chain.hpp"
+#include "random_poses.hpp"
+
+namespace loopbench {
+namespace {
+
+Matrix6 random_information(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Matrix6 root;
+  for (double& x : root.reshaped()) x = normal(random);
+  return 1e3 * (root * root.transpose() + Matrix6::Identity());
+}
+
+std::vector<Edge> random_chain(std::size_t size, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Edge> chain = odometry_edges(random_walk(size, seed, 2.0, 0.5), {});
+  for (Edge& edge : chain) edge.information = random_information(random);
+  return chain;
+}
+
+std::vector<Pose> chained(const std::vector<Edge>& edges) {
+  PoseGraph graph;
+  graph.edges = edges;
+  for (std::size_t i = 0; i <= edges.size(); ++i) {
+    graph.ids.push_back(static_cast<std::int64_t>(i));
+    if (i < edges.size()) graph.edges[i].from = i;
+    if (i < edges.size()) graph.edges[i].to = i + 1;
+  }
+  return chain(graph);
+}
+
+TEST(ComposeEdges, JoinKeptPosesAsTheChainDoes) {
+  const std::vector<Edge> edges = random_chain(40, 3);
+  const std::vector<Pose> poses = chained(edges);
+  const std::vector<std::size_t> kept = {0, 1, 7, 20, 39};
+  const std::vector<Edge> bridged = bridge(edges, kept);
+  ASSERT_EQ(bridged.size(), kept.size() - 1);
+  for (std::size_t k = 0; k < bridged.size(); ++k) {
+    EXPECT_EQ(bridged[k].from, k);
+    EXPECT_EQ(bridged[k].to, k + 1);
+    const Pose expected = poses[kept[k]].inverse() * poses[kept[k + 1]];
+    EXPECT_TRUE(is_close(bridged[k].from_from_to, expected, 1e-12, 1e-12)) << k;
+    EXPECT_TRUE(bridged[k].information.isApprox(bridged[k].information.transpose(), 0.0));
+  }
+  EXPECT_EQ(bridged[0].information, edges[0].information);
+}
+
+TEST(ComposeEdges, DoNotCareWhereTheyAreCut) {
+  const std::vector<Edge> edges = random_chain(12, 4);
+  const Edge at_once = bridge(edges, {0, 11})[0];
+  const std::vector<Edge> halves = bridge(edges, {0, 5, 11});
+  const Edge in_two = compose(halves[0], halves[1]);
+  EXPECT_TRUE(is_close(at_once.from_from_to, in_two.from_from_to, 1e-12, 1e-12));
+  EXPECT_TRUE(at_once.information.isApprox(in_two.information, 1e-9));
+}
+
+TEST(ComposeEdges, AddVariancesOnAStraightLine) {
+  // Two steps of 1 m along x: the first one's yaw error swings the end sideways by its lever.
+  Edge step{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
+  const Matrix6 covariance = compose(step, step).information.inverse();
+  EXPECT_NEAR(covariance(0, 0), 0.02, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 0.02 + 0.04, 1e-12);
+  EXPECT_NEAR(covariance(5, 5), 0.08, 1e-12);
+  EXPECT_NEAR(covariance(1, 5), 0.04, 1e-12);
+  EXPECT_NEAR(covariance(2, 4), -0.04, 1e-12);
+}
+
+TEST(ComposeEdges, CovarianceAgreesWithSampling) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const std::vector<Edge> edges = random_chain(4, 6);
+  const Edge whole = bridge(edges, {0, 3})[0];
+  const int samples = 40000;
+  Matrix6 sampled = Matrix6::Zero();
+  for (int s = 0; s < samples; ++s) {
+    Pose end;
+    for (const Edge& edge : edges) {
+      Twist error;
+      for (double& e : error) e = normal(random);
+      const Matrix6 root = Matrix6(edge.information.inverse()).llt().matrixL();
+      end = end * edge.from_from_to * exp_se3(root * error);
+    }
+    const Twist error = log_se3(whole.from_from_to.inverse() * end);
+    sampled += error * error.transpose() / samples;
+  }
+  const Matrix6 root = Matrix6(whole.information).llt().matrixL();
+  const Matrix6 whitened = root.transpose() * sampled * root;
+  // Standard error of an entry is 1/sqrt(samples) = 0.005; second-order terms are of that size.
+  EXPECT_LT((whitened - Matrix6::Identity()).cwiseAbs().maxCoeff(), 0.04);
+}
+
+TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
+  Edge doubling{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, Matrix6::Identity(), 2.0};
+  const std::vector<Pose> poses = chained({doubling, doubling, doubling});
+  EXPECT_DOUBLE_EQ(poses[3].translation.x(), 1.0 + 2.0 + 4.0);
+  const Edge whole = bridge({doubling, doubling, doubling}, {0, 3})[0];
+  EXPECT_DOUBLE_EQ(whole.from_from_to.translation.x(), 7.0);
+  EXPECT_DOUBLE_EQ(whole.scale, 8.0);
+}
+
+TEST(ComposeEdges, RefuseAnInformationWithoutInverse) {
+  Edge blind;
+  blind.to = 1;
+  blind.information(3, 3) = 0.0;
+  EXPECT_THROW(compose(blind, blind), std::invalid_argument);
+}
+
+TEST(OdometryEdges, StateTheirModel) {
+  const Trajectory poses = on_a_line({0.0, 4.0, 4.0});
+  const std::vector<Edge> edges = odometry_edges(poses, {0.3, 0.1, 0.2, 0.05});
+  ASSERT_EQ(edges.size(), 2u);
+  EXPECT_DOUBLE_EQ(edges[0].from_from_to.translation.x(), 4.0);
+  EXPECT_NEAR(1.0 / edges[0].information(0, 0), 0.09 + 0.04 * 4.0, 1e-12);
+  EXPECT_NEAR(1.0 / edges[0].information(5, 5), 0.01 + 0.0025 * 4.0, 1e-12);
+  EXPECT_NEAR(1.0 / edges[1].information(2, 2), 0.09, 1e-12);
+  EXPECT_TRUE(odometry_edges({}, {}).empty());
+}
+
+}  // namespace
+}  // namespace loopbench
