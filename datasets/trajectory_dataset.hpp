@@ -31,7 +31,7 @@ struct TrajectoryOptions {
   double period = 0.1;
   Repeats repeats = Repeats::refuse;
   KeyframeChoice keyframes;
-  OdometryNoise odometry;
+  EdgeNoise odometry;
   ClosureSource closures = ClosureSource::none;
   std::string closures_file;
   double closures_radius = 0.5;

@@ -9,7 +9,7 @@ Matrix6 isotropic_information(double variance_t, double variance_r) {
   return out;
 }
 
-std::vector<Edge> odometry_edges(const Trajectory& keyframes, const OdometryNoise& noise) {
+std::vector<Edge> odometry_edges(const Trajectory& keyframes, const EdgeNoise& noise) {
   const auto square = [](double x) { return x * x; };
   std::vector<Edge> edges;
   edges.reserve(keyframes.size());

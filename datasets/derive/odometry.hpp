@@ -11,7 +11,7 @@ namespace loopbench {
 /// every edge, the same in each direction, with variances
 ///   translation: sigma_t^2 + sigma_t_per_m^2 d,   rotation: sigma_r^2 + sigma_r_per_m^2 d,
 /// d being the edge's length [m].
-struct OdometryNoise {
+struct EdgeNoise {
   double sigma_t = 0.01;       ///< per edge [m]
   double sigma_r = 0.005;      ///< per edge [rad]
   double sigma_t_per_m = 0.0;  ///< after one metre [m]
@@ -22,6 +22,6 @@ struct OdometryNoise {
 Matrix6 isotropic_information(double variance_t, double variance_r);
 
 /// One edge per pair of consecutive keyframes: exactly their relative pose. O(n).
-std::vector<Edge> odometry_edges(const Trajectory& keyframes, const OdometryNoise& noise);
+std::vector<Edge> odometry_edges(const Trajectory& keyframes, const EdgeNoise& noise);
 
 }  // namespace loopbench

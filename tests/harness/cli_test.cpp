@@ -1,0 +1,173 @@
+/// The binary from outside: help, exit codes, messages, files it leaves.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench {
+namespace {
+
+const char* const kConfig =
+    "datasets:\n"
+    "  - {dataset: simulated, path: line, keyframes: 20, label: a}\n"
+    "  - {dataset: simulated, path: room, keyframes: 60, label: b}\n"
+    "methods: [raw, uniform, cubic_spline]\n"
+    "metrics: [ate, {metric: rpe, label: rpe}]\n";
+
+class Cli : public testing::Test {
+ protected:
+  CommandResult run(const std::string& arguments) { return loopbench_command(arguments, folder_); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Cli, HelpIsEverywhere) {
+  for (const char* command : {"", "run", "list", "table", "eval"}) {
+    const CommandResult result = run(std::string(command) + " --help");
+    EXPECT_EQ(result.exit_code, 0) << command;
+    EXPECT_NE(result.out.find("Usage:"), std::string::npos) << command;
+    EXPECT_EQ(result.err, "") << command;
+  }
+}
+
+TEST_F(Cli, TellsItsVersion) {
+  const CommandResult result = run("--version");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "loopbench " LOOPBENCH_VERSION "\n");
+}
+
+TEST_F(Cli, WrongCommandLinesExitWithTwo) {
+  for (const char* arguments :
+       {"", "rnu", "run", "run x.yaml --jobs 0", "run x.yaml --no-such-flag", "table"}) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_NE(result.err, "") << arguments;
+  }
+}
+
+TEST_F(Cli, DryRunListsCellsAndRunsNone) {
+  folder_.file("c.yaml", kConfig);
+  const CommandResult result = run("run c.yaml --dry-run");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "    0  a / raw\n    1  a / uniform\n    2  a / cubic_spline\n"
+            "    3  b / raw\n    4  b / uniform\n    5  b / cubic_spline\n"
+            "6 cells, 2 metrics each\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results"));
+}
+
+TEST_F(Cli, RunLeavesStoreAndTables) {
+  folder_.file("c.yaml", kConfig);
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");                                // no progress bar into a pipe
+  EXPECT_EQ(result.out.find('\033'), std::string::npos);    // no colour either
+  EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // a line has no loop
+  EXPECT_NE(result.out.find("gain"), std::string::npos);
+  for (const char* name : {"results.sqlite", "table.md", "table.csv", "rows.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "results/c" / name)) << name;
+  }
+  const CommandResult table =
+      run("table results/c --where metric=ate --where sequence=b --columns times,axis");
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("| raw "), std::string::npos) << table.out;
+}
+
+TEST_F(Cli, OnlyRunsWhatMatches) {
+  folder_.file("c.yaml", kConfig);
+  const CommandResult result = run("run c.yaml --only 'b / (raw|cubic)' --out here");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("2 of 2 cells done"), std::string::npos) << result.out;
+  EXPECT_EQ(run("run c.yaml --only nothing").exit_code, 2);
+}
+
+TEST_F(Cli, SameRowsOnAnyNumberOfThreads) {
+  folder_.file("c.yaml", kConfig);
+  const auto rows = [&](const std::string& jobs) {
+    EXPECT_EQ(run("run c.yaml --out r" + jobs + " --jobs " + jobs).exit_code, 0);
+    return run("table r" + jobs + " --split sequence --columns times,metric,relation,axis "
+               "--where status=ok --format csv");
+  };
+  const std::string one = rows("1").out;
+  const std::string many = rows("7").out;
+  const auto without_time = [](const std::string& text) {
+    std::string out;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin) + 1;
+      const std::string line = text.substr(begin, end - begin);
+      if (line.find("time [ms]") == std::string::npos) out += line;
+      begin = end;
+    }
+    return out;
+  };
+  EXPECT_GT(one.size(), 1000u);
+  EXPECT_EQ(without_time(one), without_time(many));
+}
+
+TEST_F(Cli, ASlipInAConfigIsToldWithItsPlace) {
+  folder_.file("c.yaml", "datasets: [simulated]\nmethods:\n  - unifrom\nmetrics: [ate]\n");
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "loopbench: c.yaml:3: no method is named 'unifrom'; did you mean 'uniform'?\n");
+  EXPECT_EQ(result.out, "");
+}
+
+TEST_F(Cli, MissingDataEndsBeforeAnythingIsWritten) {
+  folder_.file("c.yaml",
+               "datasets:\n  - {dataset: trajectory, estimate: no/such.txt}\n"
+               "methods: [raw]\nmetrics: [ate]\n");
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("no/such.txt: no such file"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results"));
+  EXPECT_EQ(run("run c.yaml --data nowhere").exit_code, 2);
+  EXPECT_EQ(run("run nowhere.yaml").exit_code, 2);
+  EXPECT_EQ(run("run .").exit_code, 2);
+  EXPECT_EQ(run("table nowhere").exit_code, 2);
+}
+
+TEST_F(Cli, AFolderThatCannotBeWrittenIsOneClearError) {
+  folder_.file("c.yaml", kConfig);
+  folder_.file("taken", "a file where a folder should be");
+  const CommandResult result = run("run c.yaml --out taken/results");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
+}
+
+TEST_F(Cli, AKilledSweepLeavesReadableCells) {
+  // Many slow cells, killed without warning as soon as a few are in the store.
+  folder_.file("c.yaml",
+               "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
+               "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
+  const std::string script = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY
+                             "' run c.yaml --out k >/dev/null 2>&1 & pid=$!; "
+                             "for i in $(seq 600); do sleep 0.05; "
+                             "n=$('" LOOPBENCH_BINARY "' table '" + folder_.path().string() +
+                             "/k' --format rows 2>/dev/null | wc -l); "
+                             "[ \"$n\" -gt 10 ] && break; done; kill -9 $pid";
+  const std::string quoted = "bash -c \"$SCRIPT\"";
+  setenv("SCRIPT", script.c_str(), 1);
+  EXPECT_EQ(std::system(quoted.c_str()), 0);
+  const CommandResult table = run("table k --format rows");
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find(",raw,"), std::string::npos);
+  EXPECT_EQ(table.out.back(), '\n');
+}
+
+TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
+  const CommandResult all = run("list");
+  EXPECT_EQ(all.exit_code, 0);
+  for (const char* name : {"simulated", "trajectory", "pose_graph", "uniform", "dm_m8", "rpe"}) {
+    EXPECT_NE(all.out.find(std::string("\n") + name), std::string::npos) << name;
+  }
+  const CommandResult json = run("list methods --json");
+  EXPECT_EQ(json.out.rfind("{\n  \"methods\": [", 0), 0u) << json.out.substr(0, 80);
+  const CommandResult slip = run("list method");
+  EXPECT_EQ(slip.exit_code, 2);
+  EXPECT_NE(slip.err.find("did you mean 'methods'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace loopbench

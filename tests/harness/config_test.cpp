@@ -1,0 +1,48 @@
+/// Every shipped config: always checked, really run where its data is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench {
+namespace {
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(LOOPBENCH_CONFIGS)) {
+    if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+class ShippedConfig : public testing::TestWithParam<std::string> {
+ protected:
+  CommandResult run(const std::string& more) {
+    return loopbench_command("run '" LOOPBENCH_CONFIGS "/" + GetParam() + ".yaml' " + more, folder_);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_P(ShippedConfig, Checks) {
+  const CommandResult result = run("--dry-run");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
+  const CommandResult result = run("--out out");
+  if (result.err.find("no such file (looked in") != std::string::npos) {
+    GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << result.err;
+  }
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find(" 0 failed;"), std::string::npos) << result.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs,
+                         ShippedConfig,
+                         testing::ValuesIn(shipped()),
+                         [](const auto& chosen) { return chosen.param; });
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,41 @@
+/// Running the real binary as a user would.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+
+struct CommandResult {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+inline std::string read_all(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.
+inline CommandResult loopbench_command(const std::string& arguments, const TemporaryFolder& folder) {
+  const std::filesystem::path out = folder.path() / ".out";
+  const std::filesystem::path err = folder.path() / ".err";
+  const std::string line = "cd '" + folder.path().string() + "' && '" LOOPBENCH_BINARY "' " +
+                           arguments + " >'" + out.string() + "' 2>'" + err.string() +
+                           "' </dev/null";
+  const int status = std::system(line.c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, read_all(out), read_all(err)};
+}
+
+}  // namespace loopbench
