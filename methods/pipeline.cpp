@@ -60,11 +60,13 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   moved.frames.reserve(problem.frames.size());
   const std::vector<double> knots = stamps(before);
   KnotSpan span(knots);
-  for (const auto& [stamp, pose] : problem.frames) {
+  for (const auto& frame : problem.frames) {
+    const double stamp = frame.stamp;
     if (knots.size() < 2 || stamp < knots.front() || stamp > knots.back()) continue;
     const std::size_t i = span.find(stamp);
     const auto carried = [&](std::size_t k) {
-      return moved.keyframes[k].world_from_body * (before[k].world_from_body.inverse() * pose);
+      return moved.keyframes[k].world_from_body *
+             (before[k].world_from_body.inverse() * frame.world_from_body);
     };
     const double u = (stamp - knots[i]) / (knots[i + 1] - knots[i]);
     moved.frames.push_back({stamp, normalized(interpolate(carried(i), carried(i + 1), u))});

@@ -26,7 +26,8 @@ struct PoseGraph {
 /// - SE2 is lifted: x, y, yaw from the file, z, roll, pitch with a positive diagonal of their own,
 ///   which a planar problem never feels;
 /// - VERTEX3, EDGE3 hold x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll), information in
-///   that order, taken as that of the twist. (sphere2500.g2o agrees with its EDGE3 original.)
+///   that order, taken as that of the twist. sphere2500.g2o agrees with its EDGE3 original; iSAM,
+///   though, writes square roots of information there, which no reader can tell;
 /// - the scale column of RST3 edges is the length unit of the first id over that of the second, the
 ///   other way round than edge.scale; vertices' scales are checked and not kept;
 /// - FIX and # lines are passed over; any other tag is refused.

@@ -22,8 +22,9 @@ struct Leg {
   int turn;       // +1 left, -1 right, 0 the lap ends here
 };
 
-// Streets on a grid of 100 m x 80 m; the lap starts and ends in the first street. Legs 5 and the
-// first half of 6 are driven a second time, leg 11 meets leg 1; legs 7 to 9 cross leg 3's corner.
+// Streets on a grid of 100 m x 80 m; the lap starts and ends in the middle of the first street.
+// The first street's far half and the next one are driven twice (legs 5 and 6 after 1 and 2), leg 8
+// passes the crossing where leg 3 ended, leg 11 runs into the start.
 constexpr Leg kRoute[] = {{160, 11, 0, +1},
                           {80, 6, 4, +1},
                           {100, 7, 0, +1},
