@@ -15,6 +15,9 @@ std::vector<MethodEntry> methods() {
       method<Uniform>("uniform_position",
                       "closing error spread evenly, positions only",
                       {.rotation = Uniform::Turn::none}),
+      method<Uniform>("uniform_open",
+                      "closing error spread evenly over what no earlier loop has closed",
+                      {.overlap = Uniform::Overlap::open}),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),

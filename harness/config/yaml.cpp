@@ -57,8 +57,8 @@ YamlNode convert(const YAML::Node& node, const std::string& file) {
         if (out.find(key) != nullptr) {
           throw input_error(file, line_of(item.first), "'" + key + "' is given twice");
         }
-        out.map.emplace_back(key, convert(item.second, file));
-        out.map.back().second.line = line_of(item.first);
+        out.map.push_back({key, convert(item.second, file)});
+        out.map.back().value.line = line_of(item.first);
       }
       break;
     case YAML::NodeType::Null:

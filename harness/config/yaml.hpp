@@ -3,12 +3,13 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "datasets/core/params.hpp"
 
 namespace loopbench {
+
+struct YamlEntry;
 
 /// A scalar, a list or a map, with the line it starts on. Maps keep their order.
 struct YamlNode {
@@ -18,15 +19,23 @@ struct YamlNode {
   std::size_t line = 0;  ///< counted from 1
   Param scalar;
   std::vector<YamlNode> list;
-  std::vector<std::pair<std::string, YamlNode>> map;
+  std::vector<YamlEntry> map;
 
-  const YamlNode* find(const std::string& key) const {
-    for (const auto& [name, value] : map) {
-      if (name == key) return &value;
-    }
-    return nullptr;
-  }
+  /// The value of a map's key, or null.
+  const YamlNode* find(const std::string& key) const;
 };
+
+struct YamlEntry {
+  std::string key;
+  YamlNode value;
+};
+
+inline const YamlNode* YamlNode::find(const std::string& key) const {
+  for (const YamlEntry& entry : map) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
 
 /// Plain scalars become bool, whole number, real number or text, in that order of trying; quoted
 /// ones stay text. Throws InputError `file:line:` on broken YAML, a key given twice, a key that is
