@@ -244,6 +244,33 @@ TEST(Dm, HairpinTripsTheGuardAndIsCounted) {
   }
 }
 
+TEST(Dm, ASurfaceThatRunsAwayIsNotUsedAndCounted) {
+  // Nearly on a circle, heights of +-1 cm: the quadric swings by more than their range between.
+  std::vector<Vector3> points;
+  for (int i = 0; i < 6; ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const double radius = 1.0 + 0.02 * sign;
+    points.push_back({radius * std::cos(0.9 * i), radius * std::sin(0.9 * i), 0.01 * sign});
+  }
+  const Problem problem = keyframes_only(through(points));
+  Dm::Options options = spatial(6);
+  options.up = manifold::Up::world_z;
+  options.segment = {10.0, 3.2};  // one segment
+  const auto highest = [&] {
+    const auto curve = smoothed(problem, options);
+    double out = 0.0;
+    for (const double t : times_over(problem.keyframes, 500)) {
+      out = std::max(out, std::abs(place(*curve, t).z()));
+    }
+    return out;
+  };
+  EXPECT_EQ(counted(problem, options, "spatial_fallbacks"), 1.0);
+  EXPECT_LT(highest(), 0.015);
+  options.height_guard = false;
+  EXPECT_EQ(counted(problem, options, "spatial_fallbacks"), 0.0);
+  EXPECT_GT(highest(), 0.02);
+}
+
 TEST(Dm, CountsWhatCannotBeFitted) {
   const Problem still = keyframes_only(through(std::vector<Vector3>(7, Vector3(1, 2, 3))));
   EXPECT_EQ(counted(still, planar(3), "windows"), 3.0);

@@ -67,7 +67,7 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
   }
   if (options_.spatial > 0) {
     const auto M = static_cast<std::size_t>(options_.spatial);
-    SpatialFit fit = fit_spatial(nodes, runs, parts.up, M);
+    SpatialFit fit = fit_spatial(nodes, runs, parts.spline, parts.up, M, options_.height_guard);
     describe(fit, report);
     parts.spatial = joined(nodes, fit.windows, std::move(fit.pieces));
   }

@@ -39,6 +39,7 @@ class Dm final : public Smoother {
     manifold::GapRule gap = {};
     manifold::Up up = manifold::Up::pca;
     manifold::Fallback fallback = manifold::Fallback::arc;
+    bool height_guard = true;  ///< surfaces that run away between nodes are not used
   };
   explicit Dm(const Options& options) : options_(options) {}
 
@@ -75,6 +76,9 @@ void fields(Dm::Options& o, Visit visit) {
         Above{0.0});
   visit("up", o.up, "z' of the fitting frames: axis of least variance, or the world's z");
   visit("fallback", o.fallback, "where nodes are no graph: parabola in arc length, or the spline");
+  visit("height_guard",
+        o.height_guard,
+        "drop a surface that leaves the spline by more than its nodes' range of heights");
 }
 
 }  // namespace loopbench

@@ -6,6 +6,7 @@
 
 #include "methods/smoothers/manifold/families/quadric.hpp"
 #include "methods/smoothers/manifold/joints.hpp"
+#include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::manifold {
 
@@ -14,11 +15,13 @@ struct Height {
   struct Surface {
     Frame frame;
     Quadric quadric;
+
+    double height(const Vector3& point) const { return quadric(frame.local(point)); }
   };
   std::optional<Surface> surface;
 
   double over(const Vector3& point, double own_height) const {
-    return surface ? surface->quadric(surface->frame.local(point)) : own_height;
+    return surface ? surface->height(point) : own_height;
   }
 };
 
@@ -29,10 +32,15 @@ struct SpatialFit {
   std::size_t fallbacks = 0;   ///< windows that keep the height they have
 };
 
-/// Heights along `up`, from the first node. O(nodes).
+/// Heights along `up`, from the first node. `guarded`: a surface that leaves the spline, on the
+/// edges it stands for or the next one, by more than the whole range of its nodes' heights says
+/// nothing about them and is not used; nodes nearly on a conic give such surfaces even truncated.
+/// O(nodes).
 SpatialFit fit_spatial(const Nodes& nodes,
                        std::span<const NodeRange> segments,
+                       const NodeSpline& spline,
                        const Vector3& up,
-                       std::size_t M);
+                       std::size_t M,
+                       bool guarded);
 
 }  // namespace loopbench::manifold
