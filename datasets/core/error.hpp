@@ -15,7 +15,9 @@ class InputError : public std::runtime_error {
 
 /// `file: what`, or `file:line: what` when line > 0.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
-  return InputError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
+  std::string text = file;
+  if (line > 0) text.append(":").append(std::to_string(line));
+  return InputError(text.append(": ").append(what));
 }
 
 }  // namespace loopbench

@@ -20,11 +20,22 @@ struct PoseGraph {
   bool similarity = false;         ///< RST3 lines; edge.scale is then meaningful
 };
 
-/// Information of EDGE_SE3:QUAT is stored for the quaternion's vector part (half angles) and is
-/// converted to twists here. Throws InputError `file:line: what`. O(size of the file).
+/// How each kind of line is read (g2o's wiki and sources; TORO; COP-SLAM):
+/// - information of :QUAT edges is stored for the quaternion's vector part (half angles) and is
+///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2;
+/// - SE2 is lifted: x, y, yaw from the file, z, roll, pitch with a positive diagonal of their own,
+///   which a planar problem never feels;
+/// - VERTEX3, EDGE3 hold x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll), information in
+///   that order, taken as that of the twist. (sphere2500.g2o agrees with its EDGE3 original.)
+/// - the scale column of RST3 edges is the length unit of the first id over that of the second, the
+///   other way round than edge.scale; vertices' scales are checked and not kept;
+/// - FIX and # lines are passed over; any other tag is refused.
+/// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file);
 
-/// Writes vertices and edges so that read_g2o returns them. SE2 lines when `planar`.
+/// Writes vertices and edges so that read_g2o returns them: SE2 lines when `planar`, RST3 when
+/// `similarity`, else SE3:QUAT. Yaw angles and scales come back to rounding, the rest to the bit.
+/// Throws InputError when the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
 
 }  // namespace loopbench

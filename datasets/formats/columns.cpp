@@ -1,0 +1,64 @@
+#include "datasets/formats/columns.hpp"
+
+#include <fmt/format.h>
+
+#include "datasets/formats/recognise.hpp"
+
+namespace loopbench {
+
+InputError Columns::refusal(const char* what, const std::string& why) const {
+  // A file may hold one endless line; a message must not.
+  constexpr std::size_t kLongest = 40;
+  const std::string_view all = peek();
+  const char* const cut = all.size() > kLongest ? "..." : "";
+  // A tag where a number was due: the whole file is another one.
+  const bool tag = index_ == 0 && guess(file_, line_) == Format::g2o;
+  return file_.error(line_.number,
+                     fmt::format("column {} ({}): '{}{}' {}{}",
+                                 index_ + 1,
+                                 what,
+                                 all.substr(0, kLongest),
+                                 cut,
+                                 why,
+                                 tag ? " (looks like g2o)" : ""));
+}
+
+void Columns::refuse_number(const char* what, std::errc error, const char* stop) const {
+  if (error == std::errc::result_out_of_range && ends_column(stop)) {
+    throw refusal(what, "is beyond the range of a double");
+  }
+  if (error == std::errc{} && ends_column(stop) && peek().substr(0, 2) != "+-") {
+    throw refusal(what, "is not finite, expected a number");
+  }
+  throw refusal(what, "is not a number");
+}
+
+void Columns::refuse_integer(const char* what, std::errc error, const char* stop) const {
+  if (error == std::errc::result_out_of_range && ends_column(stop)) {
+    throw refusal(what, "is beyond the range of a 64-bit whole number");
+  }
+  throw refusal(what, "is not a whole number");
+}
+
+std::size_t count_columns(const TextFile& file, const Line& line) {
+  Columns columns(file, line);
+  while (!columns.done()) columns.word();
+  return columns.index();
+}
+
+InputError wrong_columns(const TextFile& file,
+                         const Line& line,
+                         Format reading,
+                         const std::string& expected) {
+  const std::size_t count = count_columns(file, line);
+  std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
+                     ", expected " + expected;
+  if (line.unterminated) {
+    what += " (the file ends in the middle of this line)";
+  } else if (const auto format = guess(file, line); format && *format != reading) {
+    what += " (looks like " + to_text(*format) + ")";
+  }
+  return file.error(line.number, what);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,49 @@
+#include "datasets/formats/euroc.hpp"
+
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/recognise.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::array kNames{"px", "py", "pz", "qw", "qx", "qy", "qz"};
+
+/// Whole seconds apart from the rest, because nanoseconds since 1970 do not fit 53 bits.
+double seconds(std::int64_t nanoseconds) {
+  constexpr std::int64_t kPerSecond = 1'000'000'000;
+  return static_cast<double>(nanoseconds / kPerSecond) +
+         static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
+}
+
+}  // namespace
+
+Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
+  Trajectory out;
+  const Line first = first_line(file);
+  const std::size_t width = count_columns(file, first);
+  out.reserve(file.lines_like(first));
+  InOrder order(file, options.repeats);
+  std::array<double, kNames.size()> v;
+  for (Line line; file.next(line);) {
+    const std::size_t count = count_columns(file, line);
+    if (count < 1 + kNames.size()) {
+      throw wrong_columns(
+          file, line, Format::euroc, "8 or more: nanoseconds, px py pz, qw qx qy qz");
+    }
+    if (count != width) {
+      throw wrong_columns(file,
+                          line,
+                          Format::euroc,
+                          std::to_string(width) + " as on line " + std::to_string(first.number));
+    }
+    Columns columns(file, line);
+    const double stamp = seconds(columns.integer("nanoseconds"));
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kNames[i]);
+    const Rotation rotation = unit_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
+    if (order.accepts(stamp, line.number)) out.push_back({stamp, {rotation, {v[0], v[1], v[2]}}});
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,13 @@
+/// EuRoC state csv: `timestamp [ns], p xyz [m], q wxyz, ...`, world_from_body.
+#pragma once
+
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+
+namespace loopbench {
+
+/// Needs at least 8 columns, as many on every line; those past the attitude are not looked at.
+/// Source: EuRoC MAV dataset, ASL format. Throws InputError.
+Trajectory read_euroc(TextFile& file, const ReadOptions& options);
+
+}  // namespace loopbench

@@ -1,0 +1,58 @@
+/// Information matrices between g2o's error vectors and the twists used everywhere else.
+#pragma once
+
+#include "datasets/core/se3.hpp"
+
+namespace loopbench {
+
+/// g2o's error of a measured Z is the vector [t; q_xyz] of Delta = Z^-1 Xi^-1 Xj with q_w >= 0, so
+/// near zero q_xyz = phi / 2 and t = rho: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2.
+inline Matrix6 from_half_angles(const Matrix6& half) {
+  Matrix6 out = half;
+  out.topRightCorner<3, 3>() *= 0.5;
+  out.bottomLeftCorner<3, 3>() *= 0.5;
+  out.bottomRightCorner<3, 3>() *= 0.25;
+  return out;
+}
+
+inline Matrix6 to_half_angles(const Matrix6& twist_information) {
+  Matrix6 out = twist_information;
+  out.topRightCorner<3, 3>() *= 2.0;
+  out.bottomLeftCorner<3, 3>() *= 2.0;
+  out.bottomRightCorner<3, 3>() *= 4.0;
+  return out;
+}
+
+/// Where x, y and yaw stand in a twist.
+inline constexpr int kPlanarAxes[] = {0, 1, 5};
+
+/// (x, y, yaw) into a twist. Out of the plane: z as sure as x and y on average, roll and pitch as
+/// sure as yaw. Any positive numbers would do: planar poses and measurements leave z, roll and
+/// pitch residuals exactly zero, and the adjoint of a planar motion never mixes them with the rest.
+inline Matrix6 lift_planar(const Matrix3& planar) {
+  Matrix6 out = Matrix6::Zero();
+  out(2, 2) = 0.5 * (planar(0, 0) + planar(1, 1));
+  out(3, 3) = out(4, 4) = planar(2, 2);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out(kPlanarAxes[i], kPlanarAxes[j]) = planar(i, j);
+  }
+  return out;
+}
+
+inline Matrix3 in_plane(const Matrix6& lifted) {
+  Matrix3 out;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out(i, j) = lifted(kPlanarAxes[i], kPlanarAxes[j]);
+  }
+  return out;
+}
+
+/// Information of the inverse measurement. (Z exp(e))^-1 = Z^-1 exp(-Ad(Z) e), so with
+/// e = -Ad(Z^-1) e' the quadratic form stays the same number.
+inline Matrix6 information_of_inverse(const Pose& a_from_b, const Matrix6& information) {
+  const Matrix6 A = adjoint(a_from_b.inverse());
+  const Matrix6 out = A.transpose() * information * A;
+  return 0.5 * (out + out.transpose());
+}
+
+}  // namespace loopbench

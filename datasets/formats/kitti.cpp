@@ -1,0 +1,96 @@
+#include "datasets/formats/kitti.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/recognise.hpp"
+#include "datasets/formats/text_writer.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::array kNames{
+    "r11", "r12", "r13", "tx", "r21", "r22", "r23", "ty", "r31", "r32", "r33", "tz"};
+using Row = std::array<double, kNames.size()>;
+
+Rotation rotation_of(const TextFile& file, std::size_t line, const Row& v) {
+  constexpr double kTolerance = 1e-3;
+  Matrix3 R;
+  R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
+  const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= kTolerance)) {
+    throw file.error(
+        line, fmt::format("rotation is off orthonormal by {:.3g}, expected at most 0.001", off));
+  }
+  if (R.determinant() < 0.0) {
+    throw file.error(line, "rotation has determinant -1: a reflection, expected a rotation");
+  }
+  return Rotation(R).normalized();
+}
+
+}  // namespace
+
+std::vector<double> read_times(const std::filesystem::path& path) {
+  TextFile file(path);
+  first_line(file);
+  std::vector<double> out;
+  InOrder order(file, Repeats::refuse);
+  for (Line line; file.next(line);) {
+    Columns columns(file, line);
+    out.push_back(columns.number("time"));
+    if (!columns.done()) throw wrong_columns(file, line, Format::automatic, "1: a time in seconds");
+    order.accepts(out.back(), line.number);
+  }
+  return out;
+}
+
+Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
+  Trajectory out;
+  out.reserve(file.lines_like(first_line(file)));
+  Row v;
+  for (Line line; file.next(line);) {
+    Columns columns(file, line);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (columns.done())
+        throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
+      v[i] = columns.number(kNames[i]);
+    }
+    if (!columns.done())
+      throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
+    const Pose pose{rotation_of(file, line.number, v), {v[3], v[7], v[11]}};
+    out.push_back({static_cast<double>(out.size()) * options.period, pose});
+  }
+  if (!options.times) return out;
+  const std::vector<double> times = read_times(*options.times);
+  if (times.size() != out.size()) {
+    throw file.error(0,
+                     "has " + std::to_string(out.size()) + " poses, but " +
+                         options.times->string() + " has " + std::to_string(times.size()) +
+                         " times, expected as many");
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = times[i];
+  return out;
+}
+
+void write_kitti(const std::filesystem::path& file,
+                 const Trajectory& trajectory,
+                 const std::optional<std::filesystem::path>& times) {
+  check(trajectory, file.string());
+  TextWriter poses, stamps;
+  for (const auto& [stamp, pose] : trajectory) {
+    const Matrix3 R = pose.rotation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) poses.number(R(i, j));
+      poses.number(pose.translation[i]);
+    }
+    poses.end_line();
+    stamps.row({stamp});
+  }
+  poses.save(file);
+  if (times) stamps.save(*times);
+}
+
+}  // namespace loopbench

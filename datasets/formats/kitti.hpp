@@ -1,0 +1,17 @@
+/// KITTI odometry poses: the upper 3 x 4 of world_from_camera, row by row, 12 columns.
+#pragma once
+
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+
+namespace loopbench {
+
+/// Stamps come from options.times, else options.period apart from 0. Rotations must be orthonormal
+/// within 1e-3 and become the unit quaternion nearest to them. Source: KITTI odometry devkit.
+/// Throws InputError, also when poses and times differ in number.
+Trajectory read_kitti(TextFile& file, const ReadOptions& options);
+
+/// Strictly increasing seconds, one a line. Throws InputError.
+std::vector<double> read_times(const std::filesystem::path& file);
+
+}  // namespace loopbench

@@ -1,0 +1,39 @@
+/// Rules that hold for every trajectory format: unit attitudes and increasing stamps.
+#pragma once
+
+#include "datasets/core/trajectory.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+
+namespace loopbench {
+
+/// The quaternion as a unit one. Throws InputError when it is zero, or further than 1e-2 from unit
+/// length: printed digits explain less, and another column order or format explains more.
+Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given);
+
+/// Keeps stamps in strictly increasing order of stamps, or says which two lines break that.
+class InOrder {
+ public:
+  InOrder(const TextFile& file, Repeats repeats) : file_(file), repeats_(repeats) {}
+
+  /// False when this stamp repeats the last one and repeats are dropped.
+  bool accepts(double stamp, std::size_t line) {
+    if (last_line_ != 0 && !(stamp > last_stamp_)) {
+      refuse_or_drop(stamp, line);
+      return false;
+    }
+    last_stamp_ = stamp;
+    last_line_ = line;
+    return true;
+  }
+
+ private:
+  void refuse_or_drop(double stamp, std::size_t line) const;
+
+  const TextFile& file_;
+  Repeats repeats_;
+  double last_stamp_ = 0.0;
+  std::size_t last_line_ = 0;
+};
+
+}  // namespace loopbench

@@ -1,0 +1,48 @@
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/chain.hpp"
+#include "datasets/formats/euroc.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "datasets/formats/kitti.hpp"
+#include "datasets/formats/recognise.hpp"
+#include "datasets/formats/tum.hpp"
+
+namespace loopbench {
+namespace {
+
+Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double period) {
+  const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph, name) : graph.vertices;
+  Trajectory out;
+  out.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    out.push_back({static_cast<double>(graph.ids[i]) * period, poses[i]});
+  }
+  return out;
+}
+
+}  // namespace
+
+Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
+  if (!Above{0.0}.holds(options.period)) {
+    throw OptionError("period", "period = " + to_text(options.period) + " breaks period > 0");
+  }
+  TextFile file(path);
+  const Format format = options.format == Format::automatic ? recognise(file) : options.format;
+  if (options.times && format != Format::kitti) {
+    throw file.error(
+        0, "is " + to_text(format) + ", whose stamps are its own, expected no times file");
+  }
+  switch (format) {
+    case Format::kitti:
+      return read_kitti(file, options);
+    case Format::euroc:
+      return read_euroc(file, options);
+    case Format::g2o:
+      return trajectory_of(read_g2o(path), file.name(), options.period);
+    case Format::tum:
+    case Format::automatic:
+      break;
+  }
+  return read_tum(file, options);
+}
+
+}  // namespace loopbench

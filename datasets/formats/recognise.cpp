@@ -1,0 +1,61 @@
+#include "datasets/formats/recognise.hpp"
+
+#include <algorithm>
+
+#include "datasets/formats/columns.hpp"
+
+namespace loopbench {
+namespace {
+
+bool is_tag(std::string_view word) {
+  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
+}
+
+/// EuRoC's clock counts nanoseconds since 1970: 16 digits or more and no point.
+bool is_nanoseconds(std::string_view word) {
+  constexpr std::size_t kFewestDigits = 16;
+  return word.size() >= kFewestDigits &&
+         std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+}  // namespace
+
+std::optional<Format> guess(const TextFile& file, const Line& line) {
+  const std::string_view first = Columns(file, line).word();
+  if (is_tag(first)) return Format::g2o;
+  const std::size_t count = count_columns(file, line);
+  if (is_nanoseconds(first) && count >= 8) return Format::euroc;
+  if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
+  if (count == 12) return Format::kitti;
+  if (count == 8) return Format::tum;
+  return std::nullopt;
+}
+
+Line first_line(TextFile& file) {
+  Line line;
+  file.rewind();
+  if (!file.next(line)) throw file.error(0, "holds no data, only comments and blank lines");
+  file.rewind();
+  return line;
+}
+
+Format recognise(TextFile& file) {
+  const Line line = first_line(file);
+  if (const auto format = guess(file, line)) return *format;
+  constexpr std::size_t kShown = 40;
+  const std::size_t count = count_columns(file, line);
+  std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
+                     " and starts '" + std::string(line.text.substr(0, kShown)) + "'";
+  if (count == 4) what += " (stamp x y z? positions without attitude are not supported)";
+  throw file.error(line.number,
+                   what +
+                       ", expected tum (8 columns), kitti (12 columns), euroc (whole nanoseconds "
+                       "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
+}
+
+Format recognise(const std::filesystem::path& file) {
+  TextFile text(file);
+  return recognise(text);
+}
+
+}  // namespace loopbench

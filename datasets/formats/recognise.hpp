@@ -1,0 +1,22 @@
+/// Which format a line of data shows.
+#pragma once
+
+#include <optional>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+
+namespace loopbench {
+
+/// By its column count and first word: g2o tags, 12 numbers, nanoseconds first, 8 numbers.
+std::optional<Format> guess(const TextFile& file, const Line& line);
+
+/// The format of the first line of data; leaves the file rewound. Throws InputError when the line
+/// shows none, saying what it looks like and what is known.
+Format recognise(TextFile& file);
+
+/// Refuses a file without a line of data.
+Line first_line(TextFile& file);
+
+}  // namespace loopbench

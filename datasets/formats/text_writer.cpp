@@ -1,0 +1,65 @@
+#include "datasets/formats/text_writer.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+
+void TextWriter::separate() {
+  if (!text_.empty() && text_.back() != '\n') text_ += ' ';
+}
+
+void TextWriter::comment(std::string_view text) {
+  while (true) {
+    const std::size_t end = text.find('\n');
+    text_.append("# ").append(text.substr(0, end)).push_back('\n');
+    if (end == std::string_view::npos) return;
+    text.remove_prefix(end + 1);
+  }
+}
+
+TextWriter& TextWriter::word(std::string_view text) {
+  separate();
+  text_ += text;
+  return *this;
+}
+
+TextWriter& TextWriter::number(double value) {
+  separate();
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text_.append(digits.data(), end);
+  return *this;
+}
+
+TextWriter& TextWriter::integer(std::int64_t value) {
+  separate();
+  text_ += std::to_string(value);
+  return *this;
+}
+
+void TextWriter::end_line() { text_ += '\n'; }
+
+void TextWriter::row(std::initializer_list<double> values) {
+  for (const double value : values) number(value);
+  end_line();
+}
+
+void TextWriter::save(const std::filesystem::path& file) const {
+  const std::string name = file.string();
+  const auto refuse = [&] {
+    return input_error(name, 0, std::string("cannot be written: ") + std::strerror(errno));
+  };
+  std::FILE* const handle = std::fopen(name.c_str(), "wb");
+  if (handle == nullptr) throw refuse();
+  const bool written = std::fwrite(text_.data(), 1, text_.size(), handle) == text_.size();
+  // A full disk may show only when the last buffer goes out.
+  if (std::fclose(handle) != 0 || !written) throw refuse();
+}
+
+}  // namespace loopbench

@@ -1,0 +1,56 @@
+#include "datasets/formats/tum.hpp"
+
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/recognise.hpp"
+#include "datasets/formats/text_writer.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::array kNames{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+
+InputError wrong_row(const TextFile& file, const Line& line) {
+  if (count_columns(file, line) == 4 && !line.unterminated) {
+    return file.error(line.number,
+                      "has 4 columns (stamp x y z?): positions without attitude are not supported, "
+                      "expected 8: stamp tx ty tz qx qy qz qw");
+  }
+  return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
+}
+
+}  // namespace
+
+Trajectory read_tum(TextFile& file, const ReadOptions& options) {
+  Trajectory out;
+  out.reserve(file.lines_like(first_line(file)));
+  InOrder order(file, options.repeats);
+  std::array<double, kNames.size()> v;
+  for (Line line; file.next(line);) {
+    Columns columns(file, line);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (columns.done()) throw wrong_row(file, line);
+      v[i] = columns.number(kNames[i]);
+    }
+    if (!columns.done()) throw wrong_row(file, line);
+    const Rotation rotation = unit_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
+    if (order.accepts(v[0], line.number)) out.push_back({v[0], {rotation, {v[1], v[2], v[3]}}});
+  }
+  return out;
+}
+
+void write_tum(const std::filesystem::path& file,
+               const Trajectory& trajectory,
+               const std::vector<std::string>& comments) {
+  check(trajectory, file.string());
+  TextWriter out;
+  for (const std::string& comment : comments) out.comment(comment);
+  for (const auto& [stamp, pose] : trajectory) {
+    const Vector3& t = pose.translation;
+    const Rotation& q = pose.rotation;
+    out.row({stamp, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
+  }
+  out.save(file);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,117 @@
+/// Every file in tests/data/bad/ is refused with the words its line of the manifest promises.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "datasets/core/params.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "tests/datasets/scratch.hpp"
+
+namespace loopbench {
+namespace {
+
+struct Case {
+  std::string file, reader, message;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> out;
+  std::ifstream manifest(sample("bad/manifest.txt"));
+  for (std::string line; std::getline(manifest, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream columns(line);
+    Case one;
+    std::getline(columns, one.file, '\t');
+    std::getline(columns, one.reader, '\t');
+    std::getline(columns, one.message);
+    out.push_back(one);
+  }
+  return out;
+}
+
+TEST(BadFiles, AreRefusedInTheWordsOfTheManifest) {
+  for (const Case& one : cases()) {
+    const auto file = sample("bad/" + one.file);
+    const std::string said = refusal([&] {
+      if (one.reader == "g2o") {
+        read_g2o(file);
+      } else {
+        read_trajectory(file);
+      }
+    });
+    EXPECT_EQ(said, file.string() + one.message) << one.file;
+  }
+}
+
+TEST(BadFiles, AreManyAndEachIsInTheManifest) {
+  std::set<std::string> listed{
+      "manifest.txt", "times_two.txt", "times_unsorted.txt", "times_two_columns.txt"};
+  for (const Case& one : cases()) listed.insert(one.file);
+  EXPECT_GE(cases().size(), 50u);
+  for (const auto& entry : std::filesystem::directory_iterator(sample("bad"))) {
+    EXPECT_EQ(listed.count(entry.path().filename().string()), 1u) << entry.path();
+  }
+}
+
+TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
+  const auto missing = sample("nowhere.txt");
+  EXPECT_EQ(refusal([&] { read_trajectory(missing); }), missing.string() + ": no such file");
+  EXPECT_EQ(refusal([&] { read_g2o(missing); }), missing.string() + ": no such file");
+  const auto folder = sample("bad");
+  EXPECT_EQ(refusal([&] { recognise(folder); }),
+            folder.string() + ": is a directory, expected a text file");
+}
+
+TEST(BadFiles, TimesMustMatchThePoses) {
+  const auto poses = sample("good/kitti.txt");
+  const auto refuse = [&](const std::string& name) {
+    ReadOptions options;
+    options.times = sample("bad/" + name);
+    return refusal([&] { read_trajectory(poses, options); });
+  };
+  EXPECT_EQ(refuse("times_two.txt"),
+            poses.string() + ": has 3 poses, but " + sample("bad/times_two.txt").string() +
+                " has 2 times, expected as many");
+  EXPECT_EQ(refuse("times_unsorted.txt"),
+            sample("bad/times_unsorted.txt").string() +
+                ":3: stamp 0.1 is before stamp 0.2 on line 2, expected increasing stamps");
+  EXPECT_EQ(refuse("times_two_columns.txt"),
+            sample("bad/times_two_columns.txt").string() +
+                ":1: has 2 columns, expected 1: a time in seconds");
+  EXPECT_EQ(refuse("nowhere.txt"), sample("bad/nowhere.txt").string() + ": no such file");
+}
+
+TEST(BadFiles, AFormatGivenByHandIsHeldTo) {
+  const auto refuse = [&](const std::string& name, Format format) {
+    ReadOptions options;
+    options.format = format;
+    const std::string path = sample("good/" + name).string();
+    const std::string said = refusal([&] { read_trajectory(path, options); });
+    return said.starts_with(path) ? said.substr(path.size()) : said;
+  };
+  EXPECT_EQ(refuse("kitti.txt", Format::tum),
+            ":1: has 12 columns, expected 8: stamp tx ty tz qx qy qz qw (looks like kitti)");
+  EXPECT_EQ(refuse("tum.txt", Format::kitti),
+            ":2: has 8 columns, expected 12: a 3 x 4 pose row by row (looks like tum)");
+  EXPECT_EQ(refuse("se2.g2o", Format::tum),
+            ":2: column 1 (stamp): 'VERTEX_SE2' is not a number (looks like g2o)");
+  EXPECT_EQ(refuse("euroc.csv", Format::tum),
+            ":2: has 9 columns, expected 8: stamp tx ty tz qx qy qz qw (looks like euroc)");
+  EXPECT_EQ(refuse("tum.txt", Format::euroc),
+            ":2: column 1 (nanoseconds): '1.5' is not a whole number");
+}
+
+TEST(BadFiles, TimesBesideAFormatWithStampsAreRefused) {
+  ReadOptions options;
+  options.times = sample("good/kitti_times.txt");
+  const auto file = sample("good/tum.txt");
+  EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
+            file.string() + ": is tum, whose stamps are its own, expected no times file");
+  options = {};
+  options.period = 0.0;
+  EXPECT_THROW(read_trajectory(file, options), OptionError);
+}
+
+}  // namespace
+}  // namespace loopbench

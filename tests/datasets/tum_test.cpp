@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "datasets/formats/formats.hpp"
+#include "tests/datasets/scratch.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Poses whose digits are as awkward as doubles get.
+Trajectory wild_trajectory(std::size_t count) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::uniform_int_distribution<int> exponent(-30, 30);
+  Trajectory out;
+  double stamp = 1305031910.765238;
+  for (std::size_t i = 0; i < count; ++i) {
+    stamp += 0.03 + 0.01 * uniform(random);
+    const auto wild = [&] { return std::ldexp(uniform(random), exponent(random)); };
+    const Rotation q(uniform(random), uniform(random), uniform(random), uniform(random));
+    out.push_back({stamp, {q.normalized(), {wild(), wild(), wild()}}});
+  }
+  return out;
+}
+
+bool same_bits(const Trajectory& a, const Trajectory& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](auto& x, auto& y) {
+           return x.stamp == y.stamp &&
+                  x.world_from_body.translation == y.world_from_body.translation &&
+                  x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
+         });
+}
+
+TEST(Tum, ReadsStampPositionQuaternion) {
+  const Trajectory poses = read_trajectory(sample("good/tum.txt"));
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[0].stamp, 1.5);
+  EXPECT_EQ(poses[0].world_from_body.translation, Vector3(1, 2, 3));
+  EXPECT_EQ(poses[1].world_from_body.translation, Vector3(4, 5, -6));
+  EXPECT_TRUE((poses[1].world_from_body.rotation * Vector3::UnitX()).isApprox(Vector3::UnitY()));
+}
+
+TEST(Tum, NormalisesWhatPrintedDigitsLeave) {
+  const Trajectory poses = read_trajectory(sample("good/tum.txt"));
+  EXPECT_EQ(poses[2].world_from_body.rotation.w(), 1.0);
+  check(poses, "good");
+}
+
+TEST(Tum, WritingAndReadingKeepsEveryBit) {
+  const Scratch scratch;
+  const Trajectory poses = wild_trajectory(2000);
+  write_tum(scratch.path("a.txt"), poses);
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.path("a.txt")), poses));
+}
+
+TEST(Tum, CommentsStandOnTopAndAreSkipped) {
+  const Scratch scratch;
+  const Trajectory poses{{0.5, {}}};
+  write_tum(scratch.path("a.txt"), poses, {"method: raw", "two\nlines"});
+  EXPECT_EQ(content(scratch.path("a.txt")), "# method: raw\n# two\n# lines\n0.5 0 0 0 0 0 0 1\n");
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.path("a.txt")), poses));
+}
+
+TEST(Tum, WindowsLineEndsAndByteOrderMarkChangeNothing) {
+  const Scratch scratch;
+  const std::string lf = content(sample("good/tum.txt"));
+  std::string crlf;
+  for (const char c : lf) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const Trajectory plain = read_trajectory(sample("good/tum.txt"));
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.file("crlf.txt", crlf)), plain));
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.file("bom.txt", "\xEF\xBB\xBF" + lf)), plain));
+  const std::string bare = lf.substr(0, lf.size() - 1);
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.file("no_newline.txt", bare)), plain));
+}
+
+TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
+  const Scratch scratch;
+  const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 9 0 0 0 0 0 1\n2 5 0 0 0 0 0 1\n");
+  ReadOptions options;
+  options.repeats = Repeats::keep_first;
+  const Trajectory poses = read_trajectory(file, options);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].world_from_body.translation.x(), 0.0);
+  EXPECT_EQ(poses[1].world_from_body.translation.x(), 5.0);
+}
+
+TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
+  const Scratch scratch;
+  const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n");
+  ReadOptions options;
+  options.repeats = Repeats::keep_first;
+  EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
+            file.string() +
+                ":3: stamp 0.0 is before stamp 1.0 on line 1, expected increasing "
+                "stamps");
+}
+
+TEST(Tum, BrokenTrajectoriesAndPathsAreNotWritten) {
+  const Scratch scratch;
+  const auto file = scratch.path("a.txt");
+  EXPECT_EQ(refusal([&] {
+              write_tum(file, {{1.0, {}}, {1.0, {}}});
+            }),
+            file.string() + ": pose 1: stamp does not increase");
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const auto nowhere = scratch.path("no/such/folder.txt");
+  EXPECT_EQ(refusal([&] { write_tum(nowhere, {}); }),
+            nowhere.string() + ": cannot be written: No such file or directory");
+}
+
+TEST(Tum, IsRecognisedByContent) {
+  EXPECT_EQ(recognise(sample("good/tum.txt")), Format::tum);
+  EXPECT_EQ(recognise(sample("good/kitti.txt")), Format::kitti);
+  EXPECT_EQ(recognise(sample("good/euroc.csv")), Format::euroc);
+  EXPECT_EQ(recognise(sample("good/se2.g2o")), Format::g2o);
+  EXPECT_EQ(recognise(sample("good/toro.txt")), Format::g2o);
+}
+
+}  // namespace
+}  // namespace loopbench
