@@ -36,7 +36,7 @@ Statistics statistics(std::vector<double> errors) {
   Statistics out;
   out.count = errors.size();
   out.sse = sum(errors, [](double e) { return e * e; });
-  if (!std::isfinite(out.sse)) throw std::invalid_argument("statistics of a non-finite error");
+  if (!std::isfinite(out.sse)) throw std::runtime_error("an error or its square is not finite");
   out.mean = sum(errors, [](double e) { return e; }) / n;
   out.rmse = std::sqrt(out.sse / n);
   out.std = std::sqrt(sum(errors, [&](double e) { return (e - out.mean) * (e - out.mean); }) / n);

@@ -18,8 +18,8 @@ struct Statistics {
   double sse = 0.0;  ///< sum of squares
 };
 
-/// Throws std::invalid_argument on an empty list (no statistic of nothing is honest) and when the
-/// sum of squares is not finite. Pairwise sums, O(n).
+/// Throws std::invalid_argument on an empty list (no statistic of nothing is honest) and
+/// std::runtime_error when the sum of squares is not finite. Pairwise sums, O(n).
 Statistics statistics(std::vector<double> errors);
 
 }  // namespace loopbench

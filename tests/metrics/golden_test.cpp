@@ -11,9 +11,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "datasets/formats/formats.hpp"
 #include "metrics/ate.hpp"
 #include "metrics/rpe.hpp"
 #include "support.hpp"
@@ -23,9 +25,13 @@ namespace {
 
 using Json = nlohmann::json;
 
+std::string golden(const std::string& name) {
+  return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
+}
+
 const Json& rows() {
   static const Json all = [] {
-    std::ifstream file(std::string(LOOPBENCH_TEST_DATA) + "/golden/golden.json");
+    std::ifstream file(golden("golden.json"));
     return Json::parse(file);
   }();
   return all;
@@ -35,7 +41,7 @@ const Trajectory& file(const std::string& name) {
   static std::map<std::string, Trajectory> seen;
   const auto found = seen.find(name);
   return found != seen.end() ? found->second
-                             : seen.emplace(name, read_tum("golden/" + name)).first->second;
+                             : seen.emplace(name, read_trajectory(golden(name))).first->second;
 }
 
 /// 1e-9 of the value, but nobody has digits in what is zero up to rounding (first pose of origin).

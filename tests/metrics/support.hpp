@@ -1,11 +1,9 @@
-/// What the metric tests share: files, made-up trajectories, finding a score.
+/// What the metric tests share: made-up trajectories, finding a score.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,25 +13,6 @@
 #include "metrics/metric.hpp"
 
 namespace loopbench::test {
-
-/// TUM text, quaternions normalised at loading as every original tool does.
-inline Trajectory read_tum(const std::string& name) {
-  std::ifstream file(std::string(LOOPBENCH_TEST_DATA) + "/" + name);
-  if (!file) throw std::runtime_error("cannot open " + name);
-  Trajectory out;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream numbers(line);
-    StampedPose pose;
-    auto& [rotation, translation] = pose.world_from_body;
-    numbers >> pose.stamp >> translation.x() >> translation.y() >> translation.z() >>
-        rotation.x() >> rotation.y() >> rotation.z() >> rotation.w();
-    if (!numbers) throw std::runtime_error(name + ": bad line " + line);
-    rotation.normalize();
-    out.push_back(pose);
-  }
-  return out;
-}
 
 inline Vector3 random_vector(std::mt19937_64& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);

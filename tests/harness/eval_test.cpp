@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/params.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/commands/judgement.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string golden(const std::string& name) {
+  return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
+}
+
+/// What `loopbench eval ARGS` prints.
+std::string eval(std::vector<std::string> arguments) {
+  CLI::App app;
+  int exit_code = -1;
+  add_eval(app, exit_code);
+  arguments.insert(arguments.begin(), "eval");
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 wants them so
+  testing::internal::CaptureStdout();
+  try {
+    app.parse(arguments);
+  } catch (...) {
+    testing::internal::GetCapturedStdout();
+    throw;
+  }
+  EXPECT_EQ(exit_code, kExitOk);
+  return testing::internal::GetCapturedStdout();
+}
+
+Json eval_json(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  return Json::parse(eval(std::move(arguments)));
+}
+
+template <class Error>
+std::string refusal(const std::vector<std::string>& arguments) {
+  try {
+    eval(arguments);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
+Json find(const Json& judged, const std::string& metric, const std::string& relation) {
+  for (const Json& row : judged["metrics"]) {
+    if (row["metric"] == metric && row["relation"] == relation && row["axis"] == "3d") return row;
+  }
+  ADD_FAILURE() << "no " << metric << " " << relation;
+  return {};
+}
+
+// Values of golden.json, evo APE translation_part at max_diff 0.01.
+TEST(Eval, EqualsEvoUnderEvosAssociation) {
+  const auto judged = [](const std::string& align) {
+    return eval_json({golden("gt.txt"),
+                      golden("est_drift.txt"),
+                      "--association=evo",
+                      "--max-diff=0.01",
+                      "--align=" + align});
+  };
+  const Json se3 = judged("se3");
+  EXPECT_EQ(se3["pairs"], 635);
+  EXPECT_EQ(se3["alignment"]["type"], "se3");
+  EXPECT_NEAR(find(se3, "ate", "translation")["rmse"], 0.676208260682124, 1e-12);
+  EXPECT_NEAR(find(se3, "rpe", "translation")["rmse"], 0.0269779727282208, 1e-12);
+  const Json sim3 = judged("sim3");
+  EXPECT_NEAR(sim3["alignment"]["scale"], 0.9848728953975282, 1e-12);
+  EXPECT_NEAR(find(sim3, "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
+  EXPECT_NEAR(find(judged("none"), "ate", "translation")["rmse"], 12.6565235225568, 1e-10);
+  EXPECT_NEAR(find(judged("origin"), "ate", "translation")["rmse"], 2.12100433850654, 1e-11);
+}
+
+TEST(Eval, JsonHasThePromisedKeys) {
+  const Json judged = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
+  for (const char* key : {"reference",
+                          "estimate",
+                          "protocol",
+                          "pairs",
+                          "possible",
+                          "coverage",
+                          "span",
+                          "alignment",
+                          "metrics",
+                          "undefined"}) {
+    EXPECT_TRUE(judged.contains(key)) << key;
+  }
+  EXPECT_EQ(judged["coverage"].get<double>(),
+            judged["pairs"].get<double>() / judged["possible"].get<double>());
+  std::map<std::string, int> rows;
+  for (const Json& row : judged["metrics"]) {
+    ++rows[row["metric"]];
+    for (const char* key : {"metric",
+                            "relation",
+                            "axis",
+                            "unit",
+                            "rmse",
+                            "mean",
+                            "median",
+                            "std",
+                            "min",
+                            "max",
+                            "count"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+  }
+  // rpe: 1 frame, 1 s, 1 m; five rows each.
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"ate", 2}, {"axis_error", 3}, {"rpe", 15}}));
+}
+
+TEST(Eval, SeveralEstimatesAreSeveralJudgements) {
+  const Json judged =
+      eval_json({golden("gt.txt"), golden("est_drift.txt"), golden("est_corrected.txt")});
+  ASSERT_TRUE(judged.is_array());
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[1]["estimate"], golden("est_corrected.txt"));
+}
+
+TEST(Eval, PairsKittiPosesByTheirNumber) {
+  const Json judged = eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt")});
+  EXPECT_EQ(judged["pairs"], 1200);
+  EXPECT_EQ(judged["coverage"], 1.0);
+}
+
+TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
+  const TemporaryFolder folder;
+  const std::string times = (folder.path() / "times.txt").string();
+  {
+    std::ofstream out(times);
+    for (int i = 0; i < 1200; ++i) out << 1000.0 + 0.5 * i << "\n";
+  }
+  const Json judged =
+      eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt"), "--times=" + times});
+  EXPECT_EQ(judged["pairs"], 1200);
+  for (const Json& row : judged["metrics"]) {
+    // 0.5 s apart, so 1 s is two poses on.
+    const bool is_second = row["options"] == Json{{"delta", 1.0}, {"unit", "s"}};
+    if (is_second) {
+      EXPECT_EQ(row["count"], 1198);
+    }
+  }
+  const std::string why =
+      refusal<InputError>({golden("gt.txt"), golden("est_drift.txt"), "--times=" + times});
+  EXPECT_EQ(why, times + ": is a times file, but no file here is KITTI poses");
+}
+
+TEST(Eval, PrintsATableForPeople) {
+  const std::string got =
+      eval({golden("gt.txt"), golden("est_drift.txt"), "--association=evo", "--max-diff=0.01"});
+  EXPECT_NE(got.find("pairs      635 of 657 (96.7 %), over 100.0 % of the reference's time\n"),
+            std::string::npos)
+      << got;
+  EXPECT_NE(got.find("ate           translation 3d   m        0.676208 "), std::string::npos)
+      << got;
+}
+
+TEST(Eval, AnUndefinedMetricSaysWhyAndTheOthersStand) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "short.txt").string();
+  std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+  const Json judged = eval_json({file, file});
+  EXPECT_EQ(find(judged, "ate", "translation")["count"], 3);
+  ASSERT_EQ(judged["undefined"].size(), 2u);  // rpe over 1 s and over 1 m
+  EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 3 poses is 1.0 s before another");
+  EXPECT_NE(eval({file, file}).find("rpe 1 m       undefined: rpe: none of 3"), std::string::npos);
+}
+
+TEST(Eval, RefusesWhatItCannotJudge) {
+  const std::string kitti = golden("kitti_gt.txt");
+  const std::string tum = golden("gt.txt");
+  EXPECT_EQ(refusal<InputError>({tum, kitti}).find(kitti + " against " + tum + ": no pose of"), 0u);
+  EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=best"}),
+            "align = best: expected one of se3 | sim3 | origin | none");
+  EXPECT_EQ(refusal<OptionError>({tum, tum, "--max-diff=-1"}),
+            "max_diff = -1.0 breaks 0 <= max_diff");
+  EXPECT_THROW(eval({tum, tum, "--format=rosbag"}), OptionError);
+  EXPECT_THROW(eval({tum, tum, "--format=kitti"}), InputError);
+  EXPECT_THROW(eval({tum, golden("absent.txt")}), InputError);
+  EXPECT_THROW(eval({tum}), CLI::ParseError);
+
+  const TemporaryFolder folder;
+  const std::string straight = (folder.path() / "straight.txt").string();
+  std::ofstream(straight) << "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n";
+  EXPECT_NE(refusal<InputError>({straight, straight}).find("lie on one straight line"),
+            std::string::npos);
+  EXPECT_NO_THROW(eval({straight, straight, "--align=origin"}));
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,71 @@
+/// What the original tools gave on public files; needs the data, which is not kept here.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "datasets/formats/formats.hpp"
+#include "metrics/ate.hpp"
+#include "metrics/rpe.hpp"
+#include "support.hpp"
+
+namespace loopbench::test {
+namespace {
+
+class PublicValues : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* data = std::getenv("LOOPBENCH_DATA");
+    if (data != nullptr) folder_ = std::filesystem::path(data) / "tum_rgbd/other";
+    if (!std::filesystem::exists(folder_)) {
+      GTEST_SKIP() << "$LOOPBENCH_DATA names no folder with tum_rgbd/other";
+    }
+  }
+
+  Evaluation judged(const std::string& estimate, const Protocol& protocol) const {
+    // Published ground truths repeat stamps.
+    ReadOptions options;
+    options.repeats = Repeats::keep_first;
+    const std::filesystem::path file = folder_ / estimate;
+    return evaluate(read_trajectory(file.parent_path() / "groundtruth.txt", options),
+                    read_trajectory(file, options),
+                    protocol);
+  }
+
+  std::filesystem::path folder_;
+};
+
+void expect_ate(const Evaluation& got, std::size_t pairs, double rmse) {
+  const Statistics metres = find(ate(got, {}), "translation", "3d");
+  EXPECT_EQ(metres.count, pairs);
+  EXPECT_NEAR(metres.rmse, rmse, 1e-9 * rmse);
+}
+
+TEST_F(PublicValues, Fr2DeskOrbSlam) {
+  const std::string file = "fr2_desk/orbslam_frames_evo.txt";
+  const auto evo = [&](Align type) {
+    return judged(file, {.association = Association::evo, .max_diff = 0.01, .align = type});
+  };
+  const Evaluation se3 = evo(Align::se3);
+  expect_ate(se3, 2174, 0.00811897756204491);
+  EXPECT_NEAR(find(ate(se3, {}), "rotation", "3d").rmse, 0.989035658367911, 1e-9);
+  EXPECT_EQ(find(rpe(se3, {}), "translation", "3d").count, 2173u);
+  EXPECT_NEAR(find(rpe(se3, {}), "translation", "3d").rmse, 0.00349032137478729, 1e-12);
+  expect_ate(evo(Align::sim3), 2174, 0.00612316303015723);
+  expect_ate(evo(Align::origin), 2174, 0.0420155117134367);
+
+  expect_ate(judged(file, {.association = Association::tum}), 2223, 0.00814396716951911);
+  const Evaluation rpg = judged(file, {.association = Association::tum, .align = Align::sim3});
+  EXPECT_NEAR(rpg.alignment.scale, 0.9970022884061697, 1e-12);
+  expect_ate(rpg, 2223, 0.0061856729003283);
+}
+
+TEST_F(PublicValues, Fr1XyzRgbdSlam) {
+  const std::string file = "fr1_xyz/rgbdslam_frames.txt";
+  expect_ate(
+      judged(file, {.association = Association::evo, .max_diff = 0.01}), 785, 0.0134700888497337);
+  expect_ate(judged(file, {.association = Association::tum}), 786, 0.0134734677699068);
+}
+
+}  // namespace
+}  // namespace loopbench::test
