@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "datasets/derive/odometry.hpp"
-#include "random_poses.hpp"
-#include "temporary_file.hpp"
+#include "tests/datasets/random_poses.hpp"
+#include "tests/support/refusal_of.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 namespace {
@@ -15,16 +16,18 @@ using testing::HasSubstr;
 constexpr ClosureNoise kNoise = {0.5, 0.25};
 
 std::string refusal(const std::string& content) {
-  const TemporaryFile file("closures.txt", content);
-  return refusal_of([&] { read_closure_file(file.path(), kNoise); });
+  const TemporaryFolder folder;
+  const auto file = folder.file("closures.txt", content);
+  return refusal_of([&] { read_closure_file(file, kNoise); });
 }
 
 TEST(ClosureFile, IsReadByColumns) {
-  const TemporaryFile file("closures.txt",
-                           "# from to pose\n\n"
-                           "1.5 9.25 1 2 3 0 0 0.6 0.8\n"
-                           "2 8 0 0 0 0 0 0 1 0.1 0.2\n");
-  const auto closures = read_closure_file(file.path(), kNoise);
+  const TemporaryFolder folder;
+  const auto file = folder.file("closures.txt",
+                                "# from to pose\n\n"
+                                "1.5 9.25 1 2 3 0 0 0.6 0.8\n"
+                                "2 8 0 0 0 0 0 0 1 0.1 0.2\n");
+  const auto closures = read_closure_file(file, kNoise);
   ASSERT_EQ(closures.size(), 2u);
   EXPECT_EQ(closures[0].stamp_from, 1.5);
   EXPECT_EQ(closures[0].stamp_to, 9.25);

@@ -3,7 +3,7 @@
 #include "datasets/derive/compose.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "datasets/formats/chain.hpp"
-#include "random_poses.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench {
 namespace {

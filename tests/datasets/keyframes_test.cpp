@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/params.hpp"
-#include "random_poses.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench {
 namespace {

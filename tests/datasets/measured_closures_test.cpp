@@ -4,7 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/derive/closures.hpp"
-#include "random_poses.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench {
 namespace {

@@ -5,8 +5,9 @@
 
 #include "datasets/derive/compose.hpp"
 #include "datasets/derive/odometry.hpp"
-#include "random_poses.hpp"
-#include "temporary_file.hpp"
+#include "tests/datasets/random_poses.hpp"
+#include "tests/support/refusal_of.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 namespace {
@@ -104,11 +105,12 @@ TEST(PoseGraphDataset, DropsPlaceholdersOnlyWhenTold) {
 }
 
 TEST(PoseGraphDataset, KeepsOnlyListedClosures) {
-  const TemporaryFile list("list.txt", "117 103\n\n105 112 \n");
-  EXPECT_EQ(derive_problem(small_graph(true), {}, "g", list.path()).closures.size(), 2u);
+  const TemporaryFolder folder;
+  const auto list = folder.file("list.txt", "117 103\n\n105 112 \n");
+  EXPECT_EQ(derive_problem(small_graph(true), {}, "g", list).closures.size(), 2u);
   const auto refusal = [&](const std::string& content) {
-    const TemporaryFile bad("bad.txt", content);
-    return refusal_of([&] { derive_problem(small_graph(true), {}, "g", bad.path()); });
+    const auto bad = folder.file("bad.txt", content);
+    return refusal_of([&] { derive_problem(small_graph(true), {}, "g", bad); });
   };
   EXPECT_THAT(refusal("117 103\n104 119\n"), HasSubstr("bad.txt:2: the graph has no closure"));
   EXPECT_THAT(refusal("117\n"), HasSubstr("bad.txt:1: "));
@@ -144,11 +146,11 @@ Sequence load(const std::filesystem::path& folder, const Params& given) {
 }
 
 TEST(PoseGraphDataset, LoadsAPlanarGraphWithATruthOfEdges) {
-  const TemporaryFile graph("square/vo.g2o", kSquare);
-  const TemporaryFile truth("square/gt.g2o", kSquare);
-  const auto folder = graph.path().parent_path().parent_path();
+  const TemporaryFolder folder;
+  folder.file("square/vo.g2o", kSquare);
+  folder.file("square/gt.g2o", kSquare);
   const Sequence sequence =
-      load(folder, {{"path", "square/vo.g2o"}, {"truth", "square/gt.g2o"}, {"period", 0.5}});
+      load(folder.path(), {{"path", "square/vo.g2o"}, {"truth", "square/gt.g2o"}, {"period", 0.5}});
   EXPECT_EQ(sequence.name, "square_vo");
   EXPECT_TRUE(sequence.problem.planar);
   EXPECT_EQ(sequence.provenance.closures, "edges of vo.g2o (1)");
@@ -161,16 +163,16 @@ TEST(PoseGraphDataset, LoadsAPlanarGraphWithATruthOfEdges) {
 }
 
 TEST(PoseGraphDataset, TurnsKittiCameraTruthIntoVehicleAxes) {
-  const TemporaryFile graph("vo.g2o", kSquare);
+  const TemporaryFolder folder;
+  folder.file("vo.g2o", kSquare);
   // A camera that goes forward (z), then has turned left: a negative turn about y, which is down.
-  const TemporaryFile truth("gt.txt",
-                            "1 0 0 0 0 1 0 0 0 0 1 0\n"
-                            "0 0 -1 0 0 1 0 0 1 0 0 1\n"
-                            "-1 0 0 -1 0 1 0 0 0 0 -1 1\n"
-                            "0 0 1 -1 0 1 0 0 -1 0 0 0\n");
-  const auto folder = graph.path().parent_path();
-  const Sequence sequence =
-      load(folder, {{"path", "vo.g2o"}, {"truth", "gt.txt"}, {"truth_axes", "kitti_camera"}});
+  folder.file("gt.txt",
+              "1 0 0 0 0 1 0 0 0 0 1 0\n"
+              "0 0 -1 0 0 1 0 0 1 0 0 1\n"
+              "-1 0 0 -1 0 1 0 0 0 0 -1 1\n"
+              "0 0 1 -1 0 1 0 0 -1 0 0 0\n");
+  const Sequence sequence = load(
+      folder.path(), {{"path", "vo.g2o"}, {"truth", "gt.txt"}, {"truth_axes", "kitti_camera"}});
   ASSERT_EQ(sequence.reference.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_TRUE(is_close(sequence.reference[i].world_from_body,
@@ -182,16 +184,15 @@ TEST(PoseGraphDataset, TurnsKittiCameraTruthIntoVehicleAxes) {
 }
 
 TEST(PoseGraphDataset, RefusesATruthOfAnotherLength) {
-  const TemporaryFile graph("vo.g2o", kSquare);
-  const TemporaryFile truth("gt.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  const TemporaryFile shifted("gt.g2o",
-                              "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
-                              "EDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"
-                              "EDGE_SE2 3 4 1 0 0 1 0 0 1 0 1\n");
+  const TemporaryFolder folder;
+  folder.file("vo.g2o", kSquare);
+  folder.file("gt.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  folder.file("gt.g2o",
+              "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
+              "EDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"
+              "EDGE_SE2 3 4 1 0 0 1 0 0 1 0 1\n");
   const auto refusal = [&](const std::string& file) {
-    return refusal_of([&] {
-      load(graph.path().parent_path(), {{"path", "vo.g2o"}, {"truth", file}});
-    });
+    return refusal_of([&] { load(folder.path(), {{"path", "vo.g2o"}, {"truth", file}}); });
   };
   EXPECT_THAT(refusal("gt.txt"), HasSubstr("gt.txt: found 1 poses, expected 4"));
   EXPECT_THAT(refusal("gt.g2o"), HasSubstr("expected the ids of the graph"));

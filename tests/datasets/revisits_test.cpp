@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "random_poses.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench {
 namespace {

@@ -5,8 +5,9 @@
 
 #include <cmath>
 
-#include "random_poses.hpp"
-#include "temporary_file.hpp"
+#include "tests/datasets/random_poses.hpp"
+#include "tests/support/refusal_of.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 namespace {
@@ -122,10 +123,10 @@ Sequence load(const std::filesystem::path& folder, const Params& given) {
 }
 
 TEST(TrajectoryDataset, LoadsFilesAndTellsWhereAllCameFrom) {
-  const TemporaryFile estimate("room/est.txt", walk());
-  const TemporaryFile reference("room/gt.txt", walk());
-  const auto folder = estimate.path().parent_path().parent_path();
-  const Sequence sequence = load(folder,
+  const TemporaryFolder folder;
+  folder.file("room/est.txt", walk());
+  folder.file("room/gt.txt", walk());
+  const Sequence sequence = load(folder.path(),
                                  {{"estimate", "room/est.txt"},
                                   {"reference", "room/gt.txt"},
                                   {"closures.source", "reference"},
@@ -144,26 +145,27 @@ TEST(TrajectoryDataset, LoadsFilesAndTellsWhereAllCameFrom) {
 }
 
 TEST(TrajectoryDataset, OnlyClosuresOfTheReferenceAreOracles) {
-  const TemporaryFile estimate("est.txt", walk());
-  const TemporaryFile closures("loops.txt", "0 12 0 0 0 0 0 0 1\n");
-  const auto folder = estimate.path().parent_path();
+  const TemporaryFolder folder;
+  folder.file("est.txt", walk());
+  folder.file("loops.txt", "0 12 0 0 0 0 0 0 1\n");
   const Params given = {{"estimate", "est.txt"}, {"name", "x"}, {"closures.file", "loops.txt"}};
   Params of_file = given;
   of_file["closures.source"] = "file";
-  const Sequence sequence = load(folder, of_file);
+  const Sequence sequence = load(folder.path(), of_file);
   EXPECT_EQ(sequence.name, "x");
   EXPECT_FALSE(sequence.provenance.oracle_closures);
   EXPECT_EQ(sequence.provenance.closures, "file: loops.txt (1)");
   EXPECT_EQ(sequence.problem.closures.size(), 1u);
-  const Sequence without = load(folder, given);
+  const Sequence without = load(folder.path(), given);
   EXPECT_EQ(without.provenance.closures, "none");
   EXPECT_TRUE(without.reference.empty());
 }
 
 TEST(TrajectoryDataset, RefusesWhatDoesNotFitTogether) {
-  const TemporaryFile estimate("est.txt", walk());
+  const TemporaryFolder folder;
+  folder.file("est.txt", walk());
   const auto refusal = [&](const Params& given) {
-    return refusal_of([&] { load(estimate.path().parent_path(), given); });
+    return refusal_of([&] { load(folder.path(), given); });
   };
   EXPECT_THAT(refusal({}), HasSubstr("estimate: names no file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"closures.source", "file"}}),
