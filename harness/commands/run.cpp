@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -55,6 +56,14 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
 
+/// The method failed, or a metric is undefined on its result.
+bool has_failure(const CellResult& result) {
+  return result.status == Status::failed ||
+         std::ranges::any_of(result.scores, [](const ScoreResult& score) {
+           return score.status == Status::failed;
+         });
+}
+
 int run(const RunArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
@@ -81,7 +90,7 @@ int run(const RunArguments& arguments) {
           if (!store) store.emplace(file, sweep);
           store->write(sweep, r);
           ++done;
-          if (r.status == Status::failed) ++failed;
+          if (has_failure(r)) ++failed;
           progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                         sweep.methods[r.cell.method].label);
         });

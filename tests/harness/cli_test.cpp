@@ -60,8 +60,8 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   folder_.file("c.yaml", kConfig);
   const CommandResult result = run("run c.yaml");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "");                                // no progress bar into a pipe
-  EXPECT_EQ(result.out.find('\033'), std::string::npos);    // no colour either
+  EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
+  EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
   EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // a line has no loop
   EXPECT_NE(result.out.find("gain"), std::string::npos);
@@ -86,7 +86,8 @@ TEST_F(Cli, SameRowsOnAnyNumberOfThreads) {
   folder_.file("c.yaml", kConfig);
   const auto rows = [&](const std::string& jobs) {
     EXPECT_EQ(run("run c.yaml --out r" + jobs + " --jobs " + jobs).exit_code, 0);
-    return run("table r" + jobs + " --split sequence --columns times,metric,relation,axis "
+    return run("table r" + jobs +
+               " --split sequence --columns times,metric,relation,axis "
                "--where status=ok --format csv");
   };
   const std::string one = rows("1").out;
@@ -141,10 +142,12 @@ TEST_F(Cli, AKilledSweepLeavesReadableCells) {
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
                "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  const std::string script = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY
+  const std::string script = "cd '" + folder_.path().string() +
+                             "' && '" LOOPBENCH_BINARY
                              "' run c.yaml --out k >/dev/null 2>&1 & pid=$!; "
                              "for i in $(seq 600); do sleep 0.05; "
-                             "n=$('" LOOPBENCH_BINARY "' table '" + folder_.path().string() +
+                             "n=$('" LOOPBENCH_BINARY "' table '" +
+                             folder_.path().string() +
                              "/k' --format rows 2>/dev/null | wc -l); "
                              "[ \"$n\" -gt 10 ] && break; done; kill -9 $pid";
   const std::string quoted = "bash -c \"$SCRIPT\"";
