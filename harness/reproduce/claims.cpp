@@ -34,7 +34,10 @@ class Judge {
   }
 
   Claim claim(const std::string& sequence, const std::string& text) const {
-    return {text, fmt::format("{}, {}, {}", sequence, kInput, reading_), {}, "no such run"};
+    return {text,
+            fmt::format("{}, {}, {}", sequence, kInput, reading_),
+            Verdict::cannot_be_judged,
+            "no such run"};
   }
 
  private:
