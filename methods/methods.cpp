@@ -1,3 +1,4 @@
+#include "methods/correctors/dual.hpp"
 #include "methods/correctors/raw.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/method.hpp"
@@ -18,6 +19,7 @@ std::vector<MethodEntry> methods() {
       method<Uniform>("uniform_open",
                       "closing error spread evenly over what no earlier loop has closed",
                       {.overlap = Uniform::Overlap::open}),
+      method<Dual>("dual", "maximum likelihood on the chain, through the loop multipliers"),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
