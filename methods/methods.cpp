@@ -1,5 +1,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/raw.hpp"
+#include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
@@ -18,7 +19,15 @@ std::vector<MethodEntry> methods() {
                       {.rotation = Uniform::Turn::none}),
       method<Uniform>("uniform_open",
                       "closing error spread evenly over what no earlier loop has closed",
-                      {.overlap = Uniform::Overlap::open}),
+                      {.overlap = LoopOverlap::open}),
+      method<TwoPass>("two_pass", "rotation spread and re-integrated, then translation"),
+      method<TwoPass>("two_pass_open",
+                      "two_pass over what no earlier loop has closed",
+                      {.overlap = LoopOverlap::open}),
+      method<TwoPass>("two_pass_motion",
+                      "two_pass, rotation by angle turned and translation by distance",
+                      {.rotation_weights = StepWeights::rotation,
+                       .translation_weights = StepWeights::distance}),
       method<Dual>("dual", "maximum likelihood on the chain, through the loop multipliers"),
 
       // Smoothers: keyframes in, a curve out.
