@@ -1,4 +1,5 @@
 #include "methods/correctors/dual.hpp"
+#include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/raw.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
@@ -29,6 +30,23 @@ std::vector<MethodEntry> methods() {
                       {.rotation_weights = StepWeights::rotation,
                        .translation_weights = StepWeights::distance}),
       method<Dual>("dual", "maximum likelihood on the chain, through the loop multipliers"),
+      method<PoseGraphOptimizer>("pose_graph",
+                                 "maximum likelihood by sparse least squares (Ceres)"),
+      method<PoseGraphOptimizer>(
+          "pose_graph_huber", "pose_graph, closures under a Huber loss", {.loss = Loss::huber}),
+      method<PoseGraphOptimizer>(
+          "pose_graph_cauchy", "pose_graph, closures under a Cauchy loss", {.loss = Loss::cauchy}),
+      method<PoseGraphOptimizer>("pose_graph_switchable",
+                                 "pose_graph with switchable constraints, switches solved for",
+                                 {.loss = Loss::switchable}),
+      method<PoseGraphOptimizer>(
+          "pose_graph_dcs", "pose_graph with dynamic covariance scaling", {.loss = Loss::dcs}),
+      method<PoseGraphOptimizer>("pose_graph_gnc_tls",
+                                 "pose_graph, graduated to truncated least squares",
+                                 {.gnc = PoseGraphOptimizer::Gnc::tls}),
+      method<PoseGraphOptimizer>("pose_graph_gnc_gm",
+                                 "pose_graph, graduated to Geman-McClure",
+                                 {.gnc = PoseGraphOptimizer::Gnc::gm}),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
