@@ -1,4 +1,5 @@
 #include "methods/correctors/dual.hpp"
+#include "methods/correctors/elch.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/raw.hpp"
 #include "methods/correctors/two_pass.hpp"
@@ -21,6 +22,7 @@ std::vector<MethodEntry> methods() {
       method<Uniform>("uniform_open",
                       "closing error spread evenly over what no earlier loop has closed",
                       {.overlap = LoopOverlap::open}),
+      method<Elch>("elch", "closing error spread by distance in the pose graph"),
       method<TwoPass>("two_pass", "rotation spread and re-integrated, then translation"),
       method<TwoPass>("two_pass_open",
                       "two_pass over what no earlier loop has closed",
