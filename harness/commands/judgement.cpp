@@ -10,10 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The settings `eval` asks a metric for. Coverage stands above the table, once.
+/// The settings `eval` asks a metric for. Coverage stands above the table, once; metrics that need
+/// more than two files, or a choice of options to mean something, are left to sweeps.
 std::vector<Params> settings(const std::string& metric) {
-  if (metric == "coverage") return {};
-  if (metric != "rpe") return {Params{}};
+  if (metric == "ate" || metric == "axis_error" || metric == "diagnostics") return {Params{}};
+  if (metric != "rpe") return {};
   return {{{"delta", 1.0}, {"unit", std::string("frames")}},
           {{"delta", 1.0}, {"unit", std::string("s")}},
           {{"delta", 1.0}, {"unit", std::string("m")}}};
@@ -47,7 +48,17 @@ Json to_json(const Judgement& j) {
   Json scores = Json::array();
   Json undefined = Json::array();
   for (const JudgedMetric& metric : j.metrics) {
-    for (const Score& score : metric.scores) scores.push_back(to_json(metric, score));
+    for (const Score& score : metric.scores) {
+      if (score.why_undefined.empty()) {
+        scores.push_back(to_json(metric, score));
+      } else {
+        undefined.push_back({{"metric", metric.name},
+                             {"options", to_json(metric.options)},
+                             {"relation", score.relation},
+                             {"axis", score.axis},
+                             {"why", score.why_undefined}});
+      }
+    }
     if (metric.why_undefined.empty()) continue;
     undefined.push_back({{"metric", metric.name},
                          {"options", to_json(metric.options)},
@@ -78,10 +89,33 @@ std::string label(const JudgedMetric& metric) {
                      std::get<std::string>(metric.options.at("unit")));
 }
 
+/// "largest_gap 0.25 s, repeated 0, ...", a few a line.
+std::string diagnosis(const Judgement& judgement) {
+  std::string out;
+  int count = 0;
+  for (const JudgedMetric& metric : judgement.metrics) {
+    if (metric.name != "diagnostics") continue;
+    for (const Score& s : metric.scores) {
+      const bool has_unit = s.unit != "1";
+      out += fmt::format("{}{} {:.4g}{}{}",
+                         count == 0       ? "diagnosis  "
+                         : count % 4 == 0 ? ",\n           "
+                                          : ", ",
+                         s.relation,
+                         s.statistics.mean,
+                         has_unit ? " " : "",
+                         has_unit ? s.unit : "");
+      ++count;
+    }
+  }
+  return out.empty() ? "" : out + "\n";
+}
+
 }  // namespace
 
 Judgement judge(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol) {
-  const Evaluation evaluation = evaluate(reference, estimate, protocol);
+  Evaluation evaluation = evaluate(reference, estimate, protocol);
+  evaluation.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol};
   Judgement out;
   out.reference_poses = reference.size();
   out.estimate_poses = estimate.size();
@@ -111,7 +145,8 @@ std::string text(const Judgement& j) {
                   j.coverage.possible,
                   100.0 * j.coverage.share(),
                   100.0 * j.coverage.span) +
-      fmt::format("alignment  {}, scale {}\n\n", to_text(j.alignment.type), j.alignment.scale);
+      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
+      diagnosis(j) + "\n";
   const auto head = fmt::format("{:<13} {:<11} {:<4} {:<4}", "metric", "relation", "axis", "unit");
   out += head;
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
@@ -119,10 +154,16 @@ std::string text(const Judgement& j) {
   }
   out += fmt::format(" {:>9}\n", "count");
   for (const JudgedMetric& metric : j.metrics) {
+    if (metric.name == "diagnostics") continue;
     if (!metric.why_undefined.empty()) {
       out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
     }
-    for (const auto& [relation, axis, unit, s] : metric.scores) {
+    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      if (!why.empty()) {
+        out +=
+            fmt::format("{:<13} {:<11} {:<4} undefined: {}\n", label(metric), relation, axis, why);
+        continue;
+      }
       out += fmt::format("{:<13} {:<11} {:<4} {:<4}", label(metric), relation, axis, unit);
       for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
         out += fmt::format(" {:>12.6f}", value);

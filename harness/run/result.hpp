@@ -14,16 +14,18 @@ namespace loopbench {
 
 enum class Status {
   ok,
-  declined,  ///< the problem is not for this method: not an error
-  failed,    ///< the method or a metric threw
+  declined,    ///< the problem is not for this method: not an error
+  failed,      ///< the method or a metric threw, or a number means nothing here
+  incomplete,  ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
 };
 inline auto choices(Status) {
   return std::array{std::pair{"ok", Status::ok},
                     std::pair{"declined", Status::declined},
-                    std::pair{"failed", Status::failed}};
+                    std::pair{"failed", Status::failed},
+                    std::pair{"incomplete", Status::incomplete}};
 }
 
-/// One metric at one choice of times; when it is undefined there, only status and why are filled.
+/// One metric at one choice of times; when it failed there, only status and why are filled.
 struct ScoreResult {
   Times times = Times::keyframes;
   std::string metric;  ///< label
