@@ -6,6 +6,7 @@ namespace loopbench {
 namespace {
 
 constexpr double kSameAttitude = 1e-9;  // [rad]; interpolation of equal attitudes rounds to 1e-16
+constexpr std::size_t kEvidence = 10;   // poses
 constexpr double kStraight = 1e-6;      // width over length of what still counts as one line
 
 bool keeps_one_line(const Trajectory& trajectory) {
@@ -27,7 +28,7 @@ bool keeps_one_line(const Trajectory& trajectory) {
 }  // namespace
 
 bool is_position_only(const Trajectory& trajectory) {
-  if (trajectory.size() < 3) return false;
+  if (trajectory.size() < kEvidence) return false;
   const Rotation& first = trajectory.front().world_from_body.rotation;
   for (const auto& [stamp, pose] : trajectory) {
     if (angle_between(first, pose.rotation) > kSameAttitude) return false;

@@ -9,7 +9,7 @@ namespace loopbench {
 
 /// All attitudes are the same (to 1e-9 rad) although the path turns. A body that really keeps its
 /// attitude on a straight path is left in peace; one that slides round a bend without turning
-/// would be mistaken, and none is known. At least three poses. O(n).
+/// would be mistaken, and none is known. Fewer than ten poses are no evidence. O(n).
 bool is_position_only(const Trajectory& trajectory);
 
 /// Why numbers that use attitudes mean nothing here, or empty when they do.

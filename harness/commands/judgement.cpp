@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "metrics/diagnostics.hpp"
+
 namespace loopbench {
 namespace {
 
@@ -13,7 +15,7 @@ using Json = nlohmann::ordered_json;
 /// The settings `eval` asks a metric for. Coverage stands above the table, once; metrics that need
 /// more than two files, or a choice of options to mean something, are left to sweeps.
 std::vector<Params> settings(const std::string& metric) {
-  if (metric == "ate" || metric == "axis_error" || metric == "diagnostics") return {Params{}};
+  if (metric == "ate" || metric == "axis_error") return {Params{}};
   if (metric != "rpe") return {};
   return {{{"delta", 1.0}, {"unit", std::string("frames")}},
           {{"delta", 1.0}, {"unit", std::string("s")}},
@@ -47,6 +49,8 @@ Json to_json(const JudgedMetric& metric, const Score& score) {
 Json to_json(const Judgement& j) {
   Json scores = Json::array();
   Json undefined = Json::array();
+  Json diagnosis = Json::object();
+  for (const Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
   for (const JudgedMetric& metric : j.metrics) {
     for (const Score& score : metric.scores) {
       if (score.why_undefined.empty()) {
@@ -76,6 +80,7 @@ Json to_json(const Judgement& j) {
             {"scale", j.alignment.scale},
             {"rank", j.alignment.rank},
             {"condition", j.alignment.condition}}},
+          {"diagnosis", std::move(diagnosis)},
           {"metrics", std::move(scores)},
           {"undefined", std::move(undefined)}};
 }
@@ -90,25 +95,16 @@ std::string label(const JudgedMetric& metric) {
 }
 
 /// "largest_gap 0.25 s, repeated 0, ...", a few a line.
-std::string diagnosis(const Judgement& judgement) {
+std::string text(const std::vector<Score>& diagnosis) {
   std::string out;
   int count = 0;
-  for (const JudgedMetric& metric : judgement.metrics) {
-    if (metric.name != "diagnostics") continue;
-    for (const Score& s : metric.scores) {
-      const bool has_unit = s.unit != "1";
-      out += fmt::format("{}{} {:.4g}{}{}",
-                         count == 0       ? "diagnosis  "
-                         : count % 4 == 0 ? ",\n           "
-                                          : ", ",
-                         s.relation,
-                         s.statistics.mean,
-                         has_unit ? " " : "",
-                         has_unit ? s.unit : "");
-      ++count;
-    }
+  for (const Score& score : diagnosis) {
+    const bool is_new_line = count++ % 4 == 0;
+    out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
+    out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
   }
-  return out.empty() ? "" : out + "\n";
+  return out + "\n";
 }
 
 }  // namespace
@@ -122,6 +118,7 @@ Judgement judge(const Trajectory& reference, const Trajectory& estimate, const P
   out.protocol = protocol;
   out.coverage = evaluation.coverage;
   out.alignment = evaluation.alignment;
+  out.diagnosis = diagnostics(evaluation, {});
   for (const MetricEntry& entry : metrics()) {
     for (const Params& options : settings(entry.name)) {
       JudgedMetric& judged = out.metrics.emplace_back(JudgedMetric{entry.name, options, {}, {}});
@@ -146,7 +143,7 @@ std::string text(const Judgement& j) {
                   100.0 * j.coverage.share(),
                   100.0 * j.coverage.span) +
       fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
-      diagnosis(j) + "\n";
+      text(j.diagnosis) + "\n";
   const auto head = fmt::format("{:<13} {:<11} {:<4} {:<4}", "metric", "relation", "axis", "unit");
   out += head;
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
@@ -154,7 +151,6 @@ std::string text(const Judgement& j) {
   }
   out += fmt::format(" {:>9}\n", "count");
   for (const JudgedMetric& metric : j.metrics) {
-    if (metric.name == "diagnostics") continue;
     if (!metric.why_undefined.empty()) {
       out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
     }

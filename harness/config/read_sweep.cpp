@@ -82,6 +82,9 @@ class Reader {
   }
 
   double share(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::scalar) {
+      throw input_error(file_, node.line, "min_coverage: expected a number from 0 to 1");
+    }
     double out = 0.0;
     try {
       FieldType<double>::assign("min_coverage", out, node.scalar);

@@ -23,7 +23,7 @@ struct Table {
   std::vector<std::string> columns;  ///< with unit
   std::vector<std::string> rows;
   std::vector<std::vector<TableCell>> cells;  ///< [row][column]
-  std::vector<std::string> notes;  ///< reasons of cells without value, oracle flags
+  std::vector<std::string> notes;             ///< reasons of cells without value, oracle flags
 };
 
 /// Rows, columns and tables appear in the order in which the records first name them.
