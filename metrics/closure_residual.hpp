@@ -11,7 +11,7 @@ template <class Visit>
 void fields(ClosureResidualOptions&, Visit) {}
 
 /// E = L^-1 X_from^-1 X_to for every closure L, X the estimate at its keyframes, not aligned:
-/// closure translation [m] |trans(E)|, closure rotation [deg] angle(E), and closure mahalanobis [1]
+/// translation 3d [m] |trans(E)|, rotation 3d [deg] angle(E), and mahalanobis 3d [1]
 /// sqrt(e^T information e) with e = Log(E); 6 degrees of freedom, so about sqrt(6) rms when the
 /// information tells the truth. A small residual says that the closures were believed, not that
 /// they were right. Throws std::runtime_error without closures, and when a closure changes the

@@ -30,12 +30,15 @@ Errors errors(const Evaluation& evaluation) {
   return out;
 }
 
-Score gain(const std::string& axis, std::vector<double> before, std::vector<double> after) {
-  if (before.empty()) return {"gain", axis, "%", {}, "no pose lies there"};
+Score gain(const std::string& relation,
+           const std::string& axis,
+           std::vector<double> before,
+           std::vector<double> after) {
+  if (before.empty()) return {relation, axis, "%", {}, "no pose lies there"};
   const Statistics b = statistics(std::move(before));
   const Statistics a = statistics(std::move(after));
-  if (b.rmse == 0.0) return {"gain", axis, "%", {}, "there was no error before"};
-  Score out{"gain", axis, "%", {}};
+  if (b.rmse == 0.0) return {relation, axis, "%", {}, "there was no error before"};
+  Score out{relation, axis, "%", {}};
   out.statistics.count = a.count;
   for (double Statistics::*number : {&Statistics::rmse,
                                      &Statistics::mean,
@@ -83,15 +86,17 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
   const Errors after = errors(evaluation);
   const std::vector<double> way = accumulated_distances(evaluation.reference);
 
-  std::vector<Score> out{gain("3d", before.metres, after.metres)};
+  std::vector<Score> out{gain("translation", "3d", before.metres, after.metres)};
   const std::array names{"x", "y", "z"};
-  for (std::size_t a = 0; a < 3; ++a) out.push_back(gain(names[a], before.axes[a], after.axes[a]));
+  for (std::size_t a = 0; a < 3; ++a)
+    out.push_back(gain("translation", names[a], before.axes[a], after.axes[a]));
   const std::string why = why_no_attitude(evaluation);
-  out.push_back(why.empty() ? gain("rotation", before.radians, after.radians)
-                            : Score{"gain", "rotation", "%", {}, why});
+  out.push_back(why.empty() ? gain("angle", "3d", before.radians, after.radians)
+                            : Score{"angle", "3d", "%", {}, why});
   const std::array thirds{"first_third", "middle_third", "last_third"};
   for (int k = 0; k < 3; ++k) {
     out.push_back(gain(thirds[static_cast<std::size_t>(k)],
+                       "3d",
                        third(before.metres, way, k),
                        third(after.metres, way, k)));
   }
@@ -102,8 +107,8 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     worsened += after.metres[i] > before.metres[i];
   }
   const double percent = 100.0 / static_cast<double>(after.metres.size());
-  out.push_back(single("poses", "improved", "%", percent * improved));
-  out.push_back(single("poses", "worsened", "%", percent * worsened));
+  out.push_back(single("improved", "", "%", percent * improved));
+  out.push_back(single("worsened", "", "%", percent * worsened));
   return out;
 }
 

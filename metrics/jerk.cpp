@@ -73,11 +73,11 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
     throw std::runtime_error("jerk: curve and reference share no four samples at " +
                              to_text(options.rate) + " a second without a gap");
   }
-  Score estimate{"jerk", "estimate", "m/s^3", statistics(std::move(estimate_jerk))};
-  Score truth{"jerk", "reference", "m/s^3", statistics(std::move(reference_jerk))};
-  Score ratio{"jerk", "ratio", "1", {}, "the reference has no jerk to compare with"};
+  Score estimate{"estimate", "3d", "m/s^3", statistics(std::move(estimate_jerk))};
+  Score truth{"reference", "3d", "m/s^3", statistics(std::move(reference_jerk))};
+  Score ratio{"ratio", "3d", "1", {}, "the reference has no jerk to compare with"};
   if (truth.statistics.rmse > 0.0) {
-    ratio = single("jerk", "ratio", "1", estimate.statistics.rmse / truth.statistics.rmse);
+    ratio = single("ratio", "3d", "1", estimate.statistics.rmse / truth.statistics.rmse);
   }
   return {std::move(estimate), std::move(truth), std::move(ratio)};
 }

@@ -17,7 +17,7 @@ void fields(JerkOptions& o, Visit visit) {
 }
 
 /// Curve and reference (straight lines between its poses) asked at the same times, `rate` a
-/// second; jerk = third divided difference times 6: jerk estimate and jerk reference [m/s^3],
+/// second; jerk = third divided difference times 6: estimate and reference 3d [m/s^3],
 /// their ratio of rmse [1]. Numbers of different rates do not compare: noise of size s reads about
 /// 4.5 s rate^3, and nothing is filtered before sampling. Stretches over a reference gap are left
 /// out. Estimate in the reference's unit of length. Throws std::runtime_error without a curve, or

@@ -71,9 +71,9 @@ std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& optio
     velocity.push_back(scale * (right.velocity - left.velocity).norm());
     acceleration.push_back(scale * (right.acceleration - left.acceleration).norm());
   }
-  return {{"jump", "position", "m", statistics(std::move(position))},
-          {"jump", "velocity", "m/s", statistics(std::move(velocity))},
-          {"jump", "acceleration", "m/s^2", statistics(std::move(acceleration))}};
+  return {{"position", "3d", "m", statistics(std::move(position))},
+          {"velocity", "3d", "m/s", statistics(std::move(velocity))},
+          {"acceleration", "3d", "m/s^2", statistics(std::move(acceleration))}};
 }
 
 }  // namespace loopbench

@@ -15,7 +15,7 @@ void fields(JumpsOptions& o, Visit visit) {
 }
 
 /// At every keyframe but the ends, right limit minus left limit of the curve, in the reference's
-/// unit of length (scaled by the alignment): jump position [m], velocity [m/s], acceleration
+/// unit of length (scaled by the alignment): position [m], velocity [m/s], acceleration
 /// [m/s^2]. A polyline has velocity jumps, a cubic spline none.
 ///
 /// Each limit comes from the cubic through four points at 1/4, 2/4, 3/4 and 4/4 of `reach` times

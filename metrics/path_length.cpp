@@ -8,9 +8,9 @@ std::vector<Score> path_length_ratio(const Evaluation& evaluation, const PathLen
   const double estimate = path_length(evaluation.estimate);
   const double reference = path_length(evaluation.reference);
   if (reference == 0.0) throw std::runtime_error("path_length: the reference stands still");
-  return {single("length", "ratio", "1", estimate / reference),
-          single("length", "estimate", "m", estimate),
-          single("length", "reference", "m", reference)};
+  return {single("ratio", "", "1", estimate / reference),
+          single("estimate", "", "m", estimate),
+          single("reference", "", "m", reference)};
 }
 
 }  // namespace loopbench

@@ -10,8 +10,8 @@ struct PathLengthOptions {};
 template <class Visit>
 void fields(PathLengthOptions&, Visit) {}
 
-/// Sum of the straight steps between judged poses, after alignment: length estimate [m], length
-/// reference [m], length ratio [1] = estimate over reference. Both are sampled at the same pairs,
+/// Sum of the straight steps between judged poses, after alignment: estimate [m], reference
+/// [m], ratio [1] = estimate over reference. Both are sampled at the same pairs,
 /// so neither gains by being denser; jitter still lengthens.
 /// sim3 alignment takes most of the ratio away. Throws std::runtime_error when the reference
 /// stands still. O(n).

@@ -23,7 +23,7 @@ void fields(SmoothingHeadroomOptions& o, Visit visit) {
 }
 
 /// The position error vectors as a series in time, and what is left without its fast part:
-/// headroom before [m] and after [m] (statistics of the magnitudes), headroom gain [%] = 100 (1 -
+/// before and after 3d [m] (statistics of the magnitudes), gain [%] = 100 (1 -
 /// rmse after / rmse before). What a smoother that takes all fast error away and touches no slow
 /// error could have gained at most.
 ///

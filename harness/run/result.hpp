@@ -14,8 +14,8 @@ namespace loopbench {
 
 enum class Status {
   ok,
-  declined,    ///< the problem is not for this method: not an error
-  failed,      ///< the method or a metric threw, or a number means nothing here
+  declined,    ///< not for this method, or a number that means nothing here: not an error
+  failed,      ///< the method or a metric threw
   incomplete,  ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
 };
 inline auto choices(Status) {
@@ -25,7 +25,7 @@ inline auto choices(Status) {
                     std::pair{"incomplete", Status::incomplete}};
 }
 
-/// One metric at one choice of times; when it failed there, only status and why are filled.
+/// One metric at one choice of times; when it is undefined there, only status and why are filled.
 struct ScoreResult {
   Times times = Times::keyframes;
   std::string metric;  ///< label

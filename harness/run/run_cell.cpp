@@ -52,7 +52,7 @@ void score(CellResult& result,
       result.scores.push_back(row);
       ScoreResult& added = result.scores.back();
       if (!score.why_undefined.empty()) {
-        added.status = Status::failed;
+        added.status = Status::declined;
         added.why = score.why_undefined;
       }
       added.score = std::move(score);

@@ -43,15 +43,15 @@ TEST(GainAlong, ByHand) {
       corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}));
   const auto scores = gain_along(cell.evaluation, {});
   // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; thirds of the way hold two poses each.
-  EXPECT_NEAR(find(scores, "gain", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
-  EXPECT_NEAR(find(scores, "gain", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
-  EXPECT_NEAR(find(scores, "gain", "first_third").rmse, 50.0, 1e-12);
   EXPECT_NEAR(
-      find(scores, "gain", "middle_third").rmse, 100.0 * (1.0 - std::sqrt(8.0 / 20.0)), 1e-12);
+      find(scores, "translation", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
+  EXPECT_NEAR(find(scores, "translation", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
+  EXPECT_NEAR(find(scores, "first_third", "3d").rmse, 50.0, 1e-12);
   EXPECT_NEAR(
-      find(scores, "gain", "last_third").rmse, 100.0 * (1.0 - std::sqrt(64.0 / 32.0)), 1e-12);
-  EXPECT_NEAR(find(scores, "poses", "improved").mean, 100.0 * 3.0 / 6.0, 1e-12);
-  EXPECT_NEAR(find(scores, "poses", "worsened").mean, 100.0 / 6.0, 1e-12);
+      find(scores, "middle_third", "3d").rmse, 100.0 * (1.0 - std::sqrt(8.0 / 20.0)), 1e-12);
+  EXPECT_NEAR(find(scores, "last_third", "3d").rmse, 100.0 * (1.0 - std::sqrt(64.0 / 32.0)), 1e-12);
+  EXPECT_NEAR(find(scores, "improved", "").mean, 100.0 * 3.0 / 6.0, 1e-12);
+  EXPECT_NEAR(find(scores, "worsened", "").mean, 100.0 / 6.0, 1e-12);
 }
 
 TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
@@ -59,9 +59,9 @@ TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
   problem.keyframes = line({0, 1, 0, 1, 0, 1});
   const JudgedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
   for (const Score& score : gain_along(cell.evaluation, {})) {
-    const bool is_free = score.axis == "x" || score.axis == "z" || score.axis == "rotation";
+    const bool is_free = score.axis == "x" || score.axis == "z" || score.relation == "angle";
     EXPECT_EQ(score.why_undefined, is_free ? "there was no error before" : "") << score.axis;
-    if (score.relation == "gain" && !is_free) {
+    if (score.unit == "%" && score.axis != "" && !is_free) {
       EXPECT_EQ(score.statistics.rmse, 100.0);
     }
   }
@@ -91,11 +91,11 @@ TEST(ClosureResidual, ByHandIncludingMahalanobis) {
   problem.closures.push_back({0, 3, measured, information});
   const JudgedCell cell = corrected(problem, problem.keyframes, problem.keyframes);
   const auto scores = closure_residual(cell.evaluation, {});
-  EXPECT_NEAR(find(scores, "closure", "translation").sse, 9.0, 1e-12);
-  EXPECT_NEAR(find(scores, "closure", "rotation").max, 90.0, 1e-12);
+  EXPECT_NEAR(find(scores, "translation", "3d").sse, 9.0, 1e-12);
+  EXPECT_NEAR(find(scores, "rotation", "3d").max, 90.0, 1e-12);
   // e = (3, 0, 0, 0, 0, 0) weighs 2, e = (0, 0, 0, 0, 0, -pi / 2) weighs 3.
-  EXPECT_NEAR(find(scores, "closure", "mahalanobis").max, 6.0, 1e-12);
-  EXPECT_NEAR(find(scores, "closure", "mahalanobis").min, 1.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(find(scores, "mahalanobis", "3d").max, 6.0, 1e-12);
+  EXPECT_NEAR(find(scores, "mahalanobis", "3d").min, 1.5 * std::numbers::pi, 1e-12);
 }
 
 TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
@@ -111,10 +111,10 @@ TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
       problem,
       std::make_unique<Polyline>(test::moved_by(elsewhere, 1.0, problem.keyframes)),
       Times::keyframes);
-  for (const char* axis : {"translation", "rotation", "mahalanobis"}) {
-    const double residual = find(closure_residual(here.evaluation, {}), "closure", axis).rmse;
+  for (const char* relation : {"translation", "rotation", "mahalanobis"}) {
+    const double residual = find(closure_residual(here.evaluation, {}), relation, "3d").rmse;
     EXPECT_GT(residual, 0.0);
-    EXPECT_NEAR(find(closure_residual(there.evaluation, {}), "closure", axis).rmse,
+    EXPECT_NEAR(find(closure_residual(there.evaluation, {}), relation, "3d").rmse,
                 residual,
                 1e-10 * residual);
   }
@@ -128,7 +128,7 @@ TEST(ClosureResidual, IsZeroForTheTruth) {
   const Problem problem = test::drifting(truth, twist({0.01, 0, 0}, {0, 0, 0}), {{0, 59}});
   const JudgedCell cell(truth, problem, std::make_unique<Polyline>(truth), Times::keyframes);
   for (const Score& score : closure_residual(cell.evaluation, {})) {
-    EXPECT_LT(score.statistics.max, 1e-10) << score.axis;
+    EXPECT_LT(score.statistics.max, 1e-10) << score.relation;
   }
 }
 

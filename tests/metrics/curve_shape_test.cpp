@@ -61,13 +61,13 @@ TEST_P(JumpsAt, ByHandOnPieces) {
     return {t + 3.0, 4.0, 4.0};           // velocity (1, 0, 0), acceleration 0
   });
   const auto scores = jumps(cell.evaluation, {});
-  EXPECT_EQ(find(scores, "jump", "position").count, 7u);
-  EXPECT_NEAR(find(scores, "jump", "position").max, 5.0, 1e-12);
-  EXPECT_NEAR(find(scores, "jump", "velocity").max, 4.0, 1e-10);
-  EXPECT_NEAR(find(scores, "jump", "acceleration").max, 2.0, 1e-8);
-  EXPECT_NEAR(find(scores, "jump", "position").median, 0.0, 1e-13);
-  EXPECT_NEAR(find(scores, "jump", "velocity").median, 0.0, 1e-11);
-  EXPECT_NEAR(find(scores, "jump", "acceleration").median, 0.0, 1e-9);
+  EXPECT_EQ(find(scores, "position", "3d").count, 7u);
+  EXPECT_NEAR(find(scores, "position", "3d").max, 5.0, 1e-12);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, 4.0, 1e-10);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").max, 2.0, 1e-8);
+  EXPECT_NEAR(find(scores, "position", "3d").median, 0.0, 1e-13);
+  EXPECT_NEAR(find(scores, "velocity", "3d").median, 0.0, 1e-11);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").median, 0.0, 1e-9);
 }
 
 // Seconds since 1970 come in steps of 2.4e-7 s; the derivatives must not show it.
@@ -78,9 +78,9 @@ TEST(Jumps, SmoothCurvesHaveNone) {
     return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
   });
   const auto scores = jumps(cell.evaluation, {.reach = 0.02});
-  EXPECT_LT(find(scores, "jump", "position").max, 1e-12);
-  EXPECT_LT(find(scores, "jump", "velocity").max, 1e-7);
-  EXPECT_LT(find(scores, "jump", "acceleration").max, 1e-4);
+  EXPECT_LT(find(scores, "position", "3d").max, 1e-12);
+  EXPECT_LT(find(scores, "velocity", "3d").max, 1e-7);
+  EXPECT_LT(find(scores, "acceleration", "3d").max, 1e-4);
 }
 
 TEST(Jumps, APolylineKinksByTheChangeOfItsVelocity) {
@@ -92,9 +92,9 @@ TEST(Jumps, APolylineKinksByTheChangeOfItsVelocity) {
   problem.keyframes = poses;
   const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   const auto scores = jumps(cell.evaluation, {});
-  EXPECT_NEAR(find(scores, "jump", "position").max, 0.0, 1e-14);
-  EXPECT_NEAR(find(scores, "jump", "velocity").max, std::sqrt(5.0), 1e-12);
-  EXPECT_NEAR(find(scores, "jump", "acceleration").max, 0.0, 1e-10);
+  EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 1e-14);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").max, 0.0, 1e-10);
 }
 
 TEST(Jumps, RefusesFilesAndShortCurves) {
@@ -125,12 +125,12 @@ TEST(Jerk, ByHandOnACubic) {
       return {2.0 * t * t * t, t, -1.0};
     });
     const auto scores = jerk(cell.evaluation, {.rate = 10.0});
-    EXPECT_GT(find(scores, "jerk", "estimate").count, 36u);
-    EXPECT_NEAR(find(scores, "jerk", "estimate").min, 12.0, 1e-6);
-    EXPECT_NEAR(find(scores, "jerk", "estimate").max, 12.0, 1e-6);
+    EXPECT_GT(find(scores, "estimate", "3d").count, 36u);
+    EXPECT_NEAR(find(scores, "estimate", "3d").min, 12.0, 1e-6);
+    EXPECT_NEAR(find(scores, "estimate", "3d").max, 12.0, 1e-6);
     // The reference is read on chords 10 ms long: off by up to jerk-free quarters of them.
-    EXPECT_NEAR(find(scores, "jerk", "reference").mean, 12.0, 1.0);
-    EXPECT_NEAR(find(scores, "jerk", "ratio").rmse, 1.0, 0.1);
+    EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
+    EXPECT_NEAR(find(scores, "ratio", "3d").rmse, 1.0, 0.1);
   }
 }
 
@@ -144,9 +144,9 @@ TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
   Evaluation evaluation = whole.evaluation;
   evaluation.context.reference = &holed;
   const auto scores = jerk(evaluation, {.rate = 10.0});
-  const std::size_t all = find(jerk(whole.evaluation, {.rate = 10.0}), "jerk", "estimate").count;
-  EXPECT_EQ(find(scores, "jerk", "estimate").count, all - 12);  // begins 0.8 .. 1.9
-  EXPECT_NEAR(find(scores, "jerk", "reference").mean, 12.0, 1.0);
+  const std::size_t all = find(jerk(whole.evaluation, {.rate = 10.0}), "estimate", "3d").count;
+  EXPECT_EQ(find(scores, "estimate", "3d").count, all - 12);  // begins 0.8 .. 1.9
+  EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
   EXPECT_THROW(jerk(evaluation, {.rate = 0.1}), std::runtime_error);
   EXPECT_THROW(jerk(evaluation, {.rate = 1e12}), std::runtime_error);
 }

@@ -31,7 +31,7 @@ Evaluation straying(std::size_t n, Error error) {
 }
 
 double gain(const Evaluation& evaluation, const SmoothingHeadroomOptions& options) {
-  return find(smoothing_headroom(evaluation, options), "headroom", "gain").mean;
+  return find(smoothing_headroom(evaluation, options), "gain", "3d").mean;
 }
 
 /// Waves of the mirrored span, so that each is one line of the spectrum: slow 3 m, fast 4 m.
@@ -50,8 +50,8 @@ TEST(SmoothingHeadroom, TakesFastWavesAwayAndLeavesSlowOnes) {
   // Joining samples of a wave by straight lines leaves (2 + cos phase step) / 3 of its power.
   const double slow = 0.5 * 9.0 * (2.0 + std::cos(std::numbers::pi * 4.0 / 1023.0)) / 3.0;
   const double fast = 0.5 * 16.0 * (2.0 + std::cos(std::numbers::pi * 80.0 / 1023.0)) / 3.0;
-  EXPECT_NEAR(find(scores, "headroom", "before").rmse, std::sqrt(slow + fast), 1e-3);
-  EXPECT_NEAR(find(scores, "headroom", "after").rmse, std::sqrt(slow), 1e-3);
+  EXPECT_NEAR(find(scores, "before", "3d").rmse, std::sqrt(slow + fast), 1e-3);
+  EXPECT_NEAR(find(scores, "after", "3d").rmse, std::sqrt(slow), 1e-3);
   EXPECT_NEAR(gain(e, {.window = 1.0}), 100.0 * (1.0 - std::sqrt(slow / (slow + fast))), 0.03);
   EXPECT_NEAR(gain(e, {.window = 0.3}), 0.0, 1e-3);
   EXPECT_GT(gain(e, {.window = 10.0}), 99.0);
@@ -102,7 +102,7 @@ TEST(SmoothingHeadroom, OfRgbdslamOnRoomIsSmall) {
   const Evaluation e = evaluate(read_trajectory(room / "groundtruth.txt", {}),
                                 read_trajectory(room / "rgbdslam_frames.txt", {}),
                                 {});
-  EXPECT_NEAR(find(smoothing_headroom(e, {}), "headroom", "before").rmse, 0.101, 1e-3);
+  EXPECT_NEAR(find(smoothing_headroom(e, {}), "before", "3d").rmse, 0.101, 1e-3);
   EXPECT_NEAR(gain(e, {.window = 1.0}), 1.935, 0.05);
   EXPECT_NEAR(gain(e, {.window = 2.0}), 4.617, 0.05);
   EXPECT_NEAR(gain(e, {.window = 4.0}), 11.686, 0.05);
