@@ -55,9 +55,10 @@ struct Sweep {
   std::vector<MetricChoice> metrics;
   std::vector<Times> times{Times::keyframes, Times::dense};
   Protocol protocol;
-  std::string baseline;  ///< method label that gain is measured from; empty: no gain
-  int repeats = 1;       ///< instances of each seeded dataset
-  int timing = 1;        ///< runs of each method's verb
+  std::string baseline;       ///< method label that gain is measured from; empty: no gain
+  double min_coverage = 0.0;  ///< share and span below this make numbers `incomplete`, 0..1
+  int repeats = 1;            ///< instances of each seeded dataset
+  int timing = 1;             ///< runs of each method's verb
   std::vector<Exclusion> exclude;
   TableSpec table;
 };

@@ -1,6 +1,7 @@
 #include "metrics/ate.hpp"
 
 #include "metrics/angle.hpp"
+#include "metrics/position_only.hpp"
 
 namespace loopbench {
 
@@ -14,8 +15,9 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
     metres[i] = (reference.translation - estimate.translation).norm();
     degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
   }
-  return {{"translation", "3d", "m", statistics(std::move(metres))},
-          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+  Score rotation{"rotation", "3d", "deg", {}, why_no_attitude(evaluation)};
+  if (rotation.why_undefined.empty()) rotation.statistics = statistics(std::move(degrees));
+  return {{"translation", "3d", "m", statistics(std::move(metres))}, std::move(rotation)};
 }
 
 }  // namespace loopbench

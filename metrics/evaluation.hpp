@@ -5,6 +5,7 @@
 
 #include "datasets/core/curve.hpp"
 #include "metrics/alignment.hpp"
+#include "metrics/context.hpp"
 #include "metrics/protocol.hpp"
 
 namespace loopbench {
@@ -30,6 +31,7 @@ struct Evaluation {
   Trajectory estimate;  ///< already moved onto the reference by `alignment`
   Alignment alignment;
   Coverage coverage;
+  Context context;  ///< empty from evaluate(): whoever holds the problem and the curve fills it
 };
 
 /// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches or the

@@ -5,6 +5,7 @@
 
 #include "metrics/angle.hpp"
 #include "metrics/pair_search.hpp"
+#include "metrics/position_only.hpp"
 
 namespace loopbench {
 namespace {
@@ -56,11 +57,22 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
             : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
     for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
   }
-  return {{"translation", "3d", "m", statistics(std::move(metres))},
-          {"translation", "x", "m", statistics(std::move(axes[0]))},
-          {"translation", "y", "m", statistics(std::move(axes[1]))},
-          {"translation", "z", "m", statistics(std::move(axes[2]))},
-          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+  // |trans(E)| and the body frame turn motions by the attitudes; only the world's axes do not.
+  const std::string why = why_no_attitude(evaluation);
+  const std::string why_axis = options.frame == RpeFrame::body ? why : "";
+  const auto score = [](const char* relation,
+                        const char* axis,
+                        const char* unit,
+                        std::vector<double>& errors,
+                        const std::string& why_not) {
+    if (!why_not.empty()) return Score{relation, axis, unit, {}, why_not};
+    return Score{relation, axis, unit, statistics(std::move(errors))};
+  };
+  return {score("translation", "3d", "m", metres, why),
+          score("translation", "x", "m", axes[0], why_axis),
+          score("translation", "y", "m", axes[1], why_axis),
+          score("translation", "z", "m", axes[2], why_axis),
+          score("rotation", "3d", "deg", degrees, why)};
 }
 
 }  // namespace loopbench

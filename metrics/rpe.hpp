@@ -51,7 +51,8 @@ void fields(RpeOptions& o, Visit visit) {
 /// `delta` seconds of reference stamps or metres and within tolerance (see pair_search.hpp; evo's
 /// rule, with distance_of = estimate for its default). Pairs from the reference are the same for
 /// every method. Throws OptionError when delta is not whole for frames, std::runtime_error when no
-/// two poses are that far apart. O(n log n).
+/// two poses are that far apart. For positions without attitude (position_only.hpp) only world
+/// axes are defined. O(n log n).
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options);
 
 }  // namespace loopbench

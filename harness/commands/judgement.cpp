@@ -5,15 +5,18 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "metrics/diagnostics.hpp"
+
 namespace loopbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The settings `eval` asks a metric for. Coverage stands above the table, once.
+/// The settings `eval` asks a metric for. Coverage stands above the table, once; metrics that need
+/// more than two files, or a choice of options to mean something, are left to sweeps.
 std::vector<Params> settings(const std::string& metric) {
-  if (metric == "coverage") return {};
-  if (metric != "rpe") return {Params{}};
+  if (metric == "ate" || metric == "axis_error") return {Params{}};
+  if (metric != "rpe") return {};
   return {{{"delta", 1.0}, {"unit", std::string("frames")}},
           {{"delta", 1.0}, {"unit", std::string("s")}},
           {{"delta", 1.0}, {"unit", std::string("m")}}};
@@ -46,8 +49,20 @@ Json to_json(const JudgedMetric& metric, const Score& score) {
 Json to_json(const Judgement& j) {
   Json scores = Json::array();
   Json undefined = Json::array();
+  Json diagnosis = Json::object();
+  for (const Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
   for (const JudgedMetric& metric : j.metrics) {
-    for (const Score& score : metric.scores) scores.push_back(to_json(metric, score));
+    for (const Score& score : metric.scores) {
+      if (score.why_undefined.empty()) {
+        scores.push_back(to_json(metric, score));
+      } else {
+        undefined.push_back({{"metric", metric.name},
+                             {"options", to_json(metric.options)},
+                             {"relation", score.relation},
+                             {"axis", score.axis},
+                             {"why", score.why_undefined}});
+      }
+    }
     if (metric.why_undefined.empty()) continue;
     undefined.push_back({{"metric", metric.name},
                          {"options", to_json(metric.options)},
@@ -65,6 +80,7 @@ Json to_json(const Judgement& j) {
             {"scale", j.alignment.scale},
             {"rank", j.alignment.rank},
             {"condition", j.alignment.condition}}},
+          {"diagnosis", std::move(diagnosis)},
           {"metrics", std::move(scores)},
           {"undefined", std::move(undefined)}};
 }
@@ -78,16 +94,31 @@ std::string label(const JudgedMetric& metric) {
                      std::get<std::string>(metric.options.at("unit")));
 }
 
+/// "largest_gap 0.25 s, repeated 0, ...", a few a line.
+std::string text(const std::vector<Score>& diagnosis) {
+  std::string out;
+  int count = 0;
+  for (const Score& score : diagnosis) {
+    const bool is_new_line = count++ % 4 == 0;
+    out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
+    out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
+  }
+  return out + "\n";
+}
+
 }  // namespace
 
 Judgement judge(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol) {
-  const Evaluation evaluation = evaluate(reference, estimate, protocol);
+  Evaluation evaluation = evaluate(reference, estimate, protocol);
+  evaluation.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol};
   Judgement out;
   out.reference_poses = reference.size();
   out.estimate_poses = estimate.size();
   out.protocol = protocol;
   out.coverage = evaluation.coverage;
   out.alignment = evaluation.alignment;
+  out.diagnosis = diagnostics(evaluation, {});
   for (const MetricEntry& entry : metrics()) {
     for (const Params& options : settings(entry.name)) {
       JudgedMetric& judged = out.metrics.emplace_back(JudgedMetric{entry.name, options, {}, {}});
@@ -111,7 +142,8 @@ std::string text(const Judgement& j) {
                   j.coverage.possible,
                   100.0 * j.coverage.share(),
                   100.0 * j.coverage.span) +
-      fmt::format("alignment  {}, scale {}\n\n", to_text(j.alignment.type), j.alignment.scale);
+      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
+      text(j.diagnosis) + "\n";
   const auto head = fmt::format("{:<13} {:<11} {:<4} {:<4}", "metric", "relation", "axis", "unit");
   out += head;
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
@@ -122,7 +154,12 @@ std::string text(const Judgement& j) {
     if (!metric.why_undefined.empty()) {
       out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
     }
-    for (const auto& [relation, axis, unit, s] : metric.scores) {
+    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      if (!why.empty()) {
+        out +=
+            fmt::format("{:<13} {:<11} {:<4} undefined: {}\n", label(metric), relation, axis, why);
+        continue;
+      }
       out += fmt::format("{:<13} {:<11} {:<4} {:<4}", label(metric), relation, axis, unit);
       for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
         out += fmt::format(" {:>12.6f}", value);

@@ -68,6 +68,7 @@ int run(const RunArguments& arguments) {
   const std::filesystem::path file = out / "results.sqlite";
   std::size_t done = 0;
   std::size_t failed = 0;
+  std::size_t incomplete = 0;
   {
     Sequences sequences(sweep, known, root, planned);
     std::optional<Store> store;  // opened by the first result: a wrong path leaves no empty store
@@ -80,6 +81,7 @@ int run(const RunArguments& arguments) {
           store->write(sweep, r);
           ++done;
           if (has_failure(r)) ++failed;
+          if (r.status == Status::incomplete) ++incomplete;
           progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                         sweep.methods[r.cell.method].label);
         });
@@ -92,11 +94,12 @@ int run(const RunArguments& arguments) {
   write_file(out / "table.md", text);
   write_file(out / "table.csv", csv(tables));
   write_file(out / "rows.csv", csv(records));
-  fmt::print("{}\n{} of {} cells done, {} failed; value: {}; protocol: {}\n{}\n",
+  fmt::print("{}\n{} of {} cells done, {} failed{}; value: {}; protocol: {}\n{}\n",
              text,
              done,
              planned.size(),
              failed,
+             incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
              to_text(echo(sweep.protocol)),
              (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());

@@ -19,6 +19,7 @@ const std::vector<std::string> kKeys{"description",
                                      "times",
                                      "protocol",
                                      "baseline",
+                                     "min_coverage",
                                      "repeats",
                                      "timing",
                                      "exclude",
@@ -41,6 +42,7 @@ class Reader {
     sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
     if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
     if (const YamlNode* node = root.find("protocol")) sweep.protocol = protocol(*node);
+    if (const YamlNode* node = root.find("min_coverage")) sweep.min_coverage = share(*node);
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
     if (const YamlNode* node = root.find("timing")) sweep.timing = count(*node, "timing");
     if (const YamlNode* node = root.find("exclude")) sweep.exclude = exclusions(*node);
@@ -77,6 +79,20 @@ class Reader {
       throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
     }
     return static_cast<int>(*whole);
+  }
+
+  double share(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::scalar) {
+      throw input_error(file_, node.line, "min_coverage: expected a number from 0 to 1");
+    }
+    double out = 0.0;
+    try {
+      FieldType<double>::assign("min_coverage", out, node.scalar);
+      detail::obey("min_coverage", out, Between{0.0, 1.0});
+    } catch (const OptionError& error) {
+      throw input_error(file_, node.line, error.what());
+    }
+    return out;
   }
 
   template <class Choice, class Read>

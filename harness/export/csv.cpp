@@ -12,6 +12,9 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+/// What too little coverage makes incomplete is measured all the same; the status stands beside it.
+bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "incomplete"; }
+
 }  // namespace
 
 std::string csv(const std::vector<Table>& tables) {
@@ -52,18 +55,18 @@ std::string csv(const std::vector<Record>& records) {
                        r.axis,
                        r.unit);
     // An undefined score has no numbers, not zeros.
-    out += r.metric.empty() || r.status != "ok" ? std::string(",,,,,,,,,,")
-                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",
-                                                              s.count,
-                                                              s.rmse,
-                                                              s.mean,
-                                                              s.median,
-                                                              s.std,
-                                                              s.min,
-                                                              s.max,
-                                                              s.sse,
-                                                              r.pairs,
-                                                              r.possible);
+    out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
+                                               : fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                                                             s.count,
+                                                             s.rmse,
+                                                             s.mean,
+                                                             s.median,
+                                                             s.std,
+                                                             s.min,
+                                                             s.max,
+                                                             s.sse,
+                                                             r.pairs,
+                                                             r.possible);
     out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));
   }
   return out;

@@ -56,7 +56,9 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   const std::size_t row = table.rows.index(name);
   if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
   if (record.status != "ok") {
-    const std::string what = record.metric.empty() ? "" : record.metric + " ";
+    // Too little coverage is one reason for every metric; an undefined number names itself.
+    const bool is_whole = record.metric.empty() || record.status == "incomplete";
+    const std::string what = is_whole ? "" : joined(record, {"metric", "relation"}, " ") + " ";
     table.note(name + ": " + what + record.status + ": " + record.why);
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);

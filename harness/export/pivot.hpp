@@ -14,7 +14,7 @@ namespace loopbench {
 struct TableCell {
   std::optional<double> value;
   std::size_t records = 0;  ///< how many were averaged (repeats, for example)
-  std::string status;       ///< "declined" or "failed" when there is no value for that reason
+  std::string status;       ///< "declined", "failed" or "incomplete" when there is no value
 };
 
 struct Table {
@@ -23,7 +23,7 @@ struct Table {
   std::vector<std::string> columns;  ///< with unit
   std::vector<std::string> rows;
   std::vector<std::vector<TableCell>> cells;  ///< [row][column]
-  std::vector<std::string> notes;  ///< reasons of declined and failed cells, oracle flags
+  std::vector<std::string> notes;             ///< reasons of cells without value, oracle flags
 };
 
 /// Rows, columns and tables appear in the order in which the records first name them.

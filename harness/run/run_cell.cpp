@@ -1,5 +1,8 @@
 #include "harness/run/run_cell.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <exception>
 
@@ -24,21 +27,38 @@ void fenced(Result& result, Work work) {
   }
 }
 
+/// Why so little was judged that the numbers do not stand beside others; empty when enough was.
+std::string why_incomplete(const Coverage& coverage, double min_coverage) {
+  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
+  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
+                     coverage.pairs,
+                     coverage.possible,
+                     100.0 * coverage.span,
+                     100.0 * min_coverage);
+}
+
 /// All scores of one metric, or one row that says why there are none.
 void score(CellResult& result,
            const MetricChoice& choice,
-           Times times,
            const Evaluation& evaluation,
+           const std::string& why_incomplete,
            const Catalogue& catalogue) {
-  ScoreResult row{times, choice.label, {}, evaluation.coverage, Status::ok, ""};
+  const Status usual = why_incomplete.empty() ? Status::ok : Status::incomplete;
+  ScoreResult row{
+      evaluation.context.times, choice.label, {}, evaluation.coverage, usual, why_incomplete};
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
-      row.score = std::move(score);
       result.scores.push_back(row);
+      ScoreResult& added = result.scores.back();
+      if (!score.why_undefined.empty()) {
+        added.status = Status::declined;
+        added.why = score.why_undefined;
+      }
+      added.score = std::move(score);
     }
   });
-  if (row.status != Status::ok) result.scores.push_back(row);
+  if (row.status == Status::failed) result.scores.push_back(row);
 }
 
 void judge(CellResult& result,
@@ -47,13 +67,21 @@ void judge(CellResult& result,
            const Curve& curve,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
+  const Trajectory at_keyframes = curve.sample(keyframe_stamps);
   for (const Times times : sweep.times) {
     ScoreResult none{times, "", {}, {}, Status::ok, ""};
     fenced(none, [&] {
-      const Evaluation evaluation =
+      Evaluation evaluation =
           evaluate(sequence.reference, curve, keyframe_stamps, times, sweep.protocol);
+      evaluation.context = {
+          &sequence.reference, &at_keyframes, &sequence.problem, &curve, times, sweep.protocol};
+      const std::string why = why_incomplete(evaluation.coverage, sweep.min_coverage);
+      if (!why.empty()) {
+        result.status = Status::incomplete;
+        result.why = to_text(times) + ": " + why;
+      }
       for (const MetricChoice& choice : sweep.metrics) {
-        score(result, choice, times, evaluation, catalogue);
+        score(result, choice, evaluation, why, catalogue);
       }
     });
     if (none.status == Status::ok) continue;

@@ -21,7 +21,7 @@ inline constexpr const char* kSchema = R"sql(
     seconds_median REAL NOT NULL,
     seconds_min REAL NOT NULL,
     seconds_max REAL NOT NULL,
-    status TEXT NOT NULL,              -- ok | declined | failed
+    status TEXT NOT NULL,              -- ok | declined | failed | incomplete
     why TEXT NOT NULL);
   CREATE TABLE score (
     cell INTEGER NOT NULL REFERENCES cell(id),

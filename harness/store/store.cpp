@@ -154,8 +154,11 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     SELECT c.id, c.sequence, c.repeat, c.method, c.closures, c.oracle_closures,
            c.seconds_median * 1000, s.times, s.metric, s.relation, s.axis, s.unit,
            s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.pairs, s.possible,
-           CASE WHEN c.status = 'ok' THEN coalesce(s.status, 'ok') ELSE c.status END,
-           CASE WHEN c.why = '' THEN coalesce(s.why, '') ELSE c.why END
+           -- An incomplete cell may be complete at other times: its scores know.
+           CASE WHEN c.status IN ('ok', 'incomplete') THEN coalesce(s.status, c.status)
+                ELSE c.status END,
+           CASE WHEN c.why = '' OR c.status = 'incomplete' THEN coalesce(s.why, c.why)
+                ELSE c.why END
     FROM cell c LEFT JOIN score s ON s.cell = c.id ORDER BY c.id, s.rowid)sql");
   std::vector<Record> out;
   while (rows.step()) {

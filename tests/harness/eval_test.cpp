@@ -92,6 +92,7 @@ TEST(Eval, JsonHasThePromisedKeys) {
                           "coverage",
                           "span",
                           "alignment",
+                          "diagnosis",
                           "metrics",
                           "undefined"}) {
     EXPECT_TRUE(judged.contains(key)) << key;
@@ -117,6 +118,31 @@ TEST(Eval, JsonHasThePromisedKeys) {
   }
   // rpe: 1 frame, 1 s, 1 m; five rows each.
   EXPECT_EQ(rows, (std::map<std::string, int>{{"ate", 2}, {"axis_error", 3}, {"rpe", 15}}));
+}
+
+TEST(Eval, DiagnosesWhatItWasGiven) {
+  const Json judged = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
+  EXPECT_EQ(judged["diagnosis"]["matched"], 635.0);
+  EXPECT_EQ(judged["diagnosis"]["position_only_reference"], 0.0);
+  EXPECT_NE(eval({golden("gt.txt"), golden("est_corrected.txt")})
+                .find("\ndiagnosis  matched 635, possible 657, largest_gap 1.86 s, repeated 0,\n"),
+            std::string::npos);
+}
+
+TEST(Eval, RefusesRotationOfPositionsAlone) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "positions.txt").string();
+  {
+    std::ofstream out(file);
+    for (int i = 0; i < 20; ++i) out << i << " " << i << " " << i * i << " 0 0 0 0 1\n";
+  }
+  const Json judged = eval_json({file, file});
+  EXPECT_EQ(find(judged, "ate", "translation")["count"], 20);
+  EXPECT_EQ(judged["undefined"][0]["metric"], "ate");
+  EXPECT_EQ(judged["undefined"][0]["relation"], "rotation");
+  EXPECT_NE(
+      eval({file, file}).find("ate           rotation    3d   undefined: the reference keeps"),
+      std::string::npos);
 }
 
 TEST(Eval, SeveralEstimatesAreSeveralJudgements) {

@@ -36,6 +36,7 @@ TEST(ReadSweep, FillsInDefaults) {
   EXPECT_EQ(sweep.times, (std::vector<Times>{Times::keyframes, Times::dense}));
   EXPECT_EQ(sweep.protocol.align, Align::se3);
   EXPECT_EQ(sweep.baseline, "");
+  EXPECT_EQ(sweep.min_coverage, 0.0);
 }
 
 TEST(ReadSweep, ComposesStagesAndDistributesOptions) {
@@ -90,6 +91,12 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
             "c.yaml:7: method: '(' is not a regular expression");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
+            "c.yaml:7: min_coverage = 80.0 breaks 0 <= min_coverage <= 1");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),
+            "c.yaml:7: min_coverage = most: expected a number");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: [0.8]\n")),
+            "c.yaml:7: min_coverage: expected a number from 0 to 1");
   EXPECT_EQ(why("methods: [shift]\nmetrics: [ate]\n"), "c.yaml:1: 'datasets' is missing");
   EXPECT_EQ(why("datasets: []\nmethods: [shift]\nmetrics: [ate]\n"),
             "c.yaml:1: datasets: expected a list with at least one entry");
