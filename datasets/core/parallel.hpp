@@ -15,6 +15,9 @@ inline std::size_t cores() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
 }
 
+/// Poses or numbers below which starting a thread costs more than it saves.
+inline constexpr std::size_t kWorthAThread = 32768;
+
 /// Calls body(0) .. body(count - 1), each on a thread of its own. Throws what the first of them by
 /// index threw, after all have ended.
 template <class Body>
@@ -41,7 +44,6 @@ void in_parallel(std::size_t count, const Body& body) {
 /// thread. The body must give the same bits however the range is cut.
 template <class Body>
 void in_blocks(std::size_t count, const Body& body) {
-  constexpr std::size_t kWorthAThread = 32768;
   const std::size_t blocks = std::clamp<std::size_t>(count / kWorthAThread, 1, cores());
   in_parallel(blocks, [&](std::size_t k) { body(count * k / blocks, count * (k + 1) / blocks); });
 }

@@ -15,11 +15,11 @@ namespace loopbench {
 template <class Parse, class Fits>
 auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
   using Part = decltype(parse(file));
-  constexpr std::size_t kWorthAThread = std::size_t{1} << 20;  // [bytes]
+  constexpr std::size_t kSmallest = std::size_t{1} << 20;  // [bytes]
   std::vector<Part> parts;
-  if (file.bytes() >= 2 * kWorthAThread && cores() > 1) {
+  if (file.bytes() >= 2 * kSmallest && cores() > 1) {
     try {
-      std::vector<TextFile> texts = file.cut(std::min(cores(), file.bytes() / kWorthAThread));
+      std::vector<TextFile> texts = file.cut(std::min(cores(), file.bytes() / kSmallest));
       parts.resize(texts.size());
       in_parallel(texts.size(), [&](std::size_t i) { parts[i] = parse(texts[i]); });
       bool all_fit = true;
