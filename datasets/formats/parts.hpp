@@ -34,14 +34,17 @@ auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
   return parts;
 }
 
-/// The parts as one list, in order. The first grows, so it should have reserved room for all.
+/// At the end of `list`, which should have reserved room for it.
+template <class T>
+void append(std::vector<T>& list, std::vector<T> more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/// The parts as one list, in order.
 template <class T>
 std::vector<T> joined(std::vector<std::vector<T>> parts) {
   std::vector<T> out = std::move(parts.front());
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    out.insert(out.end(), parts[i].begin(), parts[i].end());
-    parts[i] = {};
-  }
+  for (std::size_t i = 1; i < parts.size(); ++i) append(out, std::move(parts[i]));
   return out;
 }
 

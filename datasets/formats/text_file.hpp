@@ -39,6 +39,9 @@ class TextFile {
   /// lines from 1.
   std::vector<TextFile> cut(std::size_t count) const;
 
+  /// Read so far, blank ones and comments too.
+  std::size_t lines() const { return line_; }
+
   const std::string& name() const { return name_; }
   std::size_t bytes() const { return size_; }
 
