@@ -81,6 +81,8 @@ Paired interpolate_reference(const Trajectory& reference,
                              double max_gap,
                              double offset) {
   Paired out;
+  out.reference.reserve(estimate.size());
+  out.estimate.reserve(estimate.size());
   std::size_t after = 0;  // first reference pose not before the wanted stamp
   for (const StampedPose& pose : estimate) {
     const double stamp = pose.stamp + offset;
