@@ -36,7 +36,7 @@ std::size_t line_of(const YAML::Node& node) {
 
 /// Aliases are written out, so a few lines may mean more than memory holds, or hold themselves.
 struct Budget {
-  std::size_t values = 1'000'000;
+  std::size_t values = 100'000;
   std::size_t levels = 100;
 };
 

@@ -40,12 +40,13 @@ class Table final : public benchmark::ConsoleReporter {
       const std::string name = run.run_name.function_name;
       if (rows_.empty() || rows_.back().name != name) rows_.push_back({name, {}});
       rows_.back().seconds[static_cast<double>(run.complexity_n)] =
-          run.real_accumulated_time / static_cast<double>(run.iterations);
+          run.cpu_accumulated_time / static_cast<double>(run.iterations);
     }
   }
 
   std::string markdown(const std::string& machine) const {
-    std::string out = "Nanoseconds of wall time per pose, by number of poses. " + machine + "\n\n|";
+    std::string out = "Nanoseconds of processor time (all threads) per pose, by number of poses. " +
+                      machine + "\n\n|";
     if (rows_.empty()) return out;
     std::string rule = "\n|---|";
     out += " |";
@@ -58,7 +59,7 @@ class Table final : public benchmark::ConsoleReporter {
       out += "| " + row.name + " |";
       for (const auto& [size, time] : row.seconds)
         out += fmt::format(" {:.1f} |", 1e9 * time / size);
-      out += fmt::format(" {:.2f} |\n", exponent(row.seconds));
+      out += row.seconds.size() < 2 ? " |\n" : fmt::format(" {:.2f} |\n", exponent(row.seconds));
     }
     return out;
   }

@@ -1,5 +1,5 @@
-/// Benchmarks as usual, and `--markdown=FILE`: a table of time per item over size, with the fitted
-/// exponent of each row and the machine it was measured on.
+/// Benchmarks as usual, and `--markdown=FILE`: a table of processor time per pose over size, with
+/// the fitted exponent of each row and the machine it was measured on.
 #pragma once
 
 namespace loopbench::test {
