@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "harness/commands/commands.hpp"
+#include "harness/commands/data_root.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
@@ -31,18 +32,6 @@ struct RunArguments {
 std::atomic<bool> interrupted = false;
 
 void interrupt(int) { interrupted = true; }
-
-DataRoot data_root(const Sweep& sweep, const std::string& data) {
-  DataRoot root;
-  const std::filesystem::path beside = sweep.config.parent_path();
-  root.folders.push_back(beside.empty() ? "." : beside);
-  if (data.empty()) return root;
-  if (!std::filesystem::is_directory(data)) {
-    throw InputError(data + ": is not a folder; --data and $LOOPBENCH_DATA name a folder of data");
-  }
-  root.folders.emplace_back(data);
-  return root;
-}
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {

@@ -151,14 +151,17 @@ TEST_F(Cli, AKilledSweepLeavesReadableCells) {
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
                "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  const std::string script = "cd '" + folder_.path().string() +
-                             "' && '" LOOPBENCH_BINARY
-                             "' run c.yaml --out k >/dev/null 2>&1 & pid=$!; "
+  // exec: the process killed must be the sweep itself, not a shell around it.
+  const std::string in = "'" + folder_.path().string();
+  const std::string script = "(cd " + in +
+                             "' && exec '" LOOPBENCH_BINARY
+                             "' run c.yaml --out k >/dev/null 2>&1) & pid=$!; "
                              "for i in $(seq 600); do sleep 0.05; "
-                             "n=$('" LOOPBENCH_BINARY "' table '" +
-                             folder_.path().string() +
+                             "n=$('" LOOPBENCH_BINARY "' table " +
+                             in +
                              "/k' --format rows 2>/dev/null | wc -l); "
-                             "[ \"$n\" -gt 10 ] && break; done; kill -9 $pid";
+                             "[ \"$n\" -gt 10 ] && break; done; "
+                             "kill -9 $pid; wait $pid; [ $? -eq 137 ]";
   const std::string quoted = "bash -c \"$SCRIPT\"";
   setenv("SCRIPT", script.c_str(), 1);
   EXPECT_EQ(std::system(quoted.c_str()), 0);
