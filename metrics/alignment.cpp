@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <limits>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/moments.hpp"
 
 namespace loopbench {
@@ -70,12 +71,15 @@ Alignment align(const Trajectory& reference, const Trajectory& estimate, Align t
 
 Trajectory moved(const Alignment& alignment, Trajectory estimate) {
   if (alignment.type == Align::none) return estimate;
-  const auto& [rotation, translation] = alignment.reference_from_estimate;
-  const Matrix3 scaled = alignment.scale * rotation.toRotationMatrix();
-  for (auto& [stamp, pose] : estimate) {
-    pose.translation = scaled * pose.translation + translation;
-    pose.rotation = rotation * pose.rotation;
-  }
+  const Pose& move = alignment.reference_from_estimate;
+  const Matrix3 scaled = alignment.scale * move.rotation.toRotationMatrix();
+  in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      Pose& pose = estimate[i].world_from_body;
+      pose.translation = scaled * pose.translation + move.translation;
+      pose.rotation = move.rotation * pose.rotation;
+    }
+  });
   return estimate;
 }
 

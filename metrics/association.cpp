@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "datasets/core/interpolate.hpp"
+#include "datasets/core/parallel.hpp"
 
 namespace loopbench {
 namespace {
@@ -27,15 +28,28 @@ void for_each_nearest(const std::vector<double>& wanted,
   }
 }
 
+Trajectory gather(const Trajectory& from,
+                  const std::vector<IndexPair>& pairs,
+                  std::size_t IndexPair::*index) {
+  Trajectory out;
+  out.reserve(pairs.size());
+  for (const IndexPair& pair : pairs) out.push_back(from[pair.*index]);
+  return out;
+}
+
 Paired gather(const Trajectory& reference,
               const Trajectory& estimate,
               const std::vector<IndexPair>& pairs) {
   Paired out;
-  out.reference.reserve(pairs.size());
-  out.estimate.reserve(pairs.size());
-  for (const IndexPair& pair : pairs) {
-    out.reference.push_back(reference[pair.reference]);
-    out.estimate.push_back(estimate[pair.estimate]);
+  const auto side = [&](std::size_t k) {
+    if (k == 0) out.reference = gather(reference, pairs, &IndexPair::reference);
+    if (k == 1) out.estimate = gather(estimate, pairs, &IndexPair::estimate);
+  };
+  if (pairs.size() >= kWorthAThread) {
+    in_parallel(2, side);
+  } else {
+    side(0);
+    side(1);
   }
   return out;
 }
@@ -67,6 +81,8 @@ Paired interpolate_reference(const Trajectory& reference,
                              double max_gap,
                              double offset) {
   Paired out;
+  out.reference.reserve(estimate.size());
+  out.estimate.reserve(estimate.size());
   std::size_t after = 0;  // first reference pose not before the wanted stamp
   for (const StampedPose& pose : estimate) {
     const double stamp = pose.stamp + offset;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/pair_search.hpp"
 #include "metrics/position_only.hpp"
@@ -42,7 +43,7 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
   std::array<std::vector<double>, 3> axes;
   for (std::vector<double>& axis : axes) axis.resize(found.size());
 
-  for (std::size_t k = 0; k < found.size(); ++k) {
+  const auto judge = [&](std::size_t k) {
     const auto& [i, j] = found[k];
     const Pose& Q_i = evaluation.reference[i].world_from_body;
     const Pose& Q_j = evaluation.reference[j].world_from_body;
@@ -56,7 +57,10 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
             ? E.translation
             : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
     for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
-  }
+  };
+  in_blocks(found.size(), [&](std::size_t k, std::size_t end) {
+    for (; k < end; ++k) judge(k);
+  });
   // |trans(E)| and the body frame turn motions by the attitudes; only the world's axes do not.
   const std::string why = why_no_attitude(evaluation);
   const std::string why_axis = options.frame == RpeFrame::body ? why : "";
