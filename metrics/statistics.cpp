@@ -30,7 +30,7 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-Statistics statistics(std::vector<double> errors) {
+Statistics statistics(std::vector<double> errors, int ddof) {
   if (errors.empty()) throw std::invalid_argument("statistics of an empty list");
   const auto n = static_cast<double>(errors.size());
   Statistics out;
@@ -39,7 +39,9 @@ Statistics statistics(std::vector<double> errors) {
   if (!std::isfinite(out.sse)) throw std::runtime_error("an error or its square is not finite");
   out.mean = sum(errors, [](double e) { return e; }) / n;
   out.rmse = std::sqrt(out.sse / n);
-  out.std = std::sqrt(sum(errors, [&](double e) { return (e - out.mean) * (e - out.mean); }) / n);
+  const double free = n - ddof;
+  const double spread = sum(errors, [&](double e) { return (e - out.mean) * (e - out.mean); });
+  out.std = free > 0.0 ? std::sqrt(spread / free) : 0.0;
   const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
   out.min = *low;
   out.max = *high;
