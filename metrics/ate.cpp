@@ -14,8 +14,8 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
     metres[i] = (reference.translation - estimate.translation).norm();
     degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
   }
-  return {{"translation", "3d", "m", statistics(std::move(metres))},
-          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+  return {{"translation", "3d", "m", statistics(std::move(metres), evaluation.protocol.ddof)},
+          {"rotation", "3d", "deg", statistics(std::move(degrees), evaluation.protocol.ddof)}};
 }
 
 }  // namespace loopbench
