@@ -145,6 +145,7 @@ struct SegmentRule {
   int fewest = 1;
   Precision precision = Precision::float64;
   PairsFrom up = PairsFrom::reference;
+  friend bool operator==(const SegmentRule&, const SegmentRule&) = default;
 };
 
 /// The defaults are the protocol `loopbench`; the others stand in protocols.hpp.

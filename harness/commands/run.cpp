@@ -55,6 +55,14 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
 
+std::string protocol_names(const Sweep& sweep) {
+  std::string out;
+  for (const NamedProtocol& protocol : sweep.protocols) {
+    out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
+  }
+  return out;
+}
+
 int run(const RunArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
@@ -100,7 +108,7 @@ int run(const RunArguments& arguments) {
              planned.size(),
              failed,
              sweep.table.value,
-             to_text(echo(sweep.protocol)),
+             protocol_names(sweep),
              (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
   if (interrupted) {
     fmt::print(stderr, "loopbench: interrupted; the cells above are kept\n");

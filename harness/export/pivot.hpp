@@ -26,6 +26,7 @@ struct Table {
   std::vector<std::string> notes;  ///< reasons of declined and failed cells, oracle flags
 };
 
+/// Several protocols split the tables even when the spec does not name them.
 /// Rows, columns and tables appear in the order in which the records first name them.
 /// Throws InputError for an unknown column or statistic. O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec);

@@ -24,13 +24,14 @@ void fenced(Result& result, Work work) {
   }
 }
 
-/// All scores of one metric, or one row that says why there are none.
+/// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
-           Times times,
+           ScoreResult row,
            const Evaluation& evaluation,
            const Catalogue& catalogue) {
-  ScoreResult row{times, choice.label, {}, evaluation.coverage, Status::ok, ""};
+  row.metric = choice.label;
+  row.coverage = evaluation.coverage;
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
@@ -41,26 +42,28 @@ void score(CellResult& result,
   if (row.status != Status::ok) result.scores.push_back(row);
 }
 
+/// Every metric under one protocol at one choice of times, which `row` names.
 void judge(CellResult& result,
+           const ScoreResult& row,
            const Sweep& sweep,
            const Sequence& sequence,
            const Curve& curve,
            const Catalogue& catalogue) {
-  const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
-  for (const Times times : sweep.times) {
-    ScoreResult none{times, "", {}, {}, Status::ok, ""};
-    fenced(none, [&] {
-      const Evaluation evaluation =
-          evaluate(sequence.reference, curve, keyframe_stamps, times, sweep.protocol);
-      for (const MetricChoice& choice : sweep.metrics) {
-        score(result, choice, times, evaluation, catalogue);
-      }
-    });
-    if (none.status == Status::ok) continue;
-    for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
-      none.metric = choice.label;
-      result.scores.push_back(none);
+  ScoreResult none = row;
+  fenced(none, [&] {
+    const Evaluation evaluation = evaluate(sequence.reference,
+                                           curve,
+                                           stamps(sequence.problem.keyframes),
+                                           row.times,
+                                           sweep.protocols[row.protocol].rules);
+    for (const MetricChoice& choice : sweep.metrics) {
+      score(result, choice, row, evaluation, catalogue);
     }
+  });
+  if (none.status == Status::ok) return;
+  for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
+    none.metric = choice.label;
+    result.scores.push_back(none);
   }
 }
 
@@ -109,7 +112,12 @@ CellResult run_cell(const Cell& cell,
       result.why = "no reference to judge against";
       return;
     }
-    judge(result, sweep, sequence, *curve, catalogue);
+    for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+      for (const Times times : sweep.times) {
+        const ScoreResult row{p, times, "", {}, {}, Status::ok, ""};
+        judge(result, row, sweep, sequence, *curve, catalogue);
+      }
+    }
   });
   return result;
 }

@@ -60,8 +60,8 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   folder_.file("c.yaml", kConfig);
   const CommandResult result = run("run c.yaml");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "");                                // no progress bar into a pipe
-  EXPECT_EQ(result.out.find('\033'), std::string::npos);    // no colour either
+  EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
+  EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
   EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // a line has no loop
   EXPECT_NE(result.out.find("gain"), std::string::npos);
@@ -72,6 +72,22 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
       run("table results/c --where metric=ate --where sequence=b --columns times,axis");
   EXPECT_EQ(table.exit_code, 0) << table.err;
   EXPECT_NE(table.out.find("| raw "), std::string::npos) << table.out;
+}
+
+TEST_F(Cli, SeveralProtocolsSplitTheTables) {
+  folder_.file("c.yaml", std::string(kConfig) + "protocol: [loopbench, {base: evo, align: se3}]\n");
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("### b, dense, loopbench\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("### b, dense, evo (align=se3)\n"), std::string::npos);
+  EXPECT_NE(result.out.find("protocol: loopbench [1], evo (align=se3) [26d0953]"),
+            std::string::npos);
+  const CommandResult rows = run("table results/c --format rows --where metric=ate");
+  EXPECT_NE(rows.out.find(",evo (align=se3),26d0953,keyframes,ate,"), std::string::npos)
+      << rows.out;
+  const CommandResult one = run("table results/c --where protocol=loopbench");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out.find("evo"), std::string::npos) << one.out;
 }
 
 TEST_F(Cli, OnlyRunsWhatMatches) {
@@ -86,7 +102,8 @@ TEST_F(Cli, SameRowsOnAnyNumberOfThreads) {
   folder_.file("c.yaml", kConfig);
   const auto rows = [&](const std::string& jobs) {
     EXPECT_EQ(run("run c.yaml --out r" + jobs + " --jobs " + jobs).exit_code, 0);
-    return run("table r" + jobs + " --split sequence --columns times,metric,relation,axis "
+    return run("table r" + jobs +
+               " --split sequence --columns times,metric,relation,axis "
                "--where status=ok --format csv");
   };
   const std::string one = rows("1").out;
@@ -141,10 +158,12 @@ TEST_F(Cli, AKilledSweepLeavesReadableCells) {
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
                "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  const std::string script = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY
+  const std::string script = "cd '" + folder_.path().string() +
+                             "' && '" LOOPBENCH_BINARY
                              "' run c.yaml --out k >/dev/null 2>&1 & pid=$!; "
                              "for i in $(seq 600); do sleep 0.05; "
-                             "n=$('" LOOPBENCH_BINARY "' table '" + folder_.path().string() +
+                             "n=$('" LOOPBENCH_BINARY "' table '" +
+                             folder_.path().string() +
                              "/k' --format rows 2>/dev/null | wc -l); "
                              "[ \"$n\" -gt 10 ] && break; done; kill -9 $pid";
   const std::string quoted = "bash -c \"$SCRIPT\"";
@@ -164,6 +183,11 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
   }
   const CommandResult json = run("list methods --json");
   EXPECT_EQ(json.out.rfind("{\n  \"methods\": [", 0), 0u) << json.out.substr(0, 80);
+  const CommandResult protocols = run("list protocols");
+  for (const char* name :
+       {"loopbench ", "evo ", "tum ", "rpg ", "rpg-fixed ", "kitti ", "eth3d "}) {
+    EXPECT_NE(("\n" + protocols.out).find(std::string("\n") + name), std::string::npos) << name;
+  }
   const CommandResult slip = run("list method");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_NE(slip.err.find("did you mean 'methods'?"), std::string::npos);
