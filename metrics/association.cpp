@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/parallel.hpp"
@@ -113,6 +115,16 @@ Paired associate(const Trajectory& reference,
     case Association::evo:
       return gather(
           reference, estimate, match_evo(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::ov_eval:
+      return gather(reference,
+                    estimate,
+                    match_ov_eval(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::index:
+      if (reference.empty() || estimate.empty()) return {};
+      if (reference.size() == estimate.size()) return {reference, estimate};
+      throw std::runtime_error("association index: " + std::to_string(reference.size()) +
+                               " reference poses and " + std::to_string(estimate.size()) +
+                               " of the estimate, expected equally many");
     case Association::tum:
     case Association::nearest:
       break;

@@ -18,9 +18,10 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
       degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
     }
   });
+  const int ddof = evaluation.protocol.ddof;
   Score rotation{"rotation", "3d", "deg", {}, why_no_attitude(evaluation)};
-  if (rotation.why_undefined.empty()) rotation.statistics = statistics(std::move(degrees));
-  return {{"translation", "3d", "m", statistics(std::move(metres))}, std::move(rotation)};
+  if (rotation.why_undefined.empty()) rotation.statistics = statistics(std::move(degrees), ddof);
+  return {{"translation", "3d", "m", statistics(std::move(metres), ddof)}, std::move(rotation)};
 }
 
 }  // namespace loopbench

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "metrics/along_cross.hpp"
+#include "metrics/ape.hpp"
 #include "metrics/ate.hpp"
 #include "metrics/axis_error.hpp"
 #include "metrics/closure_residual.hpp"
@@ -15,6 +16,7 @@
 #include "metrics/metric.hpp"
 #include "metrics/path_length.hpp"
 #include "metrics/rpe.hpp"
+#include "metrics/segments/segments.hpp"
 #include "metrics/smoothing_headroom.hpp"
 
 namespace loopbench {
@@ -31,7 +33,9 @@ std::vector<MetricEntry> metrics() {
   return {
       metric<AteOptions>("ate", "distance and angle of each pose from its reference", ate),
       metric<AxisErrorOptions>("axis_error", "position error along x, y and z", axis_error),
-      metric<RpeOptions>("rpe", "error of the motion over frames, seconds or metres", rpe),
+      metric<ApeOptions>("ape", "absolute error in one of evo's pose relations", ape),
+      metric<RpeOptions>("rpe", "error of the motion over frames, seconds, metres or turns", rpe),
+      metric<SegmentsOptions>("segments", "drift over sub-trajectories of given lengths", segments),
       metric<AlongCrossOptions>(
           "along_cross", "position error along, across and above the way travelled", along_cross),
       metric<GainAlongOptions>(

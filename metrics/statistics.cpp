@@ -52,7 +52,7 @@ Sums sums_of_block(std::span<const double> values) {
 
 }  // namespace
 
-Statistics statistics(std::vector<double> errors) {
+Statistics statistics(std::vector<double> errors, int ddof) {
   if (errors.empty()) throw std::invalid_argument("statistics of an empty list");
   const auto n = static_cast<double>(errors.size());
   const Sums sums = pairwise<Sums>(errors, sums_of_block);
@@ -70,7 +70,9 @@ Statistics statistics(std::vector<double> errors) {
     for (const double value : values) total += (value - mean) * (value - mean);
     return total;
   };
-  out.std = std::sqrt(pairwise<double>(errors, squares_about_mean) / n);
+  const double free = n - ddof;
+  const double spread = pairwise<double>(errors, squares_about_mean);
+  out.std = free > 0.0 ? std::sqrt(spread / free) : 0.0;
   out.median = median(errors);
   return out;
 }

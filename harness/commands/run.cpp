@@ -53,6 +53,14 @@ bool has_failure(const CellResult& result) {
          });
 }
 
+std::string protocol_names(const Sweep& sweep) {
+  std::string out;
+  for (const NamedProtocol& protocol : sweep.protocols) {
+    out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
+  }
+  return out;
+}
+
 int run(const RunArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
@@ -101,7 +109,7 @@ int run(const RunArguments& arguments) {
              failed,
              incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
-             to_text(echo(sweep.protocol)),
+             protocol_names(sweep),
              (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
   if (interrupted) {
     fmt::print(stderr, "loopbench: interrupted; the cells above are kept\n");

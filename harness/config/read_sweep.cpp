@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "harness/config/choices.hpp"
-#include "harness/config/grid.hpp"
+#include "harness/config/protocol_choice.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -41,7 +41,7 @@ class Reader {
     sweep.methods = list<MethodChoice>(root, "methods", method_choices);
     sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
     if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
-    if (const YamlNode* node = root.find("protocol")) sweep.protocol = protocol(*node);
+    if (const YamlNode* node = root.find("protocol")) sweep.protocols = protocols(*node);
     if (const YamlNode* node = root.find("min_coverage")) sweep.min_coverage = share(*node);
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
     if (const YamlNode* node = root.find("timing")) sweep.timing = count(*node, "timing");
@@ -128,23 +128,19 @@ class Reader {
     return out;
   }
 
-  Protocol protocol(const YamlNode& node) const {
-    if (node.type != YamlNode::Type::map) {
-      throw input_error(file_, node.line, "protocol: expected a map");
+  /// A name, a map with `base` and changes, or a list of these.
+  std::vector<NamedProtocol> protocols(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::list) return {protocol_choice(node, file_)};
+    std::vector<NamedProtocol> out;
+    for (const YamlNode& item : node.list) {
+      out.push_back(protocol_choice(item, file_));
+      const std::string label = out.back().label();
+      if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
+        throw input_error(file_, item.line, "protocol: '" + label + "' is there twice");
+      }
     }
-    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
-      throw input_error(file_, node.line, "protocol: is one for the whole sweep, not swept");
-    }
-    const std::vector<GridPoint> points = spread(node, {}, file_);
-    Params given;
-    for (const Setting& setting : points.front().settings) given[setting.name] = setting.value;
-    try {
-      return with(Protocol{}, given);
-    } catch (const OptionError& error) {
-      const YamlNode* place = node.find(error.option());
-      throw input_error(
-          file_, place ? place->line : node.line, std::string("protocol: ") + error.what());
-    }
+    if (out.empty()) throw input_error(file_, node.line, "protocol: is empty, expected a name");
+    return out;
   }
 
   std::vector<Exclusion> exclusions(const YamlNode& node) const {

@@ -26,6 +26,7 @@ struct Table {
   std::vector<std::string> notes;             ///< reasons of cells without value, oracle flags
 };
 
+/// Several protocols split the tables even when the spec does not name them.
 /// Rows, columns and tables appear in the order in which the records first name them.
 /// Throws InputError for an unknown column or statistic, and when a cell would average different
 /// scores (rotation with translation, keyframes with dense). O(n log n).

@@ -83,7 +83,7 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
                              *curve,
                              stamps(sequence->problem.keyframes),
                              Times::dense,
-                             sweep.protocol);
+                             sweep.protocols.front().rules);
       paper.keyframes = moved(paper.dense.alignment, sequence->problem.keyframes);
       paper.roughness = roughness(paper.dense.estimate);
     }

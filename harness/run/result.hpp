@@ -25,8 +25,10 @@ inline auto choices(Status) {
                     std::pair{"incomplete", Status::incomplete}};
 }
 
-/// One metric at one choice of times; when it is undefined there, only status and why are filled.
+/// One metric under one protocol at one choice of times; when it is undefined there, only status
+/// and why are filled.
 struct ScoreResult {
+  std::size_t protocol = 0;  ///< into Sweep::protocols
   Times times = Times::keyframes;
   std::string metric;  ///< label
   Score score;

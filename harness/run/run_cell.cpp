@@ -37,15 +37,14 @@ std::string why_incomplete(const Coverage& coverage, double min_coverage) {
                      100.0 * min_coverage);
 }
 
-/// All scores of one metric, or one row that says why there are none.
+/// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
+           ScoreResult row,
            const Evaluation& evaluation,
-           const std::string& why_incomplete,
            const Catalogue& catalogue) {
-  const Status usual = why_incomplete.empty() ? Status::ok : Status::incomplete;
-  ScoreResult row{
-      evaluation.context.times, choice.label, {}, evaluation.coverage, usual, why_incomplete};
+  row.metric = choice.label;
+  row.coverage = evaluation.coverage;
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
@@ -61,34 +60,37 @@ void score(CellResult& result,
   if (row.status == Status::failed) result.scores.push_back(row);
 }
 
+/// Every metric under one protocol at one choice of times, which `row` names.
 void judge(CellResult& result,
+           const ScoreResult& row,
            const Sweep& sweep,
            const Sequence& sequence,
            const Curve& curve,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
-  for (const Times times : sweep.times) {
-    ScoreResult none{times, "", {}, {}, Status::ok, ""};
-    fenced(none, [&] {
-      Evaluation evaluation =
-          evaluate(sequence.reference, curve, keyframe_stamps, times, sweep.protocol);
-      evaluation.context = {
-          &sequence.reference, &at_keyframes, &sequence.problem, &curve, times, sweep.protocol};
-      const std::string why = why_incomplete(evaluation.coverage, sweep.min_coverage);
-      if (!why.empty()) {
-        result.status = Status::incomplete;
-        result.why = to_text(times) + ": " + why;
-      }
-      for (const MetricChoice& choice : sweep.metrics) {
-        score(result, choice, evaluation, why, catalogue);
-      }
-    });
-    if (none.status == Status::ok) continue;
-    for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
-      none.metric = choice.label;
-      result.scores.push_back(none);
+  const Protocol& protocol = sweep.protocols[row.protocol].rules;
+  ScoreResult none = row;
+  fenced(none, [&] {
+    Evaluation evaluation =
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
+    evaluation.context = {
+        &sequence.reference, &at_keyframes, &sequence.problem, &curve, row.times, protocol};
+    ScoreResult usual = row;
+    usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
+    if (!usual.why.empty()) {
+      usual.status = Status::incomplete;
+      result.status = Status::incomplete;
+      result.why = to_text(row.times) + ": " + usual.why;
     }
+    for (const MetricChoice& choice : sweep.metrics) {
+      score(result, choice, usual, evaluation, catalogue);
+    }
+  });
+  if (none.status == Status::ok) return;
+  for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
+    none.metric = choice.label;
+    result.scores.push_back(none);
   }
 }
 
@@ -137,7 +139,12 @@ CellResult run_cell(const Cell& cell,
       result.why = "no reference to judge against";
       return;
     }
-    judge(result, sweep, sequence, *curve, catalogue);
+    for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+      for (const Times times : sweep.times) {
+        const ScoreResult row{p, times, "", {}, {}, Status::ok, ""};
+        judge(result, row, sweep, sequence, *curve, catalogue);
+      }
+    }
   });
   return result;
 }
