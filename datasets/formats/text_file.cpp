@@ -48,6 +48,7 @@ TextFile::TextFile(const std::filesystem::path& file)
 TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin, std::size_t end)
     : name_(name),
       size_(size),
+      begin_(begin),
       unread_(begin),
       end_(std::min(size, end)),
       capacity_(std::min(kWindow, end_ - begin)),

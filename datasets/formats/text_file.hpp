@@ -51,7 +51,10 @@ class TextFile {
   }
 
   /// How many lines fit if all were as long as `line`: a hint for reserve(), capped by the file.
-  std::size_t lines_like(const Line& line) const { return size_ / (line.text.size() + 1) + 1; }
+  /// The first part counts the whole file, for what is read from the others is put behind.
+  std::size_t lines_like(const Line& line) const {
+    return (begin_ == 0 ? size_ : end_ - begin_) / (line.text.size() + 1) + 1;
+  }
 
  private:
   struct Close {
@@ -63,6 +66,7 @@ class TextFile {
 
   std::string name_;
   std::size_t size_ = 0;      ///< of the whole file [bytes]
+  std::size_t begin_ = 0;     ///< offset in the file where this part begins
   std::size_t unread_ = 0;    ///< offset in the file of what the window will take next
   std::size_t end_ = 0;       ///< offset in the file where this part ends
   std::size_t capacity_ = 0;  ///< of the window
