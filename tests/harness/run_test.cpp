@@ -112,7 +112,7 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
     out.reference.erase(out.reference.begin() + 1, out.reference.begin() + 3);
     return out;  // two of four keyframes have a partner; dense asks at both reference stamps
   };
-  sweep_.protocol.align = Align::none;
+  sweep_.protocols.front().rules.align = Align::none;
   sweep_.min_coverage = 0.9;
   sweep_.times = {Times::keyframes, Times::dense};
   for (const Record& r : run(1)) {
