@@ -24,11 +24,30 @@ struct CellHash {
   }
 };
 
+/// The latest poses in one cube of space: standing still must not make the search quadratic.
+class Latest {
+ public:
+  void add(std::size_t index) {
+    if (indices_.size() < kMost) {
+      indices_.push_back(index);
+    } else {
+      indices_[next_++ % kMost] = index;
+    }
+  }
+  const std::vector<std::size_t>& indices() const { return indices_; }
+
+ private:
+  static constexpr std::size_t kMost = 64;  // several slow passes through one cube
+
+  std::vector<std::size_t> indices_;
+  std::size_t next_ = 0;
+};
+
 class Grid {
  public:
   explicit Grid(double size) : size_(size) {}
 
-  void add(const Vector3& point, std::size_t index) { cells_[cell_of(point)].push_back(index); }
+  void add(const Vector3& point, std::size_t index) { cells_[cell_of(point)].add(index); }
 
   /// Calls visit(index) for every point in the 27 cells about `point`.
   template <class Visit>
@@ -39,7 +58,7 @@ class Grid {
         for (std::int64_t z = -1; z <= 1; ++z) {
           const auto found = cells_.find({centre[0] + x, centre[1] + y, centre[2] + z});
           if (found == cells_.end()) continue;
-          for (const std::size_t index : found->second) visit(index);
+          for (const std::size_t index : found->second.indices()) visit(index);
         }
       }
     }
@@ -55,7 +74,7 @@ class Grid {
   }
 
   double size_;
-  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
+  std::unordered_map<Cell, Latest, CellHash> cells_;
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ inline bool operator==(const Revisit& a, const Revisit& b) {
 }
 
 /// For each pose the nearest earlier one that obeys the rule, if any; the earliest of equals.
-/// Sorted by `to`. A grid hash of cell `radius`: O(n + pairs within about two radii).
+/// Sorted by `to`. Of a place where one lingers only the latest 64 poses in a cube of `radius` are
+/// looked at, so the cost stays O(n). radius > 0.
 std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& rule);
 
 /// Ascending indices of at most `count` revisits spread well over (stamp of from, stamp of to):

@@ -40,9 +40,10 @@ struct Exclusion {
 /// How the table at the end is laid out; names are columns of the long table (see export/record).
 struct TableSpec {
   std::vector<std::string> rows{"method"};
-  std::vector<std::string> columns{"metric", "relation", "axis"};
+  std::vector<std::string> columns{"score"};
   std::vector<std::string> split{"sequence", "times"};
   std::string value = "rmse";
+  std::vector<std::string> show;  ///< only these scores, by their short names; empty: all
 };
 
 struct Sweep {

@@ -1,10 +1,10 @@
 #include "datasets/derive/closures.hpp"
 
 #include <algorithm>
-#include <random>
 #include <tuple>
 
 #include "datasets/derive/odometry.hpp"
+#include "datasets/random.hpp"
 
 namespace loopbench {
 namespace {
@@ -51,13 +51,9 @@ std::vector<Edge> closures_in_run(const Trajectory& keyframes,
 std::vector<Edge> with_noise(std::vector<Edge> edges,
                              const ClosureNoise& noise,
                              std::int64_t seed) {
-  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  std::normal_distribution<double> normal;
+  Random random(seed, Purpose::closures);
   for (Edge& edge : edges) {
-    Twist error;
-    for (double& e : error) e = normal(random);
-    error.head<3>() *= noise.sigma_t;
-    error.tail<3>() *= noise.sigma_r;
+    const Twist error = random.normal_twist(noise.sigma_t, noise.sigma_r);
     edge.from_from_to = normalized(edge.from_from_to * exp_se3(error));
   }
   return edges;

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <tuple>
 
+#include "datasets/random.hpp"
 #include "datasets/simulated/odometry.hpp"
-#include "datasets/simulated/random.hpp"
 
 namespace loopbench {
 namespace {
 
 constexpr int kTries = 1000;  // pairs looked at before a path is said to stay in one place
 
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
 /// `count` of them at even distances in the list, the last one among them.
-Pairs spread(const Pairs& pairs, std::size_t count) {
+std::vector<Revisit> evenly(const std::vector<Revisit>& pairs, std::size_t count) {
   if (pairs.size() <= count) return pairs;
-  Pairs out;
+  std::vector<Revisit> out;
   for (std::size_t k = 1; k <= count; ++k) out.push_back(pairs[k * pairs.size() / count - 1]);
   return out;
 }
@@ -32,13 +30,14 @@ Matrix6 information(const SimulatedClosures& options) {
 
 /// A pair far apart in time and clearly not in the same place.
 std::pair<std::size_t, std::size_t> strangers(const Trajectory& truth,
-                                              const SamePlace& same,
+                                              const RevisitRule& same,
                                               Random& random) {
-  const SamePlace clearly{2.0 * same.radius, 2.0 * same.angle, same.min_gap};
   for (int attempt = 0; attempt < kTries; ++attempt) {
     auto [from, to] = std::minmax({random.index(truth.size()), random.index(truth.size())});
     if (truth[to].stamp - truth[from].stamp < same.min_gap) continue;
-    if (clearly.holds(truth[from].world_from_body, truth[to].world_from_body)) continue;
+    const Pose& there = truth[from].world_from_body;
+    const Pose& here = truth[to].world_from_body;
+    if (is_close(there, here, 2.0 * same.radius, 2.0 * same.angle)) continue;
     return {from, to};
   }
   throw OptionError("closures.false_share",
@@ -49,14 +48,15 @@ std::pair<std::size_t, std::size_t> strangers(const Trajectory& truth,
 }  // namespace
 
 std::vector<Edge> measure_closures(const Trajectory& truth,
-                                   const SamePlace& same,
+                                   const RevisitRule& same,
                                    const SimulatedOptions& options) {
   const SimulatedClosures& closures = options.closures;
   const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
   std::vector<Edge> out;
 
   Random noise(options.seed, Purpose::closures);
-  const Pairs pairs = spread(revisits(truth, same), static_cast<std::size_t>(closures.max));
+  const std::vector<Revisit> pairs =
+      evenly(find_revisits(truth, same), static_cast<std::size_t>(closures.max));
   for (const auto& [from, to] : pairs) {
     const Pose true_one = truth[from].world_from_body.inverse() * truth[to].world_from_body;
     const Twist error = kept.cwiseProduct(noise.normal_twist(closures.sigma_t, closures.sigma_r));

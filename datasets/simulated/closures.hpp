@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "datasets/revisits.hpp"
 #include "datasets/simulated/options.hpp"
-#include "datasets/simulated/revisits.hpp"
 
 namespace loopbench {
 
@@ -15,7 +15,7 @@ namespace loopbench {
 /// keyframes' true poses. Throws OptionError when false ones are asked for on a path that never
 /// leaves its place. O(poses).
 std::vector<Edge> measure_closures(const Trajectory& truth,
-                                   const SamePlace& same,
+                                   const RevisitRule& same,
                                    const SimulatedOptions& options);
 
 }  // namespace loopbench

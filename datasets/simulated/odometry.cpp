@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "datasets/simulated/random.hpp"
+#include "datasets/random.hpp"
 
 namespace loopbench {
 namespace {

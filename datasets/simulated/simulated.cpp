@@ -74,9 +74,9 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   const std::vector<std::size_t> keyframes = chosen(static_cast<std::size_t>(wanted), truth.size());
   Odometry odometry = measure_odometry(truth, keyframes, options);
   const SimulatedClosures& closures = options.closures;
-  const SamePlace same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
-                       closures.angle * std::numbers::pi / 180.0,
-                       closures.min_gap};
+  const RevisitRule same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
+                         closures.angle * std::numbers::pi / 180.0,
+                         closures.min_gap};
 
   Sequence out;
   out.name = "simulated_" + to_text(options.path);

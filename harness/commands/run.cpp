@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
 
 #include "harness/commands/commands.hpp"
+#include "harness/commands/data_root.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
@@ -31,18 +33,6 @@ std::atomic<bool> interrupted = false;
 
 void interrupt(int) { interrupted = true; }
 
-DataRoot data_root(const Sweep& sweep, const std::string& data) {
-  DataRoot root;
-  const std::filesystem::path beside = sweep.config.parent_path();
-  root.folders.push_back(beside.empty() ? "." : beside);
-  if (data.empty()) return root;
-  if (!std::filesystem::is_directory(data)) {
-    throw InputError(data + ": is not a folder; --data and $LOOPBENCH_DATA name a folder of data");
-  }
-  root.folders.emplace_back(data);
-  return root;
-}
-
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
     const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
@@ -61,6 +51,14 @@ std::string protocol_names(const Sweep& sweep) {
     out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
   }
   return out;
+}
+
+/// The method failed, or a metric is undefined on its result.
+bool has_failure(const CellResult& result) {
+  return result.status == Status::failed ||
+         std::ranges::any_of(result.scores, [](const ScoreResult& score) {
+           return score.status == Status::failed;
+         });
 }
 
 int run(const RunArguments& arguments) {
@@ -89,7 +87,7 @@ int run(const RunArguments& arguments) {
           if (!store) store.emplace(file, sweep);
           store->write(sweep, r);
           ++done;
-          if (r.status == Status::failed) ++failed;
+          if (has_failure(r)) ++failed;
           progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                         sweep.methods[r.cell.method].label);
         });

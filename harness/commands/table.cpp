@@ -65,6 +65,8 @@ void add_table(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--value", arguments->spec.value, "rmse mean median std min max sse count")
       ->capture_default_str();
+  command->add_option("--show", arguments->spec.show, "Only these scores: ate,error x,gain,time")
+      ->delimiter(',');
   command->add_option("--where", arguments->where, "Keep rows with this text: COLUMN=TEXT");
   const std::map<std::string, TableFormat> formats{
       {"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"rows", TableFormat::rows}};

@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-/// Stored records, then gains and run times, grouped so that each cell's columns stay together.
+/// Stored records, then gains, pair counts and run times: columns in that order.
 std::vector<Record> all_records(const std::filesystem::path& store);
 
 }  // namespace loopbench

@@ -153,11 +153,12 @@ class Reader {
   }
 
   TableSpec table(const YamlNode& node) const {
-    only_keys(node, {"rows", "columns", "split", "value"});
+    only_keys(node, {"rows", "columns", "split", "value", "show"});
     TableSpec out;
     if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
     if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
     if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
+    if (const YamlNode* show = node.find("show")) out.show = words(*show, "show");
     if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
     return out;
   }

@@ -21,6 +21,29 @@ double gain(double value, double baseline) {
   return baseline == 0.0 ? 0.0 : 100.0 * (1.0 - value / baseline);
 }
 
+/// A score that is one number: every statistic is that number.
+template <class Number>
+std::vector<Record> one_per_cell(const std::vector<Record>& records,
+                                 const std::string& metric,
+                                 const std::string& unit,
+                                 Number number) {
+  std::vector<Record> out;
+  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
+  for (const Record& r : records) {
+    if (r.status != "ok" || r.metric.empty() || !seen.emplace(r.cell, r.protocol, r.times).second) {
+      continue;
+    }
+    Record one = r;
+    one.metric = metric;
+    one.relation = one.axis = "";
+    one.unit = unit;
+    const double x = number(r);
+    one.statistics = {1, x, x, x, 0.0, x, x, x * x};
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
@@ -51,19 +74,12 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  std::vector<Record> out;
-  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
-  for (const Record& r : records) {
-    if (r.status != "ok" || !seen.emplace(r.cell, r.protocol, r.times).second) continue;
-    Record t = r;
-    t.metric = "time";
-    t.relation = t.axis = "";
-    t.unit = "ms";
-    const double ms = r.milliseconds;
-    t.statistics = {1, ms, ms, ms, 0.0, ms, ms, ms * ms};
-    out.push_back(std::move(t));
-  }
-  return out;
+  return one_per_cell(records, "time", "ms", [](const Record& r) { return r.milliseconds; });
+}
+
+std::vector<Record> pair_counts(const std::vector<Record>& records) {
+  return one_per_cell(
+      records, "pairs", "", [](const Record& r) { return static_cast<double>(r.pairs); });
 }
 
 }  // namespace loopbench

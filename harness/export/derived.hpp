@@ -1,4 +1,4 @@
-/// Records computed from other records: gain over the baseline, and time as a column.
+/// Records computed from other records: gain over the baseline; time and pair counts as columns.
 #pragma once
 
 #include <string>
@@ -16,5 +16,8 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 /// One record per cell, protocol and times: metric `time`, unit ms, every statistic the median wall
 /// time.
 std::vector<Record> run_times(const std::vector<Record>& records);
+
+/// One record per cell, protocol and times: metric `pairs`, the pose pairs behind the scores.
+std::vector<Record> pair_counts(const std::vector<Record>& records);
 
 }  // namespace loopbench

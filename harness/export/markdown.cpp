@@ -29,7 +29,11 @@ std::string padded(const std::string& text, std::size_t columns, bool left) {
 }
 
 std::string shown(const TableCell& cell, int digits) {
-  if (cell.value) return fmt::format("{:.{}f}", *cell.value, digits);
+  if (cell.value) {
+    const std::string text = fmt::format("{:.{}f}", *cell.value, digits);
+    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+    return is_zero && text[0] == '-' ? text.substr(1) : text;  // -0.00 says nothing
+  }
   return cell.status.empty() ? "-" : cell.status;
 }
 
@@ -47,11 +51,15 @@ std::string markdown(const Table& table) {
   for (const std::string& row : table.rows) grid.back().push_back(escaped(row));
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     double largest = 0.0;
+    bool all_whole = true;
     for (const auto& row : table.cells) {
-      largest = std::max(largest, std::abs(row[c].value.value_or(0.0)));
+      const double value = row[c].value.value_or(0.0);
+      largest = std::max(largest, std::abs(value));
+      all_whole = all_whole && value == std::round(value);
     }
+    const int digits = all_whole && largest > 0.0 ? 0 : decimals(largest);
     grid.push_back({escaped(table.columns[c])});
-    for (const auto& row : table.cells) grid.back().push_back(shown(row[c], decimals(largest)));
+    for (const auto& row : table.cells) grid.back().push_back(shown(row[c], digits));
   }
   std::vector<std::size_t> widths;
   for (const auto& column : grid) {

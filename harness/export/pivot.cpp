@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "datasets/core/error.hpp"
+
 namespace loopbench {
 namespace {
 
@@ -13,6 +15,11 @@ std::string joined(const Record& record, const std::vector<std::string>& names, 
     if (!text.empty()) out += (out.empty() ? "" : glue) + text;
   }
   return out;
+}
+
+/// What must not be averaged with another: everything but sequence, repeat and method.
+std::string kind(const Record& r) {
+  return r.times + " / " + r.metric + " / " + r.relation + " / " + r.axis + " [" + r.unit + "]";
 }
 
 /// Numbers names in the order they first appear.
@@ -34,6 +41,8 @@ struct Builder {
   Order rows;
   Order columns;
   std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
+  std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
+  std::size_t most = 1;                           // records averaged into one cell
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
   std::vector<std::string> notes;
 
@@ -59,17 +68,28 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   const std::string unit = record.unit.empty() ? "" : " [" + record.unit + "]";
   const std::size_t column = table.columns.index(joined(record, spec.columns, " ") + unit);
   TableCell& cell = table.cells[{row, column}];
+  const std::string own = kind(record);
+  if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
+      other != own) {
+    throw InputError("a cell of this table would average '" + other + "' with '" + own +
+                     "'; add the column that tells them apart");
+  }
   if (record.status != "ok") {
     cell.status = record.status;
     return;
   }
   const double sum = cell.value.value_or(0.0) * static_cast<double>(cell.records);
   ++cell.records;
+  table.most = std::max(table.most, cell.records);
   cell.value = (sum + value(record, spec.value)) / static_cast<double>(cell.records);
 }
 
 Table finish(const Builder& table, const std::string& title, const TableSpec& spec) {
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
+  if (table.most > 1) {
+    out.notes.insert(out.notes.begin(),
+                     "each number is the mean of up to " + std::to_string(table.most) + " cells");
+  }
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
     std::vector<TableCell> line(out.columns.size());
@@ -113,8 +133,12 @@ std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& gi
     if (index == builders.size()) builders.emplace_back();
     return builders[index];
   };
+  const auto shown = [&](const Record& record) {
+    return spec.show.empty() || std::ranges::count(spec.show, field(record, "score")) > 0;
+  };
   for (const Record& record : records) {
-    if (!record.metric.empty()) add(builder(joined(record, spec.split, ", ")), record, spec);
+    if (!record.metric.empty() && shown(record))
+      add(builder(joined(record, spec.split, ", ")), record, spec);
   }
   // A cell without any score belongs into every table of its sequence.
   for (const Record& record : records) {
@@ -129,6 +153,7 @@ std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& gi
     }
     if (!placed) add(builder(own), record, spec);
   }
+  if (builders.empty()) throw InputError("the table is empty: no row is left to show");
   std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
     out.push_back(finish(builders[t], titles.names()[t], spec));

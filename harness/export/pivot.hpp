@@ -28,7 +28,8 @@ struct Table {
 
 /// Several protocols split the tables even when the spec does not name them.
 /// Rows, columns and tables appear in the order in which the records first name them.
-/// Throws InputError for an unknown column or statistic. O(n log n).
+/// Throws InputError for an unknown column or statistic, and when a cell would average different
+/// scores (rotation with translation, keyframes with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec);
 
 }  // namespace loopbench

@@ -4,6 +4,19 @@
 #include "harness/suggest.hpp"
 
 namespace loopbench {
+namespace {
+
+std::string short_score(const Record& record) {
+  std::string out = record.metric;
+  if (record.relation != "translation" && record.relation != "rotation") {
+    out += " " + record.relation;
+  }
+  if (record.axis != "3d") out += " " + record.axis;
+  while (out.ends_with(' ')) out.pop_back();
+  return out;
+}
+
+}  // namespace
 
 std::string field(const Record& record, const std::string& name) {
   if (name == "sequence") return record.sequence;
@@ -18,6 +31,7 @@ std::string field(const Record& record, const std::string& name) {
   if (name == "axis") return record.axis;
   if (name == "unit") return record.unit;
   if (name == "status") return record.status;
+  if (name == "score") return short_score(record);
   throw InputError(unknown_name("column",
                                 name,
                                 {"sequence",
@@ -31,7 +45,8 @@ std::string field(const Record& record, const std::string& name) {
                                  "relation",
                                  "axis",
                                  "unit",
-                                 "status"}));
+                                 "status",
+                                 "score"}));
 }
 
 double value(const Record& record, const std::string& name) {

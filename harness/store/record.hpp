@@ -33,8 +33,9 @@ struct Record {
 };
 
 /// The text of a record's named column: sequence, repeat, method, closures, protocol,
-/// protocol_version, times, metric, relation, axis, unit, status. Throws InputError with a
-/// suggestion for another name.
+/// protocol_version, times, metric, relation, axis, unit, status, or `score`: metric, relation and
+/// axis without the usual ones (translation; rotation, which its unit tells; 3d). Throws InputError
+/// with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
 /// The number of a record's named statistic: rmse, mean, median, std, min, max, sse, count.

@@ -74,5 +74,13 @@ TEST(Revisits, SpreadTakesEachOnceThoughEqual) {
   EXPECT_EQ(spread(equal, {0.0, 1.0}, 2), (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(Revisits, LingeringCostsNoMoreThanItsLatestPoses) {
+  Trajectory still(20000);
+  for (std::size_t i = 0; i < still.size(); ++i) still[i] = {static_cast<double>(i), Pose()};
+  const std::vector<Revisit> revisits = find_revisits(still, {1.0, 1.0, 10.0});
+  ASSERT_EQ(revisits.size(), still.size() - 10);
+  for (const Revisit& r : revisits) EXPECT_GE(r.to - r.from, 10u);
+}
+
 }  // namespace
 }  // namespace loopbench

@@ -19,34 +19,6 @@ Twist error_of(const Edge& edge, const Problem& problem, const Path& path) {
   return log_se3(edge.from_from_to.inverse() * (a.inverse() * b));
 }
 
-TEST(Revisits, AreThoseThatComparingAllPairsFinds) {
-  std::mt19937_64 random(5);
-  const auto number = [&] { return static_cast<double>(random() % 10000) * 1e-4 - 0.5; };
-  Trajectory poses(300);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i].stamp = static_cast<double>(i);
-    poses[i].world_from_body = {exp_so3(Vector3(0.0, 0.0, 4.0 * number())),
-                                10.0 * Vector3(number(), number(), 0.2 * number())};
-  }
-  const SamePlace same{0.8, 0.7, 20.0};
-  std::vector<std::pair<std::size_t, std::size_t>> wanted;
-  for (std::size_t to = 0; to < poses.size(); ++to) {
-    double least = 1e9;
-    std::size_t nearest = 0;
-    for (std::size_t from = 0; from + 20 <= to; ++from) {
-      const Pose &a = poses[from].world_from_body, &b = poses[to].world_from_body;
-      const double distance = (a.translation - b.translation).norm();
-      if (same.holds(a, b) && distance < least) {
-        least = distance;
-        nearest = from;
-      }
-    }
-    if (least < 1e9) wanted.emplace_back(nearest, to);
-  }
-  EXPECT_GT(wanted.size(), 50U);
-  EXPECT_EQ(revisits(poses, same), wanted);
-}
-
 TEST(SimulatedClosures, JoinSeparateVisitsOfOnePlace) {
   for (const SimulatedPath which :
        {SimulatedPath::room, SimulatedPath::office, SimulatedPath::driving}) {

@@ -10,7 +10,7 @@ namespace {
 
 const char* const kConfig =
     "datasets:\n"
-    "  - {dataset: simulated, path: line, keyframes: 20, label: a}\n"
+    "  - {dataset: simulated, path: office, closures: {max: 0}, label: a}\n"
     "  - {dataset: simulated, path: room, keyframes: 60, label: b}\n"
     "methods: [raw, uniform, cubic_spline]\n"
     "metrics: [ate, {metric: rpe, label: rpe}]\n";
@@ -63,7 +63,7 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
   EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // a line has no loop
+  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // told to close none
   EXPECT_NE(result.out.find("gain"), std::string::npos);
   for (const char* name : {"results.sqlite", "table.md", "table.csv", "rows.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "results/c" / name)) << name;
@@ -88,6 +88,15 @@ TEST_F(Cli, SeveralProtocolsSplitTheTables) {
   const CommandResult one = run("table results/c --where protocol=loopbench");
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(one.out.find("evo"), std::string::npos) << one.out;
+}
+
+TEST_F(Cli, AnUndefinedScoreIsTellingAndFails) {
+  folder_.file("c.yaml",
+               "datasets: [{dataset: simulated, path: line}]\nmethods: [raw]\nmetrics: [ate]\n");
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 1);  // no unique alignment of a straight line
+  EXPECT_NE(result.out.find("- raw: ate failed: alignment se3: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 of 1 cells done, 1 failed"), std::string::npos) << result.out;
 }
 
 TEST_F(Cli, OnlyRunsWhatMatches) {
@@ -173,6 +182,29 @@ TEST_F(Cli, AKilledSweepLeavesReadableCells) {
   EXPECT_EQ(table.exit_code, 0) << table.err;
   EXPECT_NE(table.out.find(",raw,"), std::string::npos);
   EXPECT_EQ(table.out.back(), '\n');
+}
+
+TEST_F(Cli, EveryBadFileIsOneClearErrorAndExitCodeTwo) {
+  const std::filesystem::path bad = LOOPBENCH_TEST_DATA "/bad";
+  std::ifstream manifest(bad / "manifest.txt");
+  int seen = 0;
+  for (std::string line; std::getline(manifest, line);) {
+    if (line.starts_with('#')) continue;
+    const std::size_t tab = line.find('\t');
+    const std::string file = (bad / line.substr(0, tab)).string();
+    const std::string message = line.substr(line.find('\t', tab + 1) + 1);
+    const bool is_graph = line.compare(tab + 1, 3, "g2o") == 0;
+    folder_.file("graph.yaml",
+                 "datasets: [{dataset: pose_graph, path: '" + file +
+                     "'}]\nmethods: [raw]\nmetrics: [ate]\n");
+    const CommandResult result = run(
+        is_graph ? "run graph.yaml" : "eval '" LOOPBENCH_TEST_DATA "/good/tum.txt' '" + file + "'");
+    EXPECT_EQ(result.exit_code, 2) << file;
+    EXPECT_EQ(result.out, "") << file;
+    EXPECT_EQ(result.err, "loopbench: " + file + message + "\n");
+    ++seen;
+  }
+  EXPECT_GE(seen, 25);
 }
 
 TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {

@@ -20,7 +20,8 @@ std::vector<std::string> shipped() {
 class ShippedConfig : public testing::TestWithParam<std::string> {
  protected:
   CommandResult run(const std::string& more) {
-    return loopbench_command("run '" LOOPBENCH_CONFIGS "/" + GetParam() + ".yaml' " + more, folder_);
+    return loopbench_command("run '" LOOPBENCH_CONFIGS "/" + GetParam() + ".yaml' " + more,
+                             folder_);
   }
   TemporaryFolder folder_;
 };

@@ -59,11 +59,11 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
   EXPECT_EQ(markdown(tables),
             "### room, keyframes\n"
             "\n"
-            "| method | ate translation 3d [m] |\n"
-            "| ------ | ---------------------: |\n"
-            "| raw    |                   0.25 |\n"
-            "| a\\|b   |                  12.50 |\n"
-            "| bad    |                 failed |\n"
+            "| method | ate [m] |\n"
+            "| ------ | ------: |\n"
+            "| raw    |    0.25 |\n"
+            "| a\\|b   |   12.50 |\n"
+            "| bad    |  failed |\n"
             "\n"
             "- bad: failed: no such luck\n");
 }
@@ -75,6 +75,23 @@ TEST(Pivot, AveragesWhatFallsTogether) {
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_DOUBLE_EQ(*tables[0].cells[0][0].value, 2.0);
   EXPECT_EQ(tables[0].cells[0][0].records, 2u);
+}
+
+TEST(Pivot, RefusesToAverageDifferentScores) {
+  std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
+  records[1].relation = "rotation";
+  records[1].unit = "deg";
+  EXPECT_EQ(pivot(records, TableSpec{})[0].columns,
+            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // the unit keeps them apart
+  records[1].unit = "m";
+  EXPECT_THROW(pivot(records, TableSpec{}), InputError);
+}
+
+TEST(Markdown, TellsMeansAndHidesNegativeZero) {
+  std::vector<Record> records{ate("raw", -1e-9), ate("raw", -1e-9)};
+  const std::string text = markdown(pivot(records, TableSpec{}));
+  EXPECT_NE(text.find("- each number is the mean of up to 2 cells\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("|  0.0000 |"), std::string::npos) << text;
 }
 
 TEST(Pivot, RefusesUnknownColumnsByName) {
