@@ -17,7 +17,7 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 /// time.
 std::vector<Record> run_times(const std::vector<Record>& records);
 
-/// One record per cell and times: metric `pairs`, the pose pairs behind the scores.
+/// One record per cell, protocol and times: metric `pairs`, the pose pairs behind the scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records);
 
 }  // namespace loopbench
