@@ -71,7 +71,12 @@ void align_se3(std::size_t size, benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(align(Q, P, Align::se3));
 }
 
-Evaluation evaluation(std::size_t size) { return {reference(size), estimate(size), {}, {}}; }
+Evaluation evaluation(std::size_t size) {
+  Evaluation out;
+  out.reference = reference(size);
+  out.estimate = estimate(size);
+  return out;
+}
 
 void score_ate(std::size_t size, benchmark::State& state) {
   const Evaluation pairs = evaluation(size);
