@@ -40,7 +40,12 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("FIELD=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("-a{se3},--align{se3}", a.align, "-a: se3; --align=" + choice_list<Align>());
+  // As evo's flag, and with a value: --align, --align sim3, --align=sim3.
+  command.add_option("--align", a.align, choice_list<Align>() + "; alone: se3")
+      ->expected(0, 1)
+      ->default_str("se3")
+      ->type_name("HOW");
+  command.add_flag_callback("-a", [&a] { a.align = "se3"; }, "As --align se3");
   command.add_flag("-s,--correct_scale", a.correct_scale, "Align with scale; alone: scale only");
   command.add_option("--n_to_align", a.align_first, "Align with the first pairs only");
   const auto word = [&](const char* name, std::string& value, const std::string& help) {

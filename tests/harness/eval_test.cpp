@@ -222,6 +222,8 @@ TEST(Eval, KnowsEvosHabits) {
   EXPECT_NEAR(rmse({"-a"}, "ate"), 0.676208260682124, 1e-12);
   EXPECT_NEAR(rmse({"-as"}, "ate"), 0.660473127811482, 1e-12);
   EXPECT_NEAR(rmse({"--align", "--correct_scale"}, "ate"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse({"--align", "sim3"}, "ate"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse({"--align"}, "ate"), 0.676208260682124, 1e-12);
   EXPECT_NEAR(rmse({"-a", "--n_to_align=100"}, "ate"), 1.69629979000945, 1e-11);
   EXPECT_NEAR(
       rmse({"-a", "--t_max_diff=0.003", "--t_offset=-0.004"}, "ate"), 0.676336104623048, 1e-12);
