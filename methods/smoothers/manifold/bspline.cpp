@@ -59,8 +59,17 @@ BSpline BSpline::near(std::span<const double> sites,
       normal.right(row) += N[a] * values[i];
     }
   }
-  constexpr std::array difference{1.0, -2.0, 1.0};
+  // Bend over Greville abscissae, where the controls of a straight line lie: it stays straight.
+  std::vector<double> greville(normal.size(), 0.0);
+  for (std::size_t j = 0; j < greville.size(); ++j) {
+    for (std::size_t i = 1; i < k; ++i)
+      greville[j] += out.knots_[j + i] / static_cast<double>(k - 1);
+  }
   for (std::size_t row = 0; row + 2 < normal.size(); ++row) {
+    const double before = greville[row + 1] - greville[row];
+    const double after = greville[row + 2] - greville[row + 1];
+    const double mean = 0.5 * (before + after);
+    const std::array difference{mean / before, -mean / before - mean / after, mean / after};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
         normal.at(row + a, row + b) += tie * difference[a] * difference[b];

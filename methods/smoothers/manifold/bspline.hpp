@@ -48,7 +48,7 @@ class BSpline {
                          std::size_t order);
 
   /// Least squares with the given inner knots (strictly inside, increasing): the C2 piecewise
-  /// cubic for order 4. A penalty of 1e-9 on second differences of the controls decides what no
+  /// cubic for order 4. A penalty of 1e-9 on the bending of the control polygon decides what no
   /// site does. Sites non-decreasing, first below last. O(n k^2).
   static BSpline near(std::span<const double> sites,
                       std::span<const Value> values,

@@ -14,7 +14,9 @@ std::string described(const Graph<Polynomial>& piece) {
   const int degree = c[3] != 0.0 ? 3 : c[2] != 0.0 ? 2 : 1;
   return "polynomial: " + text(coefficients(piece.curve, degree));
 }
-std::string described(const Graph<Sine>& piece) { return "sin1: " + text(coefficients(piece.curve)); }
+std::string described(const Graph<Sine>& piece) {
+  return "sin1: " + text(coefficients(piece.curve));
+}
 std::string described(const Graph<Rational>& piece) {
   return "rat02: " + text(coefficients(piece.curve));
 }

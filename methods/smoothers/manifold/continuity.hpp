@@ -5,7 +5,7 @@
 
 namespace loopbench::manifold {
 
-/// Largest jumps over all inner nodes.
+/// Largest jumps over all inner nodes; a B-spline of order 3 has those of its acceleration between.
 struct Continuity {
   double position = 0.0;      ///< C0 [m]
   double velocity = 0.0;      ///< C1 [m/s]

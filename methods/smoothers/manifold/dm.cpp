@@ -37,18 +37,14 @@ SpatialRule spatial_rule(const DmOptions& o) {
 }
 
 NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const DmOptions& o) {
-  if (o.abscissa == Abscissa::polyline) return NodeSpline::polyline(nodes);
+  if (o.abscissa == Abscissa::polyline || o.spline_order == 2) return NodeSpline::polyline(nodes);
   if (o.spline_order != 4) {
     return NodeSpline::of_order(nodes, static_cast<std::size_t>(o.spline_order));
   }
   NodeSpline natural(nodes);
   if (o.psi == PsiUse::none) return natural;
-  return NodeSpline(nodes,
-                    clamps(nodes,
-                           natural,
-                           runs,
-                           static_cast<std::size_t>(o.psi_half_window),
-                           o.psi_mean));
+  return NodeSpline(
+      nodes, clamps(nodes, natural, runs, static_cast<std::size_t>(o.psi_half_window), o.psi_mean));
 }
 
 Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
@@ -119,14 +115,14 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
     if (!fit) fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_));
     describe(*fit, report);
     if (options_.report_coefficients) note_coefficients(*fit, report);
-    parts.planar = laid<Vector3>(
-        nodes,
-        fit->windows,
-        std::move(fit->pieces),
-        laying,
-        [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
-          return asked(piece, parts.spline.at(edge, time));
-        });
+    parts.planar =
+        laid<Vector3>(nodes,
+                      fit->windows,
+                      std::move(fit->pieces),
+                      laying,
+                      [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
+                        return asked(piece, parts.spline.at(edge, time));
+                      });
   }
   if (options_.spatial > 0) {
     laying.size = static_cast<std::size_t>(options_.spatial);
@@ -145,6 +141,7 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
   }
   auto curve = std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
   describe(continuity(*curve), report);
+  if (options_.report_frames) describe(moving_frames(*curve), report);
   return curve;
 }
 

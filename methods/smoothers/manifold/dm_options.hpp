@@ -21,8 +21,7 @@ struct ZeroOr {
 
   bool holds(double value) const { return value == 0.0 || (low <= value && value <= high); }
   std::string text(const std::string& name) const {
-    return name + " = 0 or " + std::to_string(low) + " <= " + name +
-           " <= " + std::to_string(high);
+    return name + " = 0 or " + std::to_string(low) + " <= " + name + " <= " + std::to_string(high);
   }
 };
 
@@ -51,6 +50,7 @@ struct DmOptions {
   manifold::PsiMean psi_mean = manifold::PsiMean::discrete;
   int psi_half_window = 2;
   bool report_coefficients = false;
+  bool report_frames = false;
 };
 
 template <class Visit>
@@ -80,7 +80,8 @@ void fields(DmOptions& o, Visit visit) {
   visit("psi_mean", o.psi_mean, "best candidate, or mean direction on the sphere");
   visit("psi_half_window", o.psi_half_window, "steps looked at on each side", Between{1, 10});
   visit("abscissa", o.abscissa, "whose x' is used to find y'");
-  visit("spline_order", o.spline_order, "order k of that B-spline; 4: natural cubic", Between{2, 6});
+  visit(
+      "spline_order", o.spline_order, "order k of that B-spline; 4: natural cubic", Between{2, 6});
   visit("frame", o.frame, "axes of a window; parametric: r(s) instead of y' = f(x')");
   visit("up", o.up, "z' of the fitting frames: axis of least variance, or the world's z");
   visit("guard", o.guard, "split windows that are no graph y' = f(x')");
@@ -102,6 +103,7 @@ void fields(DmOptions& o, Visit visit) {
         "slower joints only meet in position [m/s]; none: no such",
         Above{0.0});
   visit("report_coefficients", o.report_coefficients, "a note for every window's coefficients");
+  visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
 }
 
 }  // namespace loopbench

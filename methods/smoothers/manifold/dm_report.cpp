@@ -1,5 +1,7 @@
 #include "methods/smoothers/manifold/dm_report.hpp"
 
+#include <algorithm>
+
 #include "methods/smoothers/manifold/coefficients.hpp"
 
 namespace loopbench::manifold {
@@ -52,6 +54,13 @@ void describe(const Continuity& jumps, Report& report) {
   report.count("jump_curvature", jumps.curvature);
 }
 
+void describe(const MovingFrames& frames, Report& report) {
+  report.count("curvature_max",
+               *std::max_element(frames.curvature.begin(), frames.curvature.end()));
+  report.count("torsion_max", frames.torsion_max);
+  count(report, "frenet_undefined", frames.carried);
+}
+
 void note_coefficients(const PlanarFit& fit, Report& report) {
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
     report.notes.push_back(nodes_of(fit.windows[k]) + description(fit.pieces[k]));
@@ -62,8 +71,8 @@ void note_coefficients(const SpatialFit& fit, double base_height, Report& report
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
     const auto& surface = fit.pieces[k].surface;
     if (!surface) continue;
-    report.notes.push_back(nodes_of(fit.windows[k]) + "quadric: " +
-                           text(coefficients(surface->quadric, base_height)));
+    report.notes.push_back(nodes_of(fit.windows[k]) +
+                           "quadric: " + text(coefficients(surface->quadric, base_height)));
   }
 }
 

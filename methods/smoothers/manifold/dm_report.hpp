@@ -3,6 +3,7 @@
 
 #include "methods/report.hpp"
 #include "methods/smoothers/manifold/continuity.hpp"
+#include "methods/smoothers/manifold/moving_frames.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
@@ -14,6 +15,7 @@ void describe(const Densified& dense, Report& report);
 void describe(const PlanarFit& fit, Report& report);
 void describe(const SpatialFit& fit, Report& report);
 void describe(const Continuity& jumps, Report& report);
+void describe(const MovingFrames& frames, Report& report);
 
 /// A note a window: its nodes, its family and the coefficients.
 void note_coefficients(const PlanarFit& fit, Report& report);

@@ -34,9 +34,8 @@ std::vector<Family> read_families(const std::string& names) {
   for (std::string word; in >> word;) {
     const auto family = from_text<Family>(word);
     if (!family) {
-      throw OptionError("families",
-                        "families = " + names + ": " + word + " is none of " +
-                            choice_list<Family>());
+      throw OptionError(
+          "families", "families = " + names + ": " + word + " is none of " + choice_list<Family>());
     }
     out.push_back(*family);
   }

@@ -24,7 +24,8 @@ inline auto choices(Meet) {
 
 struct JointRule {
   Meet meet = Meet::overlap_blend;
-  std::optional<double> c0_below;  ///< slower joints only meet in position [m/s]; none: no such
+  std::optional<double> c0_below =
+      std::nullopt;  ///< slower joints only meet in position [m/s]; none: no such
 
   /// How the pieces before and after `node` meet, by the speed over its two steps.
   Meet at(const Nodes& nodes, std::size_t node) const;

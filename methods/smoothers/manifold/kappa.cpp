@@ -17,11 +17,8 @@ double rotation(const Trajectory& poses, std::size_t i) {
 
 }  // namespace
 
-std::vector<double> kappas(const Nodes& given,
-                           const Trajectory& poses,
-                           Kappa definition,
-                           Plane plane,
-                           const Vector3& up) {
+std::vector<double> kappas(
+    const Nodes& given, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up) {
   const Nodes nodes = plane == Plane::plane ? levelled(given, up) : given;
   std::vector<double> out(nodes.size(), 0.0);
   std::optional<NodeSpline> spline;

@@ -30,10 +30,7 @@ inline auto choices(Plane) {
 
 /// kappa at every node, 0 at the first and last. `poses` are the nodes with their attitude; only
 /// rotation_per_kf looks at that, and it does not know planes. O(n).
-std::vector<double> kappas(const Nodes& nodes,
-                           const Trajectory& poses,
-                           Kappa definition,
-                           Plane plane,
-                           const Vector3& up);
+std::vector<double> kappas(
+    const Nodes& nodes, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up);
 
 }  // namespace loopbench::manifold

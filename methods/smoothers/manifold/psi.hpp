@@ -52,11 +52,8 @@ std::vector<Vector3> candidates(const Nodes& nodes,
                                 std::size_t half);
 
 /// psi at a node; the zero vector where all around stands still.
-Vector3 optimal_tangent(const Nodes& nodes,
-                        const NodeSpline& spline,
-                        std::size_t node,
-                        std::size_t half,
-                        PsiMean mean);
+Vector3 optimal_tangent(
+    const Nodes& nodes, const NodeSpline& spline, std::size_t node, std::size_t half, PsiMean mean);
 
 /// Where segments begin and end: psi times the mean speed over the steps on either side. O(nodes).
 std::vector<Clamp> clamps(const Nodes& nodes,

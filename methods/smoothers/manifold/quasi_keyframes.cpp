@@ -60,8 +60,8 @@ Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
     const double parts = parts_wanted(here, next, rule);
     if (parts < 2.0) continue;
     // No gap holds more frames than there are: a rule near zero asks for no end of parts.
-    const auto wanted = static_cast<std::size_t>(
-        std::min(parts, static_cast<double>(problem.frames.size()) + 1.0));
+    const auto wanted =
+        static_cast<std::size_t>(std::min(parts, static_cast<double>(problem.frames.size()) + 1.0));
     const std::size_t inserted =
         insert_frames(here, next, std::max<std::size_t>(wanted, 2), problem.frames, out.nodes);
     out.inserted += inserted;

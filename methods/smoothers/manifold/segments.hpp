@@ -23,8 +23,8 @@ inline auto choices(SpeedRule) {
 }
 
 struct SegmentRule {
-  std::optional<double> speed_band;  ///< [m/s]; none: the mean speed
-  double turn_max = 0.75;            ///< most kappa at an inner node [rad, or as kappa has it]
+  std::optional<double> speed_band = std::nullopt;  ///< [m/s]; none: the mean speed
+  double turn_max = 0.75;  ///< most kappa at an inner node [rad, or as kappa has it]
   SpeedRule speed = SpeedRule::range;
   Kappa kappa = Kappa::turn_per_kf;
   Plane plane = Plane::space;

@@ -2,8 +2,7 @@
 
 namespace loopbench::manifold {
 
-NodeSpline::NodeSpline(const Nodes& nodes, Straight)
-    : stamps_(nodes.stamps), knots_(nodes.size()) {
+NodeSpline::NodeSpline(const Nodes& nodes, Straight) : stamps_(nodes.stamps), knots_(nodes.size()) {
   double way = 0.0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i > 0) way += nodes.step(i - 1).norm();
@@ -67,7 +66,8 @@ void NodeSpline::bend(std::size_t first, std::size_t last, const Clamp* start, c
   if (end != nullptr) {
     const double h = duration(last - 1);
     const Value right = 6.0 * (velocity(*end) - slope(last - 1));
-    second.back() = (right - h * second[second.size() - 2]) / (2.0 * h - h * upper[upper.size() - 2]);
+    second.back() =
+        (right - h * second[second.size() - 2]) / (2.0 * h - h * upper[upper.size() - 2]);
   }
   for (std::size_t k = second.size() - 1; k-- > 0;) second[k] -= upper[k] * second[k + 1];
   for (std::size_t i = first; i <= last; ++i) {

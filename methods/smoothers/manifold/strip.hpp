@@ -105,8 +105,7 @@ Strip<Piece, Value> laid(const Nodes& nodes,
     const auto asked = [&](std::size_t piece, std::size_t edge, const Jet<double>& time) {
       return out.alone(piece, time, [&](const Piece& p) { return ask(p, edge, time); });
     };
-    out.bridges[k] = {
-        begin.value, end.value, asked(k, node - 1, begin), asked(k + 1, node, end)};
+    out.bridges[k] = {begin.value, end.value, asked(k, node - 1, begin), asked(k + 1, node, end)};
   }
   return out;
 }

@@ -23,10 +23,7 @@ Window sliding(NodeRange segment, std::size_t edge, std::size_t size) {
 
 }  // namespace
 
-std::vector<Window> windows(NodeRange segment,
-                            std::size_t size,
-                            std::size_t count,
-                            Scheme scheme) {
+std::vector<Window> windows(NodeRange segment, std::size_t size, std::size_t count, Scheme scheme) {
   std::vector<Window> out;
   if (segment.nodes() < size) {
     const NodeRange fitted = borrowing(segment, size, count);

@@ -12,9 +12,9 @@
 namespace loopbench::manifold {
 
 struct ArcPolynomial {
-  double centre = 0.0;                          ///< [m]
-  double scale = 1.0;                           ///< [m]
-  std::array<Vector3, 4> coefficients{};        ///< of powers of u = (s - centre) / scale [m]
+  double centre = 0.0;                    ///< [m]
+  double scale = 1.0;                     ///< [m]
+  std::array<Vector3, 4> coefficients{};  ///< of powers of u = (s - centre) / scale [m]
 
   template <class T>
   VectorOf<T> operator()(const T& way) const {

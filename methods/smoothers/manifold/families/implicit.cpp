@@ -39,11 +39,7 @@ Parameters taubin(const Square& values, Square gradients) {
   return solver.eigenvectors().col(terms - 1).normalized();
 }
 
-void sampson(std::span<const Vector2> us,
-             int order,
-             const Parameters& a,
-             Residuals& r,
-             Slopes& J) {
+void sampson(std::span<const Vector2> us, int order, const Parameters& a, Residuals& r, Slopes& J) {
   for (std::size_t k = 0; k < us.size(); ++k) {
     const Monomials m = monomials(order, us[k]);
     const double f = a.dot(m.value);
@@ -51,8 +47,8 @@ void sampson(std::span<const Vector2> us,
     const double size = std::max(g.norm(), 1e-12);
     const auto i = static_cast<Eigen::Index>(k);
     r[i] = f / size;
-    J.row(i) = (m.value / size - f / (size * size * size) * (g.x() * m.by_x + g.y() * m.by_y))
-                   .transpose();
+    J.row(i) =
+        (m.value / size - f / (size * size * size) * (g.x() * m.by_x + g.y() * m.by_y)).transpose();
   }
 }
 
@@ -84,9 +80,8 @@ std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order)
   }
   const Parameters start = taubin(values, gradients);
   if (!start.allFinite()) return std::nullopt;
-  out.alpha = levenberg_marquardt(start, count, [&](const auto& a, auto& r, auto& J) {
-    sampson(us, order, a, r, J);
-  });
+  out.alpha = levenberg_marquardt(
+      start, count, [&](const auto& a, auto& r, auto& J) { sampson(us, order, a, r, J); });
   out.alpha.normalize();
   if (!out.alpha.allFinite()) return std::nullopt;
   return out;

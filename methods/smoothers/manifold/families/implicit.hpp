@@ -20,10 +20,10 @@ inline Eigen::Index implicit_terms(int order) { return (order + 1) * (order + 2)
 std::pair<int, int> implicit_powers(int order, Eigen::Index k);
 
 struct Implicit {
-  int order = 1;                      ///< n, 1..3
-  Vector2 centre = Vector2::Zero();   ///< coordinates are centred [m] ...
-  double scale = 1.0;                 ///< ... and share one scale [m]
-  Parameters alpha;                   ///< |alpha| = 1
+  int order = 1;                     ///< n, 1..3
+  Vector2 centre = Vector2::Zero();  ///< coordinates are centred [m] ...
+  double scale = 1.0;                ///< ... and share one scale [m]
+  Parameters alpha;                  ///< |alpha| = 1
 
   /// F and its gradient at scaled coordinates.
   template <class T>

@@ -12,7 +12,8 @@ Quadric::Coefficients Quadric::monomials(const Vector2& u) {
   return out;
 }
 
-std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z,
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
+                                   std::span<const double> z,
                                    double cut) {
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < 6) return std::nullopt;

@@ -37,7 +37,8 @@ struct Quadric {
 /// Passes through six points when none is dropped. x and y share one scale: scaling each by
 /// itself would blow the noise across a straight path up to its length.
 /// Nothing when the points have no extent or are fewer than six; twelve at most.
-std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z,
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
+                                   std::span<const double> z,
                                    double cut = kQuadricCut);
 
 }  // namespace loopbench::manifold

@@ -14,11 +14,8 @@ constexpr double kShortest = 4.0;  // [spacings] below it samples no longer tell
 constexpr double kTallest = 2.0;   // [of the range of y]
 
 // Parameters are b, a cos c, a sin c [, d]: linear but for the first.
-void evaluate(std::span<const Vector2> points,
-              double centre,
-              const Parameters& q,
-              Residuals& r,
-              Slopes& J) {
+void evaluate(
+    std::span<const Vector2> points, double centre, const Parameters& q, Residuals& r, Slopes& J) {
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     const double x = points[static_cast<std::size_t>(i)].x() - centre;
     const double s = std::sin(q[0] * x);
@@ -64,9 +61,8 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
     q.tail(unknowns - 1) = linear.colPivHouseholderQr().solve(-r);
     if (!best || cost(q) < cost(*best)) best = q;
   }
-  const Parameters q = levenberg_marquardt(*best, count, [&](const auto& p, auto& r, auto& J) {
-    evaluate(points, centre, p, r, J);
-  });
+  const Parameters q = levenberg_marquardt(
+      *best, count, [&](const auto& p, auto& r, auto& J) { evaluate(points, centre, p, r, J); });
   // A negative rate is the same curve run backwards.
   const double sign = q[0] < 0.0 ? -1.0 : 1.0;
   Sine out;
