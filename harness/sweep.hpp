@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
-#include "metrics/protocol.hpp"
+#include "metrics/protocols.hpp"
 
 namespace loopbench {
 
@@ -54,10 +54,11 @@ struct Sweep {
   std::vector<MethodChoice> methods;
   std::vector<MetricChoice> metrics;
   std::vector<Times> times{Times::keyframes, Times::dense};
-  Protocol protocol;
-  std::string baseline;  ///< method label that gain is measured from; empty: no gain
-  int repeats = 1;       ///< instances of each seeded dataset
-  int timing = 1;        ///< runs of each method's verb
+  std::vector<NamedProtocol> protocols{NamedProtocol{}};  ///< at least one; labels differ
+  std::string baseline;       ///< method label that gain is measured from; empty: no gain
+  double min_coverage = 0.0;  ///< share and span below this make numbers `incomplete`, 0..1
+  int repeats = 1;            ///< instances of each seeded dataset
+  int timing = 1;             ///< runs of each method's verb
   std::vector<Exclusion> exclude;
   TableSpec table;
 };

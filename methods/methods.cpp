@@ -1,4 +1,8 @@
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/elch.hpp"
+#include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/raw.hpp"
+#include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
@@ -33,7 +37,34 @@ std::vector<MethodEntry> methods() {
                       {.rotation = Uniform::Turn::none}),
       method<Uniform>("uniform_open",
                       "closing error spread evenly over what no earlier loop has closed",
-                      {.overlap = Uniform::Overlap::open}),
+                      {.overlap = LoopOverlap::open}),
+      method<Elch>("elch", "closing error spread by distance in the pose graph"),
+      method<TwoPass>("two_pass", "rotation spread and re-integrated, then translation"),
+      method<TwoPass>("two_pass_open",
+                      "two_pass over what no earlier loop has closed",
+                      {.overlap = LoopOverlap::open}),
+      method<TwoPass>("two_pass_motion",
+                      "two_pass, rotation by angle turned and translation by distance",
+                      {.rotation_weights = StepWeights::rotation,
+                       .translation_weights = StepWeights::distance}),
+      method<Dual>("dual", "maximum likelihood on the chain, through the loop multipliers"),
+      method<PoseGraphOptimizer>("pose_graph",
+                                 "maximum likelihood by sparse least squares (Ceres)"),
+      method<PoseGraphOptimizer>(
+          "pose_graph_huber", "pose_graph, closures under a Huber loss", {.loss = Loss::huber}),
+      method<PoseGraphOptimizer>(
+          "pose_graph_cauchy", "pose_graph, closures under a Cauchy loss", {.loss = Loss::cauchy}),
+      method<PoseGraphOptimizer>("pose_graph_switchable",
+                                 "pose_graph with switchable constraints, switches solved for",
+                                 {.loss = Loss::switchable}),
+      method<PoseGraphOptimizer>(
+          "pose_graph_dcs", "pose_graph with dynamic covariance scaling", {.loss = Loss::dcs}),
+      method<PoseGraphOptimizer>("pose_graph_gnc_tls",
+                                 "pose_graph, graduated to truncated least squares",
+                                 {.gnc = PoseGraphOptimizer::Gnc::tls}),
+      method<PoseGraphOptimizer>("pose_graph_gnc_gm",
+                                 "pose_graph, graduated to Geman-McClure",
+                                 {.gnc = PoseGraphOptimizer::Gnc::gm}),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),

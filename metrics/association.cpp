@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "datasets/core/interpolate.hpp"
+#include "datasets/core/parallel.hpp"
 
 namespace loopbench {
 namespace {
@@ -27,15 +30,28 @@ void for_each_nearest(const std::vector<double>& wanted,
   }
 }
 
+Trajectory gather(const Trajectory& from,
+                  const std::vector<IndexPair>& pairs,
+                  std::size_t IndexPair::*index) {
+  Trajectory out;
+  out.reserve(pairs.size());
+  for (const IndexPair& pair : pairs) out.push_back(from[pair.*index]);
+  return out;
+}
+
 Paired gather(const Trajectory& reference,
               const Trajectory& estimate,
               const std::vector<IndexPair>& pairs) {
   Paired out;
-  out.reference.reserve(pairs.size());
-  out.estimate.reserve(pairs.size());
-  for (const IndexPair& pair : pairs) {
-    out.reference.push_back(reference[pair.reference]);
-    out.estimate.push_back(estimate[pair.estimate]);
+  const auto side = [&](std::size_t k) {
+    if (k == 0) out.reference = gather(reference, pairs, &IndexPair::reference);
+    if (k == 1) out.estimate = gather(estimate, pairs, &IndexPair::estimate);
+  };
+  if (pairs.size() >= kWorthAThread) {
+    in_parallel(2, side);
+  } else {
+    side(0);
+    side(1);
   }
   return out;
 }
@@ -67,6 +83,8 @@ Paired interpolate_reference(const Trajectory& reference,
                              double max_gap,
                              double offset) {
   Paired out;
+  out.reference.reserve(estimate.size());
+  out.estimate.reserve(estimate.size());
   std::size_t after = 0;  // first reference pose not before the wanted stamp
   for (const StampedPose& pose : estimate) {
     const double stamp = pose.stamp + offset;
@@ -97,6 +115,16 @@ Paired associate(const Trajectory& reference,
     case Association::evo:
       return gather(
           reference, estimate, match_evo(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::ov_eval:
+      return gather(reference,
+                    estimate,
+                    match_ov_eval(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::index:
+      if (reference.empty() || estimate.empty()) return {};
+      if (reference.size() == estimate.size()) return {reference, estimate};
+      throw std::runtime_error("association index: " + std::to_string(reference.size()) +
+                               " reference poses and " + std::to_string(estimate.size()) +
+                               " of the estimate, expected equally many");
     case Association::tum:
     case Association::nearest:
       break;

@@ -39,6 +39,14 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         Limit limit,
                                         double offset);
 
+/// ov_eval (AlignUtils.cpp, commit 6948812): estimate poses in order, a pointer into the reference
+/// that only moves on, so each reference pose serves once; strict |dt| < max_diff. Not always the
+/// nearest pairs: an early estimate pose may take what a later one is nearer to. O(n + m).
+std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
+                                     const std::vector<double>& estimate,
+                                     double max_diff,
+                                     double offset);
+
 /// Equally long; element i of one belongs to element i of the other. The estimate keeps its stamps.
 struct Paired {
   Trajectory reference;
@@ -53,7 +61,8 @@ Paired interpolate_reference(const Trajectory& reference,
                              double max_gap,
                              double offset);
 
-/// Pairs by the protocol's rule; empty when nothing matches.
+/// Pairs by the protocol's rule; empty when nothing matches. Throws std::runtime_error when
+/// association `index` meets lists of different size.
 Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);
 
 }  // namespace loopbench

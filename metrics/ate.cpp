@@ -1,6 +1,8 @@
 #include "metrics/ate.hpp"
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
+#include "metrics/position_only.hpp"
 
 namespace loopbench {
 
@@ -8,14 +10,18 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
   const std::size_t n = evaluation.reference.size();
   std::vector<double> metres(n);
   std::vector<double> degrees(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Pose& reference = evaluation.reference[i].world_from_body;
-    const Pose& estimate = evaluation.estimate[i].world_from_body;
-    metres[i] = (reference.translation - estimate.translation).norm();
-    degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
-  }
-  return {{"translation", "3d", "m", statistics(std::move(metres))},
-          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Pose& reference = evaluation.reference[i].world_from_body;
+      const Pose& estimate = evaluation.estimate[i].world_from_body;
+      metres[i] = (reference.translation - estimate.translation).norm();
+      degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
+    }
+  });
+  const int ddof = evaluation.protocol.ddof;
+  Score rotation{"rotation", "3d", "deg", {}, why_no_attitude(evaluation)};
+  if (rotation.why_undefined.empty()) rotation.statistics = statistics(std::move(degrees), ddof);
+  return {{"translation", "3d", "m", statistics(std::move(metres), ddof)}, std::move(rotation)};
 }
 
 }  // namespace loopbench

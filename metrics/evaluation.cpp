@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "datasets/core/params.hpp"
-#include "metrics/association.hpp"
+#include "metrics/projection.hpp"
 
 namespace loopbench {
 namespace {
@@ -18,7 +18,12 @@ Evaluation judge(Paired paired,
                  const Trajectory& reference,
                  const Protocol& protocol) {
   Evaluation out;
-  out.alignment = align(paired.reference, paired.estimate, protocol.align);
+  out.protocol = protocol;
+  out.reference_length = path_length(reference);
+  out.alignment = align(paired.reference,
+                        paired.estimate,
+                        protocol.align,
+                        static_cast<std::size_t>(protocol.align_first));
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
   const double whole = reference.back().stamp - reference.front().stamp;
@@ -26,6 +31,8 @@ Evaluation judge(Paired paired,
   out.coverage.span = whole > 0.0 ? judged / whole : 1.0;
   out.estimate = moved(out.alignment, std::move(paired.estimate));
   out.reference = std::move(paired.reference);
+  project(out.reference, protocol.project);
+  project(out.estimate, protocol.project);
   return out;
 }
 
@@ -51,7 +58,9 @@ Evaluation evaluate(const Trajectory& reference,
         span_text(reference.front().stamp, reference.back().stamp) + "): association " +
         to_text(protocol.association) + " wants " + limits(protocol));
   }
-  return judge(std::move(paired), estimate.size(), reference, protocol);
+  Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
+  if (protocol.pairs == PairRule::tum) out.whole = {reference, estimate};
+  return out;
 }
 
 Evaluation evaluate(const Trajectory& reference,
@@ -78,7 +87,10 @@ Evaluation evaluate(const Trajectory& reference,
                              ", offset " + to_text(protocol.offset) + " s)");
   }
   paired.estimate = estimate.sample(wanted);
-  return judge(std::move(paired), wanted.size(), reference, protocol);
+  Trajectory whole = protocol.pairs == PairRule::tum ? paired.estimate : Trajectory();
+  Evaluation out = judge(std::move(paired), wanted.size(), reference, protocol);
+  if (protocol.pairs == PairRule::tum) out.whole = {reference, std::move(whole)};
+  return out;
 }
 
 }  // namespace loopbench

@@ -5,6 +5,8 @@
 
 #include "datasets/core/curve.hpp"
 #include "metrics/alignment.hpp"
+#include "metrics/association.hpp"
+#include "metrics/context.hpp"
 #include "metrics/protocol.hpp"
 
 namespace loopbench {
@@ -27,9 +29,15 @@ struct Coverage {
 /// repeat; around bursts `nearest` and `tum` may pair across each other.
 struct Evaluation {
   Trajectory reference;
-  Trajectory estimate;  ///< already moved onto the reference by `alignment`
+  Trajectory estimate;  ///< already moved onto the reference by `alignment`, both then flattened
   Alignment alignment;
   Coverage coverage;
+  Protocol protocol;
+  double reference_length = 0.0;  ///< path of the whole reference, matched or not [m]
+  /// The whole lists as given, before pairing and alignment, when the protocol's pairs are `tum`:
+  /// that rule looks at every pose of the files. Empty otherwise.
+  Paired whole;
+  Context context;  ///< empty from evaluate(): whoever holds the problem and the curve fills it
 };
 
 /// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches or the

@@ -16,7 +16,12 @@ struct Score {
   std::string axis;      ///< "x", "y", "z", "3d"
   std::string unit;      ///< "m", "deg"
   Statistics statistics;
+  std::string why_undefined = {};  ///< set when this number means nothing here: no statistics then
 };
+
+/// A number that is no distribution: count 1, std 0, every other statistic the (signed) value.
+/// Throws std::runtime_error when it is not finite.
+Score single(std::string relation, std::string axis, std::string unit, double value);
 
 struct MetricEntry {
   std::string name;

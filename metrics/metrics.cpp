@@ -1,17 +1,61 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "metrics/along_cross.hpp"
+#include "metrics/ape.hpp"
 #include "metrics/ate.hpp"
 #include "metrics/axis_error.hpp"
+#include "metrics/closure_residual.hpp"
 #include "metrics/coverage.hpp"
+#include "metrics/diagnostics.hpp"
+#include "metrics/gain_along.hpp"
+#include "metrics/interpolation_floor.hpp"
+#include "metrics/jerk.hpp"
+#include "metrics/jumps.hpp"
+#include "metrics/local_shape.hpp"
 #include "metrics/metric.hpp"
+#include "metrics/path_length.hpp"
 #include "metrics/rpe.hpp"
+#include "metrics/segments/segments.hpp"
+#include "metrics/smoothing_headroom.hpp"
 
 namespace loopbench {
+
+Score single(std::string relation, std::string axis, std::string unit, double value) {
+  if (!std::isfinite(value)) throw std::runtime_error(relation + " is not finite");
+  return {std::move(relation),
+          std::move(axis),
+          std::move(unit),
+          {1, value, value, value, 0.0, value, value, value * value}};
+}
 
 std::vector<MetricEntry> metrics() {
   return {
       metric<AteOptions>("ate", "distance and angle of each pose from its reference", ate),
       metric<AxisErrorOptions>("axis_error", "position error along x, y and z", axis_error),
-      metric<RpeOptions>("rpe", "error of the motion over frames, seconds or metres", rpe),
+      metric<ApeOptions>("ape", "absolute error in one of evo's pose relations", ape),
+      metric<RpeOptions>("rpe", "error of the motion over frames, seconds, metres or turns", rpe),
+      metric<SegmentsOptions>("segments", "drift over sub-trajectories of given lengths", segments),
+      metric<AlongCrossOptions>(
+          "along_cross", "position error along, across and above the way travelled", along_cross),
+      metric<GainAlongOptions>(
+          "gain_along", "what was gained on the raw keyframes, by axis and third", gain_along),
+      metric<ClosureResidualOptions>(
+          "closure_residual", "what the loop closures still disagree with", closure_residual),
+      metric<LocalShapeOptions>(
+          "local_shape", "how far neighbouring keyframes moved against each other", local_shape),
+      metric<JumpsOptions>("jumps", "jumps of the curve and its derivatives at keyframes", jumps),
+      metric<PathLengthOptions>(
+          "path_length", "length of the way over the reference's", path_length_ratio),
+      metric<JerkOptions>("jerk", "third derivative of the curve beside the reference's", jerk),
+      metric<InterpolationFloorOptions>("interpolation_floor",
+                                        "error that remains if every keyframe were exact",
+                                        interpolation_floor),
+      metric<SmoothingHeadroomOptions>("smoothing_headroom",
+                                       "what taking all fast error away would gain at most",
+                                       smoothing_headroom),
       metric<CoverageOptions>("coverage", "how much of the trajectory was judged", coverage),
+      metric<DiagnosticsOptions>("diagnostics", "can the numbers be trusted at all", diagnostics),
   };
 }
 

@@ -17,51 +17,64 @@ struct Node {
 };
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-std::vector<Node> merge(const std::vector<double>& reference, const std::vector<double>& estimate) {
-  std::vector<Node> out;
-  out.reserve(reference.size() + estimate.size());
-  std::size_t r = 0;
-  std::size_t e = 0;
-  while (r < reference.size() || e < estimate.size()) {
-    const bool take_reference =
-        e == estimate.size() || (r < reference.size() && reference[r] <= estimate[e]);
-    std::size_t& index = take_reference ? r : e;
-    const double time = take_reference ? reference[r] : estimate[e];
-    out.push_back({time, static_cast<std::uint32_t>(index++), take_reference});
+/// Both lists in order of time; the reference first where times are equal.
+class Merge {
+ public:
+  Merge(const std::vector<double>& reference, const std::vector<double>& estimate)
+      : reference_(reference), estimate_(estimate) {}
+
+  /// After the last one, a node that is infinitely late.
+  Node next() {
+    if (r_ == reference_.size() && e_ == estimate_.size()) return {kNever, kNone, true};
+    if (e_ == estimate_.size() || (r_ < reference_.size() && reference_[r_] <= estimate_[e_])) {
+      return {reference_[r_], static_cast<std::uint32_t>(r_++), true};
+    }
+    return {estimate_[e_], static_cast<std::uint32_t>(e_++), false};
   }
-  return out;
-}
+
+ private:
+  const std::vector<double>& reference_;
+  const std::vector<double>& estimate_;
+  std::size_t r_ = 0;
+  std::size_t e_ = 0;
+};
 
 IndexPair pair_of(const Node& a, const Node& b) {
   return a.is_reference ? IndexPair{a.index, b.index} : IndexPair{b.index, a.index};
 }
 
 /// Pairs nearer to each other than to anything else are in the greedy answer whatever else is;
-/// this takes most of them in one scan and leaves the rest in `nodes`.
+/// this takes most of them in one scan and returns the rest.
 template <class IsWithin>
-void take_mutually_nearest(std::vector<Node>& nodes,
-                           IsWithin is_within,
-                           std::vector<IndexPair>& out) {
-  const std::size_t n = nodes.size();
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::size_t kept = 0;
-  double before = infinity;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double gap = k + 1 < n ? nodes[k + 1].time - nodes[k].time : infinity;
-    const double after = k + 2 < n ? nodes[k + 2].time - nodes[k + 1].time : infinity;
-    const bool is_pair = k + 1 < n && nodes[k].is_reference != nodes[k + 1].is_reference &&
-                         gap < before && gap < after && is_within(gap);
+std::vector<Node> take_mutually_nearest(Merge merge,
+                                        IsWithin is_within,
+                                        std::vector<IndexPair>& out) {
+  std::vector<Node> kept;
+  double before = kNever;
+  Node a = merge.next();
+  Node b = merge.next();
+  Node c = merge.next();
+  while (a.time != kNever) {
+    const double gap = b.time - a.time;
+    const double after = c.time - b.time;
+    const bool is_pair =
+        a.is_reference != b.is_reference && gap < before && gap < after && is_within(gap);
     if (is_pair) {
-      out.push_back(pair_of(nodes[k], nodes[k + 1]));
-      ++k;
+      out.push_back(pair_of(a, b));
       before = after;
+      a = c;
+      b = merge.next();
     } else {
-      nodes[kept++] = nodes[k];
+      kept.push_back(a);
       before = gap;
+      a = b;
+      b = c;
     }
+    c = merge.next();
   }
-  nodes.resize(kept);
+  return kept;
 }
 
 /// The greedy rule on a linked list in time: the closest remaining pair is always made of
@@ -123,12 +136,14 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
   };
   std::vector<IndexPair> out;
   out.reserve(std::min(reference.size(), estimate.size()));
-  std::vector<Node> nodes = merge(reference, estimate);
-  take_mutually_nearest(nodes, is_within, out);
-  take_closest_first(nodes, is_within, out);
-  std::sort(out.begin(), out.end(), [](const IndexPair& a, const IndexPair& b) {
+  const std::vector<Node> rest = take_mutually_nearest(Merge(reference, estimate), is_within, out);
+  const auto found = static_cast<std::ptrdiff_t>(out.size());  // in order already
+  take_closest_first(rest, is_within, out);
+  const auto by_reference = [](const IndexPair& a, const IndexPair& b) {
     return a.reference < b.reference;
-  });
+  };
+  std::sort(out.begin() + found, out.end(), by_reference);
+  std::inplace_merge(out.begin(), out.begin() + found, out.end(), by_reference);
   return out;
 }
 

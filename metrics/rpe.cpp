@@ -3,64 +3,172 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
-#include "metrics/pair_search.hpp"
+#include "metrics/pairs/tum_motions.hpp"
+#include "metrics/position_only.hpp"
+#include "metrics/rpy.hpp"
 
 namespace loopbench {
 namespace {
 
-std::vector<FromTo> pairs(const Evaluation& evaluation, const RpeOptions& o) {
-  const double tolerance = o.tolerance * o.delta;
-  if (o.unit == DeltaUnit::s) {
-    return pairs_by_measure(stamps(evaluation.reference), o.delta, tolerance);
+/// Four poses at a time, over all pairs.
+struct Motions {
+  const Trajectory& reference;
+  const Trajectory& estimate;
+  const std::vector<FromTo>& pairs;
+  const Protocol& protocol;
+  std::string why_no_attitude;  ///< set for positions without attitude: what uses it means nothing
+
+  /// visit(k, E, Q_i, Q_j, P_i, P_j), in blocks on several threads: it may write to slot k only.
+  template <class Visit>
+  void each(Visit visit) const {
+    in_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
+      for (; k < end; ++k) {
+        const auto& [i, j] = pairs[k];
+        const Pose& Q_i = reference[i].world_from_body;
+        const Pose& Q_j = reference[j].world_from_body;
+        const Pose& P_i = estimate[i].world_from_body;
+        const Pose& P_j = estimate[j].world_from_body;
+        visit(k, motion_error(protocol.form, Q_i, Q_j, P_i, P_j), Q_i, Q_j, P_i, P_j);
+      }
+    });
   }
-  if (o.unit == DeltaUnit::m) {
-    const bool is_reference = o.distance_of == DistanceOf::reference;
-    const Trajectory& measured = is_reference ? evaluation.reference : evaluation.estimate;
-    return pairs_by_measure(accumulated_distances(measured), o.delta, tolerance);
+
+  /// The statistics of errors, or why there are none.
+  Score score(const char* relation,
+              const char* axis,
+              const char* unit,
+              std::vector<double>&& errors,
+              bool uses_attitude) const {
+    if (uses_attitude && !why_no_attitude.empty())
+      return {relation, axis, unit, {}, why_no_attitude};
+    return {relation, axis, unit, statistics(std::move(errors), protocol.ddof)};
   }
-  if (o.delta != std::floor(o.delta)) {
-    throw OptionError("delta", "delta = " + to_text(o.delta) + ": frames come whole");
+};
+
+std::vector<Score> usual(const Motions& motions, RpeFrame frame) {
+  std::vector<double> metres(motions.pairs.size());
+  std::vector<double> degrees(metres.size());
+  std::array<std::vector<double>, 3> axes;
+  for (std::vector<double>& axis : axes) axis.resize(metres.size());
+  motions.each([&](std::size_t k,
+                   const Pose& E,
+                   const Pose& Q_i,
+                   const Pose& Q_j,
+                   const Pose& P_i,
+                   const Pose& P_j) {
+    metres[k] = E.translation.norm();
+    degrees[k] = kDegrees * rotation_angle(motions.protocol.angle, E.rotation);
+    const Vector3 change =
+        frame == RpeFrame::body
+            ? E.translation
+            : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
+    for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
+  });
+  // |trans(E)| and the body frame turn motions by the attitudes; only the world's axes do not.
+  const bool in_body = frame == RpeFrame::body;
+  return {motions.score("translation", "3d", "m", std::move(metres), true),
+          motions.score("translation", "x", "m", std::move(axes[0]), in_body),
+          motions.score("translation", "y", "m", std::move(axes[1]), in_body),
+          motions.score("translation", "z", "m", std::move(axes[2]), in_body),
+          motions.score("rotation", "3d", "deg", std::move(degrees), true)};
+}
+
+std::vector<Score> rpy(const Motions& motions, RpeFrame frame) {
+  Rpy out(motions.pairs.size());
+  motions.each(
+      [&](std::size_t k, const Pose& E, const Pose&, const Pose&, const Pose&, const Pose& P_j) {
+        Rotation turn = E.rotation;
+        if (frame == RpeFrame::world) turn = P_j.rotation * turn * P_j.rotation.conjugate();
+        out.set(k, turn);
+      });
+  return out.scores(motions.protocol.ddof);
+}
+
+std::vector<double> distances(const Motions& motions, Relation relation) {
+  constexpr double kLeftOut = -1.0;  // no distance is negative
+  std::vector<double> out(motions.pairs.size(), kLeftOut);
+  motions.each([&](std::size_t k,
+                   const Pose&,
+                   const Pose& Q_i,
+                   const Pose& Q_j,
+                   const Pose& P_i,
+                   const Pose& P_j) {
+    const double reference = (Q_j.translation - Q_i.translation).norm();
+    const double difference = std::abs(reference - (P_j.translation - P_i.translation).norm());
+    if (relation == Relation::point_distance) {
+      out[k] = difference;
+    } else if (reference != 0.0) {
+      out[k] = 100.0 * (difference / reference);
+    }
+  });
+  std::erase(out, kLeftOut);
+  if (out.empty()) throw std::runtime_error("rpe: the reference stands still in every pair");
+  return out;
+}
+
+std::vector<Score> scores(const Motions& motions, const RpeOptions& options, std::size_t poses) {
+  if (motions.pairs.empty()) {
+    throw std::runtime_error("rpe: none of " + std::to_string(poses) + " poses is " +
+                             to_text(options.delta) + " " + to_text(options.unit) +
+                             " before another");
   }
-  const std::size_t n = evaluation.reference.size();
-  if (o.delta >= static_cast<double>(n)) return {};
-  return pairs_by_frames(n, static_cast<std::size_t>(o.delta));
+  const Relation relation = options.relation;
+  if (relation == Relation::usual) return usual(motions, options.frame);
+  const std::string& why = motions.why_no_attitude;
+  const bool is_distance =
+      relation == Relation::point_distance || relation == Relation::point_distance_error_ratio;
+  if (!is_distance && !why.empty()) throw std::runtime_error("rpe: " + why);
+  if (relation == Relation::rpy) return rpy(motions, options.frame);
+  std::vector<double> errors;
+  if (is_distance) {
+    errors = distances(motions, relation);
+  } else {
+    errors.resize(motions.pairs.size());
+    motions.each([&](std::size_t k, const Pose& E, const auto&...) {
+      errors[k] = measure(relation, E, motions.protocol.angle);
+    });
+  }
+  return {{to_text(relation),
+           "3d",
+           unit(relation),
+           statistics(std::move(errors), motions.protocol.ddof)}};
+}
+
+PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
+  if (options.pairs == RpePairs::protocol) return protocol.pairs;
+  if (options.pairs == RpePairs::all) return PairRule::all;
+  if (options.pairs == RpePairs::consecutive) return PairRule::consecutive;
+  if (protocol.pairs == PairRule::tum) return PairRule::tum;
+  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
 }
 
 }  // namespace
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
-  const std::vector<FromTo> found = pairs(evaluation, options);
-  if (found.empty()) {
-    throw std::runtime_error("rpe: none of " + std::to_string(evaluation.reference.size()) +
-                             " poses is " + to_text(options.delta) + " " + to_text(options.unit) +
-                             " before another");
+  const Protocol& protocol = evaluation.protocol;
+  const Stretch stretch{
+      options.delta, options.unit, options.tolerance.value_or(protocol.tolerance)};
+  const PairRule rule = rule_of(options, protocol);
+  if (rule == PairRule::tum) {
+    const TumMotions tum =
+        tum_motions(evaluation.whole, protocol.offset, evaluation.alignment, stretch);
+    const auto& [reference, estimate] = tum.poses;
+    return scores({reference, estimate, tum.pairs, protocol, why_no_attitude(evaluation)},
+                  options,
+                  estimate.size());
   }
-  std::vector<double> metres(found.size());
-  std::vector<double> degrees(found.size());
-  std::array<std::vector<double>, 3> axes;
-  for (std::vector<double>& axis : axes) axis.resize(found.size());
-
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const auto& [i, j] = found[k];
-    const Pose& Q_i = evaluation.reference[i].world_from_body;
-    const Pose& Q_j = evaluation.reference[j].world_from_body;
-    const Pose& P_i = evaluation.estimate[i].world_from_body;
-    const Pose& P_j = evaluation.estimate[j].world_from_body;
-    const Pose E = (Q_i.inverse() * Q_j).inverse() * (P_i.inverse() * P_j);
-    metres[k] = E.translation.norm();
-    degrees[k] = kDegrees * log_so3(E.rotation).norm();
-    const Vector3 change =
-        options.frame == RpeFrame::body
-            ? E.translation
-            : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
-    for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
-  }
-  return {{"translation", "3d", "m", statistics(std::move(metres))},
-          {"translation", "x", "m", statistics(std::move(axes[0]))},
-          {"translation", "y", "m", statistics(std::move(axes[1]))},
-          {"translation", "z", "m", statistics(std::move(axes[2]))},
-          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+  const auto from = options.pairs_from != RpePairsFrom::protocol  ? options.pairs_from
+                    : protocol.pairs_from == PairsFrom::reference ? RpePairsFrom::reference
+                                                                  : RpePairsFrom::estimate;
+  const Trajectory& measured =
+      from == RpePairsFrom::reference ? evaluation.reference : evaluation.estimate;
+  const std::vector<FromTo> pairs = stretch_pairs(evaluation.reference, measured, rule, stretch);
+  return scores(
+      {evaluation.reference, evaluation.estimate, pairs, protocol, why_no_attitude(evaluation)},
+      options,
+      evaluation.reference.size());
 }
 
 }  // namespace loopbench

@@ -1,16 +1,13 @@
 /// Relative pose error: how far motions over a given stretch differ from the reference's.
 #pragma once
 
+#include <optional>
+
 #include "metrics/metric.hpp"
+#include "metrics/pairs/stretch.hpp"
+#include "metrics/relation.hpp"
 
 namespace loopbench {
-
-enum class DeltaUnit { frames, s, m };
-inline auto choices(DeltaUnit) {
-  return std::array{std::pair{"frames", DeltaUnit::frames},
-                    std::pair{"s", DeltaUnit::s},
-                    std::pair{"m", DeltaUnit::m}};
-}
 
 /// Where the numbers of single axes live.
 enum class RpeFrame {
@@ -21,37 +18,51 @@ inline auto choices(RpeFrame) {
   return std::array{std::pair{"world", RpeFrame::world}, std::pair{"body", RpeFrame::body}};
 }
 
-/// Whose path measures metres.
-enum class DistanceOf { reference, estimate };
-inline auto choices(DistanceOf) {
-  return std::array{std::pair{"reference", DistanceOf::reference},
-                    std::pair{"estimate", DistanceOf::estimate}};
+/// A rule of the protocol, or another one for this metric.
+enum class RpePairs { protocol, all, consecutive, tum };
+inline auto choices(RpePairs) {
+  return std::array{std::pair{"protocol", RpePairs::protocol},
+                    std::pair{"all", RpePairs::all},
+                    std::pair{"consecutive", RpePairs::consecutive},
+                    std::pair{"tum", RpePairs::tum}};
+}
+enum class RpePairsFrom { protocol, reference, estimate };
+inline auto choices(RpePairsFrom) {
+  return std::array{std::pair{"protocol", RpePairsFrom::protocol},
+                    std::pair{"reference", RpePairsFrom::reference},
+                    std::pair{"estimate", RpePairsFrom::estimate}};
 }
 
 struct RpeOptions {
   double delta = 1.0;
   DeltaUnit unit = DeltaUnit::frames;
-  double tolerance = 0.1;
+  std::optional<double> tolerance{};
   RpeFrame frame = RpeFrame::world;
-  DistanceOf distance_of = DistanceOf::reference;
+  RpePairsFrom pairs_from = RpePairsFrom::protocol;
+  RpePairs pairs = RpePairs::protocol;
+  Relation relation = Relation::usual;
 };
 
 template <class Visit>
 void fields(RpeOptions& o, Visit visit) {
   visit("delta", o.delta, "length of the stretch [unit]", Above{0.0});
-  visit("unit", o.unit, "frames (pairs in a row), seconds or metres of path");
-  visit("tolerance", o.tolerance, "how far s and m may miss, as part of delta [-]", Between{0.0});
-  visit("frame", o.frame, "frame of the single axes");
-  visit("distance_of", o.distance_of, "whose path measures metres");
+  visit("unit", o.unit, "frames (pairs in a row), seconds, metres of path, or turning");
+  visit("tolerance", o.tolerance, "miss as part of delta [-]; none: the protocol's", Between{0.0});
+  visit("frame", o.frame, "frame of the single axes and of rpy");
+  visit("pairs_from", o.pairs_from, "whose path and turning measure metres and angles");
+  visit("pairs", o.pairs, "which pairs are taken");
+  visit("relation", o.relation, "what is measured");
 }
 
-/// With Q the reference, P the estimate and E = (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), evo's form:
-/// translation 3d [m] |trans(E)|, rotation 3d [deg] angle(E), translation x, y, z [m] magnitudes
-/// in `frame`. All pairs: every i with the later j that is `delta` frames on, or nearest to
-/// `delta` seconds of reference stamps or metres and within tolerance (see pair_search.hpp; evo's
-/// rule, with distance_of = estimate for its default). Pairs from the reference are the same for
-/// every method. Throws OptionError when delta is not whole for frames, std::runtime_error when no
-/// two poses are that far apart. O(n log n).
+/// Of E, in the protocol's form, over the pairs of its rule. Relation `usual`: translation 3d [m]
+/// |trans(E)|, rotation 3d [deg] angle(E), translation x, y, z [m] magnitudes in `frame`. `rpy`:
+/// rotation roll, pitch, yaw [deg] of E, turned into the world for frame world (as rpg's). The
+/// others one score of that name; point_distance is ||q_j - q_i| - |p_j - p_i||, its ratio leaves
+/// out pairs where the reference stands still. For positions without attitude
+/// (position_only.hpp) only world axes and point distances are defined. Pairs from the reference
+/// are the same for every method. Throws OptionError when delta and unit do not fit, and for pairs
+/// `tum` where the protocol has another rule, std::runtime_error when no two poses are that far
+/// apart. O(n log n), but see angle_pairs.hpp.
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options);
 
 }  // namespace loopbench

@@ -6,7 +6,9 @@ set(may_include_metrics "datasets/core|metrics")
 set(may_include_harness "datasets|methods|metrics|harness")
 
 # door_<library> is the only place that may include the headers matched by header_<library>.
-set(libraries yaml sqlite cli json)
+set(libraries ceres yaml sqlite cli json)
+set(header_ceres "ceres/")
+set(door_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
 set(door_yaml "harness/config/")
 set(header_sqlite "sqlite3")

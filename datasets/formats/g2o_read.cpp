@@ -1,4 +1,6 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "datasets/formats/g2o.hpp"
@@ -9,8 +11,10 @@ namespace loopbench {
 namespace {
 
 void place_vertices(const TextFile& file, std::vector<VertexRecord> vertices, PoseGraph& out) {
-  std::stable_sort(
-      vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  if (!std::is_sorted(vertices.begin(), vertices.end(), by_id)) {
+    std::stable_sort(vertices.begin(), vertices.end(), by_id);
+  }
   out.ids.reserve(vertices.size());
   out.vertices.reserve(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -24,9 +28,9 @@ void place_vertices(const TextFile& file, std::vector<VertexRecord> vertices, Po
   }
 }
 
-void ids_of_edges(const std::vector<EdgeRecord>& edges, PoseGraph& out) {
+void ids_of_edges(const std::vector<EdgeEnds>& edges, PoseGraph& out) {
   out.ids.reserve(2 * edges.size());
-  for (const EdgeRecord& edge : edges) {
+  for (const EdgeEnds& edge : edges) {
     out.ids.push_back(edge.from);
     out.ids.push_back(edge.to);
   }
@@ -47,15 +51,19 @@ std::size_t index_of(const TextFile& file,
   return static_cast<std::size_t>(found - graph.ids.begin());
 }
 
-/// Turned so that it leads from the smaller index to the larger. Translations of a similarity edge
-/// keep their unit, as COP-SLAM, where these files come from, keeps it.
-Edge forward(Edge edge) {
-  if (edge.from < edge.to) return edge;
+/// Makes the edge lead from the smaller index to the larger. Translations of a similarity edge keep
+/// their unit, as COP-SLAM, where these files come from, keeps it.
+void turn_round(const TextFile& file, std::size_t line, Edge& edge) {
   std::swap(edge.from, edge.to);
   edge.information = information_of_inverse(edge.from_from_to, edge.information);
   edge.from_from_to = edge.from_from_to.inverse();
   edge.scale = 1.0 / edge.scale;
-  return edge;
+  const bool is_sound = is_finite(edge.from_from_to) && std::isfinite(edge.scale) &&
+                        edge.information.allFinite() &&
+                        edge.information.llt().info() == Eigen::Success;
+  if (!is_sound) {
+    throw file.error(line, "information is not positive definite once the edge is turned round");
+  }
 }
 
 }  // namespace
@@ -67,17 +75,19 @@ PoseGraph read_g2o(const std::filesystem::path& path) {
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;
   if (records.vertices.empty()) {
-    ids_of_edges(records.edges, out);
+    ids_of_edges(records.ends, out);
   } else {
     place_vertices(file, std::move(records.vertices), out);
   }
-  out.edges.reserve(records.edges.size());
-  out.lines.reserve(records.edges.size());
-  for (EdgeRecord& record : records.edges) {
-    record.edge.from = index_of(file, out, record.from, record.line);
-    record.edge.to = index_of(file, out, record.to, record.line);
-    out.edges.push_back(forward(record.edge));
-    out.lines.push_back(record.line);
+  out.edges = std::move(records.edges);
+  out.lines.reserve(out.edges.size());
+  for (std::size_t i = 0; i < out.edges.size(); ++i) {
+    Edge& edge = out.edges[i];
+    const EdgeEnds& ends = records.ends[i];
+    edge.from = index_of(file, out, ends.from, ends.line);
+    edge.to = index_of(file, out, ends.to, ends.line);
+    if (edge.from > edge.to) turn_round(file, ends.line, edge);
+    out.lines.push_back(ends.line);
   }
   return out;
 }

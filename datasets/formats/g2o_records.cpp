@@ -6,6 +6,7 @@
 #include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/g2o_information.hpp"
+#include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/recognise.hpp"
 
@@ -123,6 +124,9 @@ class Record {
       if (!(scale > 0.0)) {
         throw file_.error(line_.number, "scale is " + to_text(scale) + ", expected scale > 0");
       }
+      if (!std::isfinite(1.0 / scale)) {
+        throw file_.error(line_.number, "scale is " + to_text(scale) + ", too small to divide by");
+      }
     }
     return out;
   }
@@ -178,26 +182,32 @@ VertexRecord read_vertex(Record record, const Line& line) {
   return out;
 }
 
-EdgeRecord read_edge(const TextFile& file, Record record, const Line& line) {
-  EdgeRecord out;
-  out.from = record.id("i");
-  out.to = record.id("j");
+void read_edge(const TextFile& file, Record record, const Line& line, Records& out) {
+  EdgeEnds ends;
+  ends.from = record.id("i");
+  ends.to = record.id("j");
+  ends.line = line.number;
   double from_unit_over_to = 1.0;
-  out.edge.from_from_to = record.pose(from_unit_over_to);
-  out.edge.scale = 1.0 / from_unit_over_to;
-  out.edge.information = record.information();
-  out.line = line.number;
-  if (out.from == out.to) {
-    throw file.error(line.number, "edge joins vertex " + std::to_string(out.from) + " to itself");
+  Edge& edge = out.edges.emplace_back();
+  edge.from_from_to = record.pose(from_unit_over_to);
+  edge.scale = 1.0 / from_unit_over_to;
+  edge.information = record.information();
+  if (ends.from == ends.to) {
+    throw file.error(line.number, "edge joins vertex " + std::to_string(ends.from) + " to itself");
   }
-  return out;
+  out.ends.push_back(ends);
 }
 
-}  // namespace
+/// Of a file or a part of one, and how many lines that has.
+struct Part {
+  Records records;
+  std::size_t lines = 0;
+};
 
-Records read_records(TextFile& file) {
+Part read_part(TextFile& file) {
   first_line(file);
-  Records out;
+  Part part;
+  Records& out = part.records;
   const Tag* first = nullptr;
   std::size_t first_at = 0;
   for (Line line; file.next(line);) {
@@ -216,13 +226,38 @@ Records read_records(TextFile& file) {
     }
     const Record record(file, line, tag);
     if (tag.is_edge) {
-      if (out.edges.empty()) out.edges.reserve(file.lines_like(line));
-      out.edges.push_back(read_edge(file, record, line));
+      if (out.edges.empty()) {
+        out.edges.reserve(file.lines_like(line));
+        out.ends.reserve(file.lines_like(line));
+      }
+      read_edge(file, record, line, out);
     } else {
+      if (out.vertices.empty()) out.vertices.reserve(file.lines_like(line));
       out.vertices.push_back(read_vertex(record, line));
     }
   }
   if (first == nullptr) throw file.error(0, "holds neither vertices nor edges");
+  part.lines = file.lines();
+  return part;
+}
+
+}  // namespace
+
+Records read_records(TextFile& file) {
+  std::vector<Part> parts = read_in_parts(file, read_part, [](const Part& a, const Part& b) {
+    return a.records.kind == b.records.kind;
+  });
+  Records out = std::move(parts.front().records);
+  std::size_t lines = parts.front().lines;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    Records& more = parts[i].records;
+    for (VertexRecord& vertex : more.vertices) vertex.line += lines;
+    for (EdgeEnds& ends : more.ends) ends.line += lines;
+    append(out.vertices, std::move(more.vertices));
+    append(out.ends, std::move(more.ends));
+    append(out.edges, std::move(more.edges));
+    lines += parts[i].lines;
+  }
   return out;
 }
 

@@ -18,18 +18,18 @@ struct VertexRecord {
   std::size_t line = 0;
 };
 
-/// As written: `to` may come before `from`. Information is already that of a twist.
-struct EdgeRecord {
+/// As written: `to` may come before `from`.
+struct EdgeEnds {
   std::int64_t from = 0;
   std::int64_t to = 0;
-  Edge edge;  ///< its indices are not set yet
   std::size_t line = 0;
 };
 
 struct Records {
   GraphKind kind = GraphKind::spatial;
   std::vector<VertexRecord> vertices;
-  std::vector<EdgeRecord> edges;
+  std::vector<EdgeEnds> ends;
+  std::vector<Edge> edges;  ///< one per `ends`; indices not set, information that of a twist
 };
 
 /// Every VERTEX and EDGE line; FIX lines are passed over. Throws InputError: unknown tags, wrong

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/recognise.hpp"
 #include "datasets/formats/text_writer.hpp"
@@ -31,6 +32,26 @@ Rotation rotation_of(const TextFile& file, std::size_t line, const Row& v) {
   return Rotation(R).normalized();
 }
 
+/// Without stamps.
+Trajectory read_part(TextFile& file) {
+  Trajectory out;
+  out.reserve(file.lines_like(first_line(file)));
+  Row v;
+  for (Line line; file.next(line);) {
+    Columns columns(file, line);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (columns.done())
+        throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
+      v[i] = columns.number(kNames[i]);
+    }
+    if (!columns.done())
+      throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
+    const Pose pose{rotation_of(file, line.number, v), {v[3], v[7], v[11]}};
+    out.push_back({0.0, pose});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> read_times(const std::filesystem::path& path) {
@@ -48,20 +69,10 @@ std::vector<double> read_times(const std::filesystem::path& path) {
 }
 
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
-  Trajectory out;
-  out.reserve(file.lines_like(first_line(file)));
-  Row v;
-  for (Line line; file.next(line);) {
-    Columns columns(file, line);
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      if (columns.done())
-        throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
-      v[i] = columns.number(kNames[i]);
-    }
-    if (!columns.done())
-      throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
-    const Pose pose{rotation_of(file, line.number, v), {v[3], v[7], v[11]}};
-    out.push_back({static_cast<double>(out.size()) * options.period, pose});
+  Trajectory out = joined(
+      read_in_parts(file, read_part, [](const Trajectory&, const Trajectory&) { return true; }));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].stamp = static_cast<double>(i) * options.period;
   }
   if (!options.times) return out;
   const std::vector<double> times = read_times(*options.times);

@@ -10,12 +10,15 @@ namespace loopbench {
 namespace {
 
 Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double period) {
-  const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph, name) : graph.vertices;
+  std::vector<Pose> chained;
+  if (graph.vertices.empty()) chained = chain(graph, name);
+  const std::vector<Pose>& poses = graph.vertices.empty() ? chained : graph.vertices;
   Trajectory out;
   out.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     out.push_back({static_cast<double>(graph.ids[i]) * period, poses[i]});
   }
+  check(out, name);  // chains may overflow, and ids beyond 2^53 may become one stamp
   return out;
 }
 

@@ -33,9 +33,8 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
 
 Line first_line(TextFile& file) {
   Line line;
-  file.rewind();
   if (!file.next(line)) throw file.error(0, "holds no data, only comments and blank lines");
-  file.rewind();
+  file.put_back(line);
   return line;
 }
 

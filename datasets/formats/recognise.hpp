@@ -12,11 +12,11 @@ namespace loopbench {
 /// By its column count and first word: g2o tags, 12 numbers, nanoseconds first, 8 numbers.
 std::optional<Format> guess(const TextFile& file, const Line& line);
 
-/// The format of the first line of data; leaves the file rewound. Throws InputError when the line
+/// The format of the first line of data, which is put back. Throws InputError when the line
 /// shows none, saying what it looks like and what is known.
 Format recognise(TextFile& file);
 
-/// Refuses a file without a line of data.
+/// The line that next() will give. Refuses a file without one.
 Line first_line(TextFile& file);
 
 }  // namespace loopbench

@@ -1,5 +1,8 @@
 #include "datasets/formats/text_file.hpp"
 
+#include <sys/types.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,12 +11,9 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{8} << 30;  // [bytes]; 1e6 poses are 0.1 GB
+constexpr std::size_t kLargest = std::size_t{8} << 30;   // [bytes]; 1e6 poses are 0.1 GB
+constexpr std::size_t kWindow = std::size_t{256} << 10;  // [bytes], a share of the L2 cache
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 std::size_t size_of_plain_file(const std::filesystem::path& file, const std::string& name) {
   std::error_code error;
@@ -43,32 +43,67 @@ std::size_t size_of_plain_file(const std::filesystem::path& file, const std::str
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& file)
-    : name_(file.string()), size_(size_of_plain_file(file, name_)) {
-  const std::unique_ptr<std::FILE, Close> handle(std::fopen(name_.c_str(), "rb"));
-  if (!handle) throw input_error(name_, 0, std::string("cannot be read: ") + std::strerror(errno));
-  content_ = std::make_unique_for_overwrite<char[]>(size_);
-  if (std::fread(content_.get(), 1, size_, handle.get()) != size_) {
-    throw input_error(name_, 0, "cannot be read to its end");
+    : TextFile(file.string(), size_of_plain_file(file, file.string()), 0, kLargest) {}
+
+TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin, std::size_t end)
+    : name_(name),
+      size_(size),
+      unread_(begin),
+      end_(std::min(size, end)),
+      capacity_(std::min(kWindow, end_ - begin)),
+      handle_(std::fopen(name.c_str(), "rb")) {
+  if (!handle_) throw error(0, std::string("cannot be read: ") + std::strerror(errno));
+  std::setvbuf(handle_.get(), nullptr, _IONBF, 0);
+  if (fseeko(handle_.get(), static_cast<off_t>(begin), SEEK_SET) != 0) {
+    throw error(0, std::string("cannot be read: ") + std::strerror(errno));
   }
-  if (const void* nul = std::memchr(content_.get(), '\0', size_)) {
-    const auto offset = static_cast<const char*>(nul) - content_.get();
-    throw input_error(
-        name_, 0, "is binary (NUL at byte " + std::to_string(offset) + "), expected a text file");
+  window_ = std::make_unique_for_overwrite<char[]>(capacity_);
+  refill();
+  if (begin == 0 && std::string_view(window_.get(), filled_).starts_with(kByteOrderMark)) {
+    position_ = kByteOrderMark.size();
   }
-  rewind();
 }
 
-void TextFile::rewind() {
-  line_ = 0;
-  const std::string_view text(content_.get(), size_);
-  position_ = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+/// Makes room by dropping the lines that were read, or by doubling when one line fills it all.
+void TextFile::refill() {
+  filled_ -= position_;
+  if (filled_ == capacity_) {
+    auto wider = std::make_unique_for_overwrite<char[]>(2 * capacity_);
+    std::memcpy(wider.get(), window_.get(), filled_);
+    window_ = std::move(wider);
+    capacity_ *= 2;
+  } else if (filled_ > 0) {
+    std::memmove(window_.get(), window_.get() + position_, filled_);
+  }
+  position_ = 0;
+  char* const fresh = window_.get() + filled_;
+  const std::size_t wanted = std::min(capacity_ - filled_, end_ - unread_);
+  if (std::fread(fresh, 1, wanted, handle_.get()) != wanted) {
+    throw error(0, "cannot be read to its end");
+  }
+  if (const void* nul = std::memchr(fresh, '\0', wanted)) {
+    const auto offset = static_cast<std::size_t>(static_cast<const char*>(nul) - fresh);
+    throw error(
+        0,
+        "is binary (NUL at byte " + std::to_string(unread_ + offset) + "), expected a text file");
+  }
+  filled_ += wanted;
+  unread_ += wanted;
 }
 
 bool TextFile::next(Line& line) {
-  while (position_ < size_) {
-    const char* const begin = content_.get() + position_;
-    const std::size_t left = size_ - position_;
-    const auto* const newline = static_cast<const char*>(std::memchr(begin, '\n', left));
+  std::size_t searched = 0;  // bytes after position_ known to hold no newline
+  while (position_ < filled_ || unread_ < end_) {
+    const char* const begin = window_.get() + position_;
+    const std::size_t left = filled_ - position_;
+    const auto* const newline =
+        static_cast<const char*>(std::memchr(begin + searched, '\n', left - searched));
+    if (newline == nullptr && unread_ < end_) {
+      searched = left;
+      refill();
+      continue;
+    }
+    searched = 0;
     const char* end = newline != nullptr ? newline : begin + left;
     position_ += static_cast<std::size_t>(end - begin) + (newline != nullptr ? 1 : 0);
     ++line_;
@@ -82,6 +117,27 @@ bool TextFile::next(Line& line) {
     return true;
   }
   return false;
+}
+
+void TextFile::put_back(const Line& line) {
+  position_ = static_cast<std::size_t>(line.text.data() - window_.get());
+  line_ = line.number - 1;
+}
+
+std::vector<TextFile> TextFile::cut(std::size_t count) const {
+  std::vector<TextFile> out;
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k <= count && begin < size_; ++k) {
+    std::size_t end = size_;
+    if (k < count) {
+      // From anywhere in a line, what follows the next line read is the start of another.
+      TextFile rest(name_, size_, std::max(begin, size_ / count * k), size_);
+      if (Line line; rest.next(line)) end = rest.unread_ - rest.filled_ + rest.position_;
+    }
+    out.push_back(TextFile(name_, size_, begin, end));
+    begin = end;
+  }
+  return out;
 }
 
 }  // namespace loopbench

@@ -1,6 +1,7 @@
 #include "datasets/formats/tum.hpp"
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/recognise.hpp"
 #include "datasets/formats/text_writer.hpp"
@@ -19,12 +20,10 @@ InputError wrong_row(const TextFile& file, const Line& line) {
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
-}  // namespace
-
-Trajectory read_tum(TextFile& file, const ReadOptions& options) {
+Trajectory read_part(TextFile& file, Repeats repeats) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
-  InOrder order(file, options.repeats);
+  InOrder order(file, repeats);
   std::array<double, kNames.size()> v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
@@ -37,6 +36,15 @@ Trajectory read_tum(TextFile& file, const ReadOptions& options) {
     if (order.accepts(v[0], line.number)) out.push_back({v[0], {rotation, {v[1], v[2], v[3]}}});
   }
   return out;
+}
+
+}  // namespace
+
+Trajectory read_tum(TextFile& file, const ReadOptions& options) {
+  return joined(read_in_parts(
+      file,
+      [&](TextFile& part) { return read_part(part, options.repeats); },
+      [](const Trajectory& a, const Trajectory& b) { return a.back().stamp < b.front().stamp; }));
 }
 
 void write_tum(const std::filesystem::path& file,

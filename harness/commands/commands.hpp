@@ -18,5 +18,6 @@ void add_run(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
+void add_reproduce(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench

@@ -1,143 +1,56 @@
 #include "harness/commands/judgement.hpp"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "metrics/diagnostics.hpp"
+
 namespace loopbench {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// The settings `eval` asks a metric for. Coverage stands above the table, once.
-std::vector<Params> settings(const std::string& metric) {
-  if (metric == "coverage") return {};
-  if (metric != "rpe") return {Params{}};
-  return {{{"delta", 1.0}, {"unit", std::string("frames")}},
-          {{"delta", 1.0}, {"unit", std::string("s")}},
-          {{"delta", 1.0}, {"unit", std::string("m")}}};
-}
-
-Json to_json(const Params& params) {
-  Json out = Json::object();
-  for (const auto& [name, param] : params) {
-    out[name] = std::visit([](const auto& value) { return Json(value); }, param);
+std::vector<Asked> usual_questions(const Protocol& protocol) {
+  std::vector<Asked> out;
+  for (const MetricEntry& entry : metrics()) {
+    if (entry.name == "rpe") {
+      for (const char* unit : {"frames", "s", "m"}) {
+        out.push_back({entry.name, {{"delta", 1.0}, {"unit", std::string(unit)}}});
+      }
+    } else if (entry.name == "segments" && protocol.segments == SegmentRule{}) {
+      out.push_back({entry.name, {{"each", false}}});
+    } else if (entry.name == "ate" || entry.name == "axis_error" || entry.name == "segments") {
+      out.push_back({entry.name, {}});
+    }
   }
   return out;
 }
 
-Json to_json(const JudgedMetric& metric, const Score& score) {
-  const Statistics& s = score.statistics;
-  return {{"metric", metric.name},
-          {"options", to_json(metric.options)},
-          {"relation", score.relation},
-          {"axis", score.axis},
-          {"unit", score.unit},
-          {"rmse", s.rmse},
-          {"mean", s.mean},
-          {"median", s.median},
-          {"std", s.std},
-          {"min", s.min},
-          {"max", s.max},
-          {"count", s.count}};
-}
-
-Json to_json(const Judgement& j) {
-  Json scores = Json::array();
-  Json undefined = Json::array();
-  for (const JudgedMetric& metric : j.metrics) {
-    for (const Score& score : metric.scores) scores.push_back(to_json(metric, score));
-    if (metric.why_undefined.empty()) continue;
-    undefined.push_back({{"metric", metric.name},
-                         {"options", to_json(metric.options)},
-                         {"why", metric.why_undefined}});
-  }
-  return {{"reference", j.reference},
-          {"estimate", j.estimate},
-          {"protocol", to_json(echo(j.protocol))},
-          {"pairs", j.coverage.pairs},
-          {"possible", j.coverage.possible},
-          {"coverage", j.coverage.share()},
-          {"span", j.coverage.span},
-          {"alignment",
-           {{"type", to_text(j.alignment.type)},
-            {"scale", j.alignment.scale},
-            {"rank", j.alignment.rank},
-            {"condition", j.alignment.condition}}},
-          {"metrics", std::move(scores)},
-          {"undefined", std::move(undefined)}};
-}
-
-/// "rpe 1 s": the options of a setting, short enough for a column.
-std::string label(const JudgedMetric& metric) {
-  if (metric.options.empty()) return metric.name;
-  return fmt::format("{} {} {}",
-                     metric.name,
-                     std::get<double>(metric.options.at("delta")),
-                     std::get<std::string>(metric.options.at("unit")));
-}
-
-}  // namespace
-
-Judgement judge(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol) {
-  const Evaluation evaluation = evaluate(reference, estimate, protocol);
+Judgement judge(const Trajectory& reference,
+                const Trajectory& estimate,
+                const NamedProtocol& protocol,
+                const std::vector<Asked>& questions,
+                bool with_poses) {
+  Evaluation evaluation = evaluate(reference, estimate, protocol.rules);
+  evaluation.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol.rules};
   Judgement out;
   out.reference_poses = reference.size();
   out.estimate_poses = estimate.size();
   out.protocol = protocol;
   out.coverage = evaluation.coverage;
   out.alignment = evaluation.alignment;
-  for (const MetricEntry& entry : metrics()) {
-    for (const Params& options : settings(entry.name)) {
-      JudgedMetric& judged = out.metrics.emplace_back(JudgedMetric{entry.name, options, {}, {}});
+  out.diagnosis = diagnostics(evaluation, {});
+  if (with_poses) out.poses = pose_errors(evaluation);
+  const std::vector<MetricEntry> known = metrics();
+  for (const Asked& asked : questions) {
+    for (const MetricEntry& entry : known) {
+      if (entry.name != asked.metric) continue;
+      JudgedMetric& judged =
+          out.metrics.emplace_back(JudgedMetric{asked.metric, asked.options, {}, {}});
       try {
-        judged.scores = entry.score(evaluation, options);
+        judged.scores = entry.score(evaluation, asked.options);
       } catch (const std::runtime_error& error) {
         judged.why_undefined = error.what();
       }
     }
   }
   return out;
-}
-
-std::string text(const Judgement& j) {
-  std::string out =
-      fmt::format("reference  {} ({} poses)\n", j.reference, j.reference_poses) +
-      fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
-      fmt::format("protocol   {}\n", to_text(echo(j.protocol))) +
-      fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
-                  j.coverage.pairs,
-                  j.coverage.possible,
-                  100.0 * j.coverage.share(),
-                  100.0 * j.coverage.span) +
-      fmt::format("alignment  {}, scale {}\n\n", to_text(j.alignment.type), j.alignment.scale);
-  const auto head = fmt::format("{:<13} {:<11} {:<4} {:<4}", "metric", "relation", "axis", "unit");
-  out += head;
-  for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
-    out += fmt::format(" {:>12}", name);
-  }
-  out += fmt::format(" {:>9}\n", "count");
-  for (const JudgedMetric& metric : j.metrics) {
-    if (!metric.why_undefined.empty()) {
-      out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
-    }
-    for (const auto& [relation, axis, unit, s] : metric.scores) {
-      out += fmt::format("{:<13} {:<11} {:<4} {:<4}", label(metric), relation, axis, unit);
-      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
-        out += fmt::format(" {:>12.6f}", value);
-      }
-      out += fmt::format(" {:>9}\n", s.count);
-    }
-  }
-  return out;
-}
-
-std::string json(const std::vector<Judgement>& judgements) {
-  if (judgements.size() == 1) return to_json(judgements[0]).dump(2) + "\n";
-  Json all = Json::array();
-  for (const Judgement& judgement : judgements) all.push_back(to_json(judgement));
-  return all.dump(2) + "\n";
 }
 
 }  // namespace loopbench

@@ -4,13 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "metrics/metric.hpp"
+#include "metrics/ape.hpp"
+#include "metrics/protocols.hpp"
 
 namespace loopbench {
 
+/// A metric and the options it is asked with.
+struct Asked {
+  std::string metric;
+  Params options;  ///< those that differ from the defaults of the metric
+};
+
+/// ate, axis_error and segments at their defaults (segments length by length where they are the
+/// protocol's own), rpe over 1 frame, 1 s and 1 m. Coverage and diagnostics stand above the table;
+/// metrics that need more than two files, or a choice of options to mean something, are left to
+/// sweeps.
+std::vector<Asked> usual_questions(const Protocol& protocol);
+
 struct JudgedMetric {
   std::string name;
-  Params options;  ///< those that differ from the defaults of the metric
+  Params options;
   std::vector<Score> scores;
   std::string why_undefined;  ///< set instead of scores
 };
@@ -20,23 +33,41 @@ struct Judgement {
   std::string estimate;
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
-  Protocol protocol;
+  NamedProtocol protocol;
   Coverage coverage;
   Alignment alignment;
+  std::vector<Score> diagnosis;  ///< of `diagnostics` at its defaults
   std::vector<JudgedMetric> metrics;
+  std::vector<PoseError> poses;  ///< only when asked for
 };
 
-/// Every metric of the catalogue at its defaults, rpe over 1 frame, 1 s and 1 m. A metric that is
-/// undefined here says why; throws std::runtime_error only when nothing can be judged.
-Judgement judge(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);
+/// A metric that is undefined here says why; throws std::runtime_error only when nothing can be
+/// judged.
+Judgement judge(const Trajectory& reference,
+                const Trajectory& estimate,
+                const NamedProtocol& protocol,
+                const std::vector<Asked>& questions,
+                bool with_poses = false);
+
+/// "rpe 1 s": a metric and its options, short enough for a column.
+std::string label(const JudgedMetric& metric);
 
 /// A table for people, numbers with six decimals.
 std::string text(const Judgement& judgement);
 
+/// One table for each protocol, a row for each estimate: the statistic that the protocol quotes, of
+/// whole errors (axis 3d or all), not of single axes or lengths.
+std::string comparison(const std::vector<Judgement>& judgements);
+
 /// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
-/// estimate, protocol, pairs, possible, coverage (pairs / possible), span, alignment {type, scale,
-/// rank, condition}, metrics [{metric, options, relation, axis, unit, rmse, mean, median, std, min,
-/// max, count}], undefined [{metric, options, why}].
+/// estimate, protocol {name, version, changes, rules}, pairs, possible, coverage (pairs /
+/// possible), span, alignment {type, scale, rank, condition}, diagnosis {name: value}, metrics
+/// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
+/// [{metric, options, why}], with relation and axis when only one number of a metric is.
 std::string json(const std::vector<Judgement>& judgements);
+
+/// A line per score, a line per judged pose; doubles in full precision.
+std::string csv(const std::vector<Judgement>& judgements);
+std::string pose_csv(const std::vector<Judgement>& judgements);
 
 }  // namespace loopbench

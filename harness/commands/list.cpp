@@ -6,13 +6,14 @@
 #include "harness/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/suggest.hpp"
+#include "metrics/protocols.hpp"
 
 namespace loopbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kSubjects{"datasets", "methods", "metrics", "protocol"};
+const std::vector<std::string> kSubjects{"datasets", "methods", "metrics", "protocols"};
 
 struct ListArguments {
   std::string subject;
@@ -22,7 +23,7 @@ struct ListArguments {
 
 struct Item {
   std::string name;
-  std::string kind;  ///< corrector, smoother, method; empty for the rest
+  std::string kind;  ///< corrector, smoother, method; a protocol's version; else empty
   std::string summary;
   std::vector<OptionInfo> options;
 };
@@ -38,7 +39,9 @@ std::vector<Item> items(const Catalogue& known, const std::string& subject) {
   } else if (subject == "metrics") {
     for (const auto& e : known.metrics) out.push_back({e.name, "", e.summary, e.options});
   } else {
-    out.push_back({"protocol", "", "how estimates are paired and aligned", describe(Protocol{})});
+    for (const auto& e : protocols()) {
+      out.push_back({e.name, e.version, e.summary, describe(e.protocol)});
+    }
   }
   return out;
 }
@@ -47,24 +50,27 @@ Json to_json(const Param& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
-Json to_json(const Item& item) {
+Json to_json(const Item& item, bool is_protocol) {
   Json options = Json::array();
   for (const OptionInfo& o : item.options) {
     options.push_back(
         {{"name", o.name}, {"default", to_json(o.value)}, {"rule", o.rule}, {"help", o.help}});
   }
   Json out{{"name", item.name}};
-  if (!item.kind.empty()) out["kind"] = item.kind;
+  if (!item.kind.empty()) out[is_protocol ? "version" : "kind"] = item.kind;
   out["summary"] = item.summary;
   out["options"] = std::move(options);
   return out;
 }
 
-void print(const Item& item) {
+void print_line(const Item& item) {
   fmt::print("{:<18} {}{}\n",
              item.name,
              item.kind.empty() ? "" : fmt::format("[{}] ", item.kind),
              item.summary);
+}
+
+void print_options(const Item& item) {
   for (const OptionInfo& o : item.options) {
     fmt::print("    {} = {}{}  {}\n",
                o.name,
@@ -72,6 +78,19 @@ void print(const Item& item) {
                o.rule.empty() ? "" : fmt::format("  ({})", o.rule),
                o.help);
   }
+}
+
+/// Protocols share their settings: a line each, then the settings once.
+void print(const std::string& subject, const std::vector<Item>& all) {
+  const bool is_shared = subject == "protocols";
+  for (const Item& item : all) {
+    print_line(item);
+    if (!is_shared) print_options(item);
+  }
+  if (!is_shared) return;
+  fmt::print("settings, with the defaults of {} (protocol: {{base: NAME, SETTING: VALUE}})\n",
+             all.front().name);
+  print_options(all.front());
 }
 
 int list(const ListArguments& arguments) {
@@ -85,11 +104,13 @@ int list(const ListArguments& arguments) {
     if (!arguments.subject.empty() && arguments.subject != subject) continue;
     if (arguments.json) {
       json[subject] = Json::array();
-      for (const Item& item : items(known, subject)) json[subject].push_back(to_json(item));
+      for (const Item& item : items(known, subject)) {
+        json[subject].push_back(to_json(item, subject == "protocols"));
+      }
       continue;
     }
     if (arguments.subject.empty()) fmt::print("== {} ==\n", subject);
-    for (const Item& item : items(known, subject)) print(item);
+    print(subject, items(known, subject));
     if (arguments.subject.empty()) fmt::print("\n");
   }
   if (arguments.json) fmt::print("{}\n", json.dump(2));
@@ -102,7 +123,7 @@ void add_list(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ListArguments>();
   CLI::App* command =
       app.add_subcommand("list", "What can be named in a config, with options and defaults");
-  command->add_option("subject", arguments->subject, "datasets, methods, metrics or protocol");
+  command->add_option("subject", arguments->subject, "datasets, methods, metrics or protocols");
   command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "As JSON");

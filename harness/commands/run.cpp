@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "harness/commands/commands.hpp"
+#include "harness/commands/data_root.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
@@ -32,18 +33,6 @@ std::atomic<bool> interrupted = false;
 
 void interrupt(int) { interrupted = true; }
 
-DataRoot data_root(const Sweep& sweep, const std::string& data) {
-  DataRoot root;
-  const std::filesystem::path beside = sweep.config.parent_path();
-  root.folders.push_back(beside.empty() ? "." : beside);
-  if (data.empty()) return root;
-  if (!std::filesystem::is_directory(data)) {
-    throw InputError(data + ": is not a folder; --data and $LOOPBENCH_DATA name a folder of data");
-  }
-  root.folders.emplace_back(data);
-  return root;
-}
-
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
     const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
@@ -64,6 +53,14 @@ bool has_failure(const CellResult& result) {
          });
 }
 
+std::string protocol_names(const Sweep& sweep) {
+  std::string out;
+  for (const NamedProtocol& protocol : sweep.protocols) {
+    out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
+  }
+  return out;
+}
+
 int run(const RunArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
@@ -79,6 +76,7 @@ int run(const RunArguments& arguments) {
   const std::filesystem::path file = out / "results.sqlite";
   std::size_t done = 0;
   std::size_t failed = 0;
+  std::size_t incomplete = 0;
   {
     Sequences sequences(sweep, known, root, planned);
     std::optional<Store> store;  // opened by the first result: a wrong path leaves no empty store
@@ -91,6 +89,7 @@ int run(const RunArguments& arguments) {
           store->write(sweep, r);
           ++done;
           if (has_failure(r)) ++failed;
+          if (r.status == Status::incomplete) ++incomplete;
           progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                         sweep.methods[r.cell.method].label);
         });
@@ -103,13 +102,14 @@ int run(const RunArguments& arguments) {
   write_file(out / "table.md", text);
   write_file(out / "table.csv", csv(tables));
   write_file(out / "rows.csv", csv(records));
-  fmt::print("{}\n{} of {} cells done, {} failed; value: {}; protocol: {}\n{}\n",
+  fmt::print("{}\n{} of {} cells done, {} failed{}; value: {}; protocol: {}\n{}\n",
              text,
              done,
              planned.size(),
              failed,
+             incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
-             to_text(echo(sweep.protocol)),
+             protocol_names(sweep),
              (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
   if (interrupted) {
     fmt::print(stderr, "loopbench: interrupted; the cells above are kept\n");

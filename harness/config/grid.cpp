@@ -120,8 +120,14 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
     const bool is_end = i > 0 && i + 1 == *steps;  // exact, not to within rounding
     points.push_back(is_end ? to : is_log ? from * std::pow(to / from, u) : from + u * (to - from));
   }
+  if (!std::ranges::all_of(points, [](double p) { return std::isfinite(p); })) {
+    throw input_error(file, node.line, "a range from, to must not be wider than a double is");
+  }
+  constexpr double kExact = 9007199254740992.0;  // 2^53: beyond it, not every whole number is there
   const bool whole = !is_log && std::holds_alternative<std::int64_t>(need("from").scalar) &&
-                     std::ranges::all_of(points, [](double p) { return p == std::round(p); });
+                     std::ranges::all_of(points, [](double p) {
+                       return p == std::round(p) && std::abs(p) <= kExact;
+                     });
   std::vector<Param> out;
   for (const double point : points) {
     out.push_back(whole ? Param(static_cast<std::int64_t>(point)) : Param(point));
@@ -148,7 +154,12 @@ std::vector<GridPoint> spread(const YamlNode& entry,
   }
   if (const YamlNode* zip = entry.find("zip")) axes.push_back(zipped(*zip, file));
 
+  constexpr std::size_t kMost = 10'000;
   for (const Axis& axis : axes) {
+    if (axis.size() > kMost / std::max<std::size_t>(points.size(), 1)) {
+      throw input_error(
+          file, entry.line, "sweeps over more than " + std::to_string(kMost) + " combinations");
+    }
     std::vector<GridPoint> longer;
     for (const GridPoint& point : points) {
       for (const std::vector<Setting>& step : axis) {

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "harness/config/choices.hpp"
-#include "harness/config/grid.hpp"
+#include "harness/config/protocol_choice.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -19,6 +19,7 @@ const std::vector<std::string> kKeys{"description",
                                      "times",
                                      "protocol",
                                      "baseline",
+                                     "min_coverage",
                                      "repeats",
                                      "timing",
                                      "exclude",
@@ -40,7 +41,8 @@ class Reader {
     sweep.methods = list<MethodChoice>(root, "methods", method_choices);
     sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
     if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
-    if (const YamlNode* node = root.find("protocol")) sweep.protocol = protocol(*node);
+    if (const YamlNode* node = root.find("protocol")) sweep.protocols = protocols(*node);
+    if (const YamlNode* node = root.find("min_coverage")) sweep.min_coverage = share(*node);
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
     if (const YamlNode* node = root.find("timing")) sweep.timing = count(*node, "timing");
     if (const YamlNode* node = root.find("exclude")) sweep.exclude = exclusions(*node);
@@ -79,6 +81,20 @@ class Reader {
     return static_cast<int>(*whole);
   }
 
+  double share(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::scalar) {
+      throw input_error(file_, node.line, "min_coverage: expected a number from 0 to 1");
+    }
+    double out = 0.0;
+    try {
+      FieldType<double>::assign("min_coverage", out, node.scalar);
+      detail::obey("min_coverage", out, Between{0.0, 1.0});
+    } catch (const OptionError& error) {
+      throw input_error(file_, node.line, error.what());
+    }
+    return out;
+  }
+
   template <class Choice, class Read>
   std::vector<Choice> list(const YamlNode& root, const std::string& key, Read choices) const {
     const YamlNode* node = root.find(key);
@@ -112,23 +128,19 @@ class Reader {
     return out;
   }
 
-  Protocol protocol(const YamlNode& node) const {
-    if (node.type != YamlNode::Type::map) {
-      throw input_error(file_, node.line, "protocol: expected a map");
+  /// A name, a map with `base` and changes, or a list of these.
+  std::vector<NamedProtocol> protocols(const YamlNode& node) const {
+    if (node.type != YamlNode::Type::list) return {protocol_choice(node, file_)};
+    std::vector<NamedProtocol> out;
+    for (const YamlNode& item : node.list) {
+      out.push_back(protocol_choice(item, file_));
+      const std::string label = out.back().label();
+      if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
+        throw input_error(file_, item.line, "protocol: '" + label + "' is there twice");
+      }
     }
-    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
-      throw input_error(file_, node.line, "protocol: is one for the whole sweep, not swept");
-    }
-    const std::vector<GridPoint> points = spread(node, {}, file_);
-    Params given;
-    for (const Setting& setting : points.front().settings) given[setting.name] = setting.value;
-    try {
-      return with(Protocol{}, given);
-    } catch (const OptionError& error) {
-      const YamlNode* place = node.find(error.option());
-      throw input_error(
-          file_, place ? place->line : node.line, std::string("protocol: ") + error.what());
-    }
+    if (out.empty()) throw input_error(file_, node.line, "protocol: is empty, expected a name");
+    return out;
   }
 
   std::vector<Exclusion> exclusions(const YamlNode& node) const {

@@ -34,9 +34,20 @@ std::size_t line_of(const YAML::Node& node) {
   return static_cast<std::size_t>(node.Mark().line + 1);
 }
 
-YamlNode convert(const YAML::Node& node, const std::string& file) {
+/// Aliases are written out, so a few lines may mean more than memory holds, or hold themselves.
+struct Budget {
+  std::size_t values = 100'000;
+  std::size_t levels = 100;
+};
+
+YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) {
   YamlNode out;
   out.line = line_of(node);
+  if (left.values == 0 || left.levels == 0) {
+    throw input_error(file, out.line, "holds too many values or levels (an alias of itself?)");
+  }
+  --left.values;
+  --left.levels;
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
       out.type = YamlNode::Type::scalar;
@@ -44,7 +55,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file) {
       break;
     case YAML::NodeType::Sequence:
       out.type = YamlNode::Type::list;
-      for (const YAML::Node& item : node) out.list.push_back(convert(item, file));
+      for (const YAML::Node& item : node) out.list.push_back(convert(item, file, left));
       break;
     case YAML::NodeType::Map:
       out.type = YamlNode::Type::map;
@@ -57,7 +68,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file) {
         if (out.find(key) != nullptr) {
           throw input_error(file, line_of(item.first), "'" + key + "' is given twice");
         }
-        out.map.push_back({key, convert(item.second, file)});
+        out.map.push_back({key, convert(item.second, file, left)});
         out.map.back().value.line = line_of(item.first);
       }
       break;
@@ -65,6 +76,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file) {
     case YAML::NodeType::Undefined:
       break;
   }
+  ++left.levels;
   return out;
 }
 
@@ -75,7 +87,8 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty()) throw InputError(file + ": is empty, expected a map of settings");
     if (documents.size() > 1) throw InputError(file + ": holds more than one YAML document");
-    return convert(documents.front(), file);
+    Budget budget;
+    return convert(documents.front(), file, budget);
   } catch (const YAML::Exception& error) {
     const auto line = error.mark.is_null() ? 0 : static_cast<std::size_t>(error.mark.line + 1);
     throw input_error(file, line, "not valid YAML: " + error.msg);

@@ -3,7 +3,6 @@
 #include "harness/export/text.hpp"
 
 namespace loopbench {
-namespace {
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -11,6 +10,11 @@ std::string quoted(const std::string& text) {
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
+
+namespace {
+
+/// What too little coverage makes incomplete is measured all the same; the status stands beside it.
+bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "incomplete"; }
 
 }  // namespace
 
@@ -36,34 +40,37 @@ std::string csv(const std::vector<Table>& tables) {
 
 std::string csv(const std::vector<Record>& records) {
   std::string out =
-      "sequence,repeat,method,closures,oracle_closures,times,metric,relation,axis,unit,count,rmse,"
+      "sequence,repeat,method,closures,oracle_closures,protocol,protocol_version,times,metric,"
+      "relation,axis,unit,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {
     const Statistics& s = r.statistics;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},",
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
                        quoted(r.sequence),
                        r.repeat,
                        quoted(r.method),
                        quoted(r.closures),
                        r.oracle_closures,
+                       quoted(r.protocol),
+                       quoted(r.protocol_version),
                        r.times,
                        quoted(r.metric),
                        r.relation,
                        r.axis,
                        r.unit);
     // An undefined score has no numbers, not zeros.
-    out += r.metric.empty() || r.status != "ok" ? std::string(",,,,,,,,,,")
-                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",
-                                                              s.count,
-                                                              s.rmse,
-                                                              s.mean,
-                                                              s.median,
-                                                              s.std,
-                                                              s.min,
-                                                              s.max,
-                                                              s.sse,
-                                                              r.pairs,
-                                                              r.possible);
+    out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
+                                               : fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                                                             s.count,
+                                                             s.rmse,
+                                                             s.mean,
+                                                             s.median,
+                                                             s.std,
+                                                             s.min,
+                                                             s.max,
+                                                             s.sse,
+                                                             r.pairs,
+                                                             r.possible);
     out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));
   }
   return out;

@@ -7,8 +7,11 @@
 namespace loopbench {
 namespace {
 
-auto place(const Record& r) { return std::tie(r.sequence, r.repeat, r.times, r.metric, r.axis); }
-using Place = std::tuple<std::string, std::int64_t, std::string, std::string, std::string>;
+auto place(const Record& r) {
+  return std::tie(r.sequence, r.repeat, r.protocol, r.times, r.metric, r.axis);
+}
+using Place =
+    std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
 
 bool is_gain_source(const Record& r) {
   return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
@@ -25,9 +28,10 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
                                  const std::string& unit,
                                  Number number) {
   std::vector<Record> out;
-  std::set<std::pair<std::int64_t, std::string>> seen;
+  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
   for (const Record& r : records) {
-    if (r.status != "ok" || r.metric.empty() || !seen.emplace(r.cell, r.times).second) continue;
+    if (r.status != "ok" || r.metric.empty()) continue;
+    if (!seen.emplace(r.cell, r.protocol, r.times).second) continue;
     Record one = r;
     one.metric = metric;
     one.relation = one.axis = "";

@@ -8,12 +8,13 @@
 
 namespace loopbench {
 
-/// For every `ate` translation record with a baseline record of the same sequence, repeat and
-/// times: metric `gain`, unit %, each statistic 100 * (1 - value / baseline value). Positive is
-/// better; the baseline itself gains 0. None when `baseline` is empty. O(n log n).
+/// For every `ate` translation record with a baseline record of the same sequence, repeat,
+/// protocol and times: metric `gain`, unit %, each statistic 100 * (1 - value / baseline value).
+/// Positive is better; the baseline itself gains 0. None when `baseline` is empty. O(n log n).
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline);
 
-/// One record per cell and times: metric `time`, unit ms, every statistic the median wall time.
+/// One record per cell, protocol and times: metric `time`, unit ms, every statistic the median wall
+/// time.
 std::vector<Record> run_times(const std::vector<Record>& records);
 
 /// One record per cell and times: metric `pairs`, the pose pairs behind the scores.

@@ -56,7 +56,9 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   const std::size_t row = table.rows.index(name);
   if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
   if (record.status != "ok") {
-    const std::string what = record.metric.empty() ? "" : record.metric + " ";
+    // Too little coverage is one reason for every metric; an undefined number names itself.
+    const bool is_whole = record.metric.empty() || record.status == "incomplete";
+    const std::string what = is_whole ? "" : joined(record, {"metric", "relation"}, " ") + " ";
     table.note(name + ": " + what + record.status + ": " + record.why);
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);
@@ -105,9 +107,27 @@ Table finish(const Builder& table, const std::string& title, const TableSpec& sp
   return out;
 }
 
+/// Numbers made by different rules never share a table cell: several protocols split the tables
+/// unless the spec already tells them apart.
+TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& records) {
+  for (const auto* names : {&spec.rows, &spec.columns, &spec.split}) {
+    if (std::ranges::count(*names, "protocol") > 0) return spec;
+  }
+  const std::string* first = nullptr;
+  for (const Record& record : records) {
+    if (record.metric.empty()) continue;
+    if (first == nullptr) first = &record.protocol;
+    if (record.protocol == *first) continue;
+    spec.split.emplace_back("protocol");
+    break;
+  }
+  return spec;
+}
+
 }  // namespace
 
-std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec) {
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& given) {
+  const TableSpec spec = telling_protocols_apart(given, records);
   Order titles;
   std::vector<Builder> builders;
   const auto builder = [&](const std::string& title) -> Builder& {

@@ -14,7 +14,7 @@ namespace loopbench {
 struct TableCell {
   std::optional<double> value;
   std::size_t records = 0;  ///< how many were averaged (repeats, for example)
-  std::string status;       ///< "declined" or "failed" when there is no value for that reason
+  std::string status;       ///< "declined", "failed" or "incomplete" when there is no value
 };
 
 struct Table {
@@ -23,9 +23,10 @@ struct Table {
   std::vector<std::string> columns;  ///< with unit
   std::vector<std::string> rows;
   std::vector<std::vector<TableCell>> cells;  ///< [row][column]
-  std::vector<std::string> notes;  ///< reasons of declined and failed cells, oracle flags
+  std::vector<std::string> notes;             ///< reasons of cells without value, oracle flags
 };
 
+/// Several protocols split the tables even when the spec does not name them.
 /// Rows, columns and tables appear in the order in which the records first name them.
 /// Throws InputError for an unknown column or statistic, and when a cell would average different
 /// scores (rotation with translation, keyframes with dense). O(n log n).

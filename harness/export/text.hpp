@@ -11,6 +11,9 @@ namespace loopbench {
 /// A number with the decimals its column needs: four significant ones for the largest.
 int decimals(double largest);
 
+/// A CSV field, in quotes where it needs them (RFC 4180).
+std::string quoted(const std::string& text);
+
 /// GitHub Markdown with padded columns, so that it reads on a terminal too. Pipes are escaped.
 std::string markdown(const Table& table);
 std::string markdown(const std::vector<Table>& tables);

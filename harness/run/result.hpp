@@ -14,17 +14,21 @@ namespace loopbench {
 
 enum class Status {
   ok,
-  declined,  ///< the problem is not for this method: not an error
-  failed,    ///< the method or a metric threw
+  declined,    ///< not for this method, or a number that means nothing here: not an error
+  failed,      ///< the method or a metric threw
+  incomplete,  ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
 };
 inline auto choices(Status) {
   return std::array{std::pair{"ok", Status::ok},
                     std::pair{"declined", Status::declined},
-                    std::pair{"failed", Status::failed}};
+                    std::pair{"failed", Status::failed},
+                    std::pair{"incomplete", Status::incomplete}};
 }
 
-/// One metric at one choice of times; when it is undefined there, only status and why are filled.
+/// One metric under one protocol at one choice of times; when it is undefined there, only status
+/// and why are filled.
 struct ScoreResult {
+  std::size_t protocol = 0;  ///< into Sweep::protocols
   Times times = Times::keyframes;
   std::string metric;  ///< label
   Score score;

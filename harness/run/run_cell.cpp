@@ -1,5 +1,8 @@
 #include "harness/run/run_cell.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <exception>
 
@@ -24,43 +27,70 @@ void fenced(Result& result, Work work) {
   }
 }
 
-/// All scores of one metric, or one row that says why there are none.
+/// Why so little was judged that the numbers do not stand beside others; empty when enough was.
+std::string why_incomplete(const Coverage& coverage, double min_coverage) {
+  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
+  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
+                     coverage.pairs,
+                     coverage.possible,
+                     100.0 * coverage.span,
+                     100.0 * min_coverage);
+}
+
+/// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
-           Times times,
+           ScoreResult row,
            const Evaluation& evaluation,
            const Catalogue& catalogue) {
-  ScoreResult row{times, choice.label, {}, evaluation.coverage, Status::ok, ""};
+  row.metric = choice.label;
+  row.coverage = evaluation.coverage;
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
-      row.score = std::move(score);
       result.scores.push_back(row);
+      ScoreResult& added = result.scores.back();
+      if (!score.why_undefined.empty()) {
+        added.status = Status::declined;
+        added.why = score.why_undefined;
+      }
+      added.score = std::move(score);
     }
   });
-  if (row.status != Status::ok) result.scores.push_back(row);
+  if (row.status == Status::failed) result.scores.push_back(row);
 }
 
+/// Every metric under one protocol at one choice of times, which `row` names.
 void judge(CellResult& result,
+           const ScoreResult& row,
            const Sweep& sweep,
            const Sequence& sequence,
            const Curve& curve,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
-  for (const Times times : sweep.times) {
-    ScoreResult none{times, "", {}, {}, Status::ok, ""};
-    fenced(none, [&] {
-      const Evaluation evaluation =
-          evaluate(sequence.reference, curve, keyframe_stamps, times, sweep.protocol);
-      for (const MetricChoice& choice : sweep.metrics) {
-        score(result, choice, times, evaluation, catalogue);
-      }
-    });
-    if (none.status == Status::ok) continue;
-    for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
-      none.metric = choice.label;
-      result.scores.push_back(none);
+  const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const Protocol& protocol = sweep.protocols[row.protocol].rules;
+  ScoreResult none = row;
+  fenced(none, [&] {
+    Evaluation evaluation =
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
+    evaluation.context = {
+        &sequence.reference, &at_keyframes, &sequence.problem, &curve, row.times, protocol};
+    ScoreResult usual = row;
+    usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
+    if (!usual.why.empty()) {
+      usual.status = Status::incomplete;
+      result.status = Status::incomplete;
+      result.why = to_text(row.times) + ": " + usual.why;
     }
+    for (const MetricChoice& choice : sweep.metrics) {
+      score(result, choice, usual, evaluation, catalogue);
+    }
+  });
+  if (none.status == Status::ok) return;
+  for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
+    none.metric = choice.label;
+    result.scores.push_back(none);
   }
 }
 
@@ -109,7 +139,12 @@ CellResult run_cell(const Cell& cell,
       result.why = "no reference to judge against";
       return;
     }
-    judge(result, sweep, sequence, *curve, catalogue);
+    for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+      for (const Times times : sweep.times) {
+        const ScoreResult row{p, times, "", {}, {}, Status::ok, ""};
+        judge(result, row, sweep, sequence, *curve, catalogue);
+      }
+    }
   });
   return result;
 }

@@ -23,6 +23,8 @@ std::string field(const Record& record, const std::string& name) {
   if (name == "repeat") return std::to_string(record.repeat);
   if (name == "method") return record.method;
   if (name == "closures") return record.closures;
+  if (name == "protocol") return record.protocol;
+  if (name == "protocol_version") return record.protocol_version;
   if (name == "times") return record.times;
   if (name == "metric") return record.metric;
   if (name == "relation") return record.relation;
@@ -36,6 +38,8 @@ std::string field(const Record& record, const std::string& name) {
                                  "repeat",
                                  "method",
                                  "closures",
+                                 "protocol",
+                                 "protocol_version",
                                  "times",
                                  "metric",
                                  "relation",

@@ -18,7 +18,9 @@ struct Record {
   std::string closures;
   bool oracle_closures = false;
   double milliseconds = 0.0;  ///< median wall time of the method's verb
-  std::string times;          ///< keyframes | dense; empty when it does not apply
+  std::string protocol;       ///< label; empty when it does not apply, so the next two
+  std::string protocol_version;
+  std::string times;  ///< keyframes | dense
   std::string metric;
   std::string relation;
   std::string axis;
@@ -30,10 +32,10 @@ struct Record {
   std::string why;
 };
 
-/// The text of a record's named column: sequence, repeat, method, closures, times, metric,
-/// relation, axis, unit, status, or `score`: metric, relation and axis without the usual ones
-/// (translation; rotation, which its unit tells; 3d). Throws InputError with a suggestion for
-/// another name.
+/// The text of a record's named column: sequence, repeat, method, closures, protocol,
+/// protocol_version, times, metric, relation, axis, unit, status, or `score`: metric, relation and
+/// axis without the usual ones (translation; rotation, which its unit tells; 3d). Throws InputError
+/// with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
 /// The number of a record's named statistic: rmse, mean, median, std, min, max, sse, count.

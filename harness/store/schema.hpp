@@ -3,7 +3,7 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -21,10 +21,12 @@ inline constexpr const char* kSchema = R"sql(
     seconds_median REAL NOT NULL,
     seconds_min REAL NOT NULL,
     seconds_max REAL NOT NULL,
-    status TEXT NOT NULL,              -- ok | declined | failed
+    status TEXT NOT NULL,              -- ok | declined | failed | incomplete
     why TEXT NOT NULL);
   CREATE TABLE score (
     cell INTEGER NOT NULL REFERENCES cell(id),
+    protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
+    protocol_version TEXT NOT NULL,    -- of the original tool that was followed
     times TEXT NOT NULL,               -- keyframes | dense
     metric TEXT NOT NULL,
     relation TEXT NOT NULL,

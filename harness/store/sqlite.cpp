@@ -82,7 +82,7 @@ std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), c
 double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
 std::string Statement::text() {
   const auto* bytes = sqlite3_column_text(handle_.get(), column_);
-  const int size = sqlite3_column_bytes(handle_.get(), column_++);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
   return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
 }
 

@@ -76,7 +76,12 @@ Store::Store(const std::filesystem::path& file, const Sweep& sweep)
   say("loopbench", kVersion);
   say("sweep", sweep.name);
   say("config", sweep.text);
-  say("protocol", to_text(echo(sweep.protocol)));
+  std::string rules;  // in full, one protocol a line
+  for (const NamedProtocol& protocol : sweep.protocols) {
+    rules +=
+        protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
+  }
+  say("protocol", rules);
   say("baseline", sweep.baseline);
   database_.execute("COMMIT");
 }
@@ -114,10 +119,13 @@ void Store::write(const Sweep& sweep, const CellResult& result) {
       .bind(result.why)
       .run();
   Statement score =
-      database_.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+      database_.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const ScoreResult& row : result.scores) {
     const Statistics& s = row.score.statistics;
+    const NamedProtocol& protocol = sweep.protocols[row.protocol];
     score.bind(id)
+        .bind(protocol.label())
+        .bind(protocol.version)
         .bind(to_text(row.times))
         .bind(row.metric)
         .bind(row.score.relation)
@@ -152,10 +160,13 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   // A declined or failed cell has no score: the left join keeps it, with empty score columns.
   Statement rows = database.prepare(R"sql(
     SELECT c.id, c.sequence, c.repeat, c.method, c.closures, c.oracle_closures,
-           c.seconds_median * 1000, s.times, s.metric, s.relation, s.axis, s.unit,
+           c.seconds_median * 1000, s.protocol, s.protocol_version, s.times, s.metric, s.relation, s.axis, s.unit,
            s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.pairs, s.possible,
-           CASE WHEN c.status = 'ok' THEN coalesce(s.status, 'ok') ELSE c.status END,
-           CASE WHEN c.why = '' THEN coalesce(s.why, '') ELSE c.why END
+           -- An incomplete cell may be complete at other times: its scores know.
+           CASE WHEN c.status IN ('ok', 'incomplete') THEN coalesce(s.status, c.status)
+                ELSE c.status END,
+           CASE WHEN c.why = '' OR c.status = 'incomplete' THEN coalesce(s.why, c.why)
+                ELSE c.why END
     FROM cell c LEFT JOIN score s ON s.cell = c.id ORDER BY c.id, s.rowid)sql");
   std::vector<Record> out;
   while (rows.step()) {
@@ -167,6 +178,8 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     r.closures = rows.text();
     r.oracle_closures = rows.integer() != 0;
     r.milliseconds = rows.real();
+    r.protocol = rows.text();
+    r.protocol_version = rows.text();
     r.times = rows.text();
     r.metric = rows.text();
     r.relation = rows.text();

@@ -1,51 +1,9 @@
 #include "methods/correctors/uniform.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <tuple>
 
 namespace loopbench {
 namespace {
-
-using Weights = Uniform::Weights;
-
-/// shares[i] >= 0 belongs to the step from keyframe i - 1 to i; shares[0] is not used.
-std::vector<double> step_shares(const Trajectory& keyframes, Weights weights) {
-  std::vector<double> shares(keyframes.size(), 1.0);
-  if (weights == Weights::index) return shares;
-  for (std::size_t i = 1; i < keyframes.size(); ++i) {
-    const auto& [before, a] = keyframes[i - 1];
-    const auto& [stamp, b] = keyframes[i];
-    shares[i] = weights == Weights::time       ? stamp - before
-                : weights == Weights::distance ? (b.translation - a.translation).norm()
-                                               : angle_between(a.rotation, b.rotation);
-  }
-  return shares;
-}
-
-/// Cumulative shares over (from, to]; out.back() is exactly 1. Empty when every step is frozen.
-std::vector<double> cumulative(const std::vector<double>& shares,
-                               const std::vector<bool>& frozen,
-                               const Edge& loop,
-                               bool& fell_back) {
-  std::vector<double> out(loop.to - loop.from);
-  const auto accumulate = [&](auto share_of) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const std::size_t i = loop.from + 1 + k;
-      out[k] = sum += frozen[i] ? 0.0 : share_of(i);
-    }
-    return sum;
-  };
-  double total = accumulate([&](std::size_t i) { return shares[i]; });
-  if (!(total > 0.0)) {  // standing still, or not turning: nothing to be proportional to
-    total = accumulate([](std::size_t) { return 1.0; });
-    if (total == 0.0) return {};
-    fell_back = true;
-  }
-  for (double& w : out) w /= total;
-  return out;
-}
 
 /// Poses being corrected. Those after the last closed loop share one rigid motion, which is
 /// applied when a loop reaches them: otherwise every loop would touch the whole tail.
@@ -102,27 +60,24 @@ std::optional<std::string> Uniform::declines(const Problem& problem) const {
 }
 
 Trajectory Uniform::correct(const Problem& problem, Report& report) const {
+  check_closures(problem, "uniform");
   const std::vector<Edge>& loops = problem.closures;
-  const auto order = [](const Edge& loop) { return std::tuple(loop.to, loop.from); };
-  const auto sound = [&](const Edge& loop) {
-    return loop.from < loop.to && loop.to < problem.keyframes.size();
-  };
-  if (!std::ranges::is_sorted(loops, {}, order) || !std::ranges::all_of(loops, sound)) {
-    throw std::runtime_error("uniform: closures must name keyframes and be sorted by (to, from)");
-  }
   const std::vector<double> shares = step_shares(problem.keyframes, options_.weights);
   std::vector<bool> frozen(problem.keyframes.size(), false);
   Chain chain(problem.keyframes);
   std::size_t fallbacks = 0, skipped = 0, scaled = 0;
   for (const Edge& loop : loops) {
-    bool fell_back = false;
-    const std::vector<double> w = cumulative(shares, frozen, loop, fell_back);
-    fallbacks += fell_back ? 1 : 0;
-    skipped += w.empty() ? 1 : 0;
     scaled += loop.scale != 1.0 ? 1 : 0;
-    if (!w.empty()) chain.close(loop, w, options_.rotation == Turn::slerp);
-    if (options_.overlap == Overlap::open) {
-      std::fill_n(frozen.begin() + static_cast<std::ptrdiff_t>(loop.from + 1), w.size(), true);
+    const auto w = loop_shares(shares, frozen, loop);
+    if (!w) {
+      ++skipped;
+      continue;
+    }
+    fallbacks += w->fell_back ? 1 : 0;
+    chain.close(loop, w->cumulative, options_.rotation == Turn::slerp);
+    if (options_.overlap == LoopOverlap::open) {
+      const auto first = frozen.begin() + static_cast<std::ptrdiff_t>(loop.from + 1);
+      std::fill_n(first, w->cumulative.size(), true);
     }
   }
   chain.settle(problem.keyframes.size());

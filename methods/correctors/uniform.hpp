@@ -1,6 +1,7 @@
 /// The closing error of each loop spread along the loop: the usual baseline.
 #pragma once
 
+#include "methods/correctors/shares.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench {
@@ -22,13 +23,11 @@ namespace loopbench {
 class Uniform final : public Corrector {
  public:
   enum class Turn { none, slerp };
-  enum class Weights { index, time, distance, rotation };
-  enum class Overlap { whole, open };
 
   struct Options {
     Turn rotation = Turn::slerp;
-    Weights weights = Weights::index;
-    Overlap overlap = Overlap::whole;
+    StepWeights weights = StepWeights::index;
+    LoopOverlap overlap = LoopOverlap::whole;
   };
   explicit Uniform(const Options& options) : options_(options) {}
 
@@ -45,18 +44,6 @@ class Uniform final : public Corrector {
 inline auto choices(Uniform::Turn) {
   return std::array{std::pair{"none", Uniform::Turn::none},
                     std::pair{"slerp", Uniform::Turn::slerp}};
-}
-
-inline auto choices(Uniform::Weights) {
-  return std::array{std::pair{"index", Uniform::Weights::index},
-                    std::pair{"time", Uniform::Weights::time},
-                    std::pair{"distance", Uniform::Weights::distance},
-                    std::pair{"rotation", Uniform::Weights::rotation}};
-}
-
-inline auto choices(Uniform::Overlap) {
-  return std::array{std::pair{"whole", Uniform::Overlap::whole},
-                    std::pair{"open", Uniform::Overlap::open}};
 }
 
 template <class Visit>

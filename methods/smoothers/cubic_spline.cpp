@@ -12,8 +12,8 @@ namespace {
 
 /// What one interval reads: side by side in memory, four neighbours at a time.
 struct Control {
-  Vector3 point;      ///< [m]
-  Rotation rotation;  ///< C_j
+  Vector3 point;                   ///< [m]
+  Rotation rotation;               ///< C_j
   Vector3 step = Vector3::Zero();  ///< d_j = Log(C_{j-1}^T C_j) [rad]; unused at j = 0
 };
 

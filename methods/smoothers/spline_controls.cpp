@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "datasets/core/interpolate.hpp"
-#include "methods/smoothers/tridiagonal.hpp"
+#include "datasets/core/tridiagonal.hpp"
 
 namespace loopbench {
 namespace {

@@ -225,5 +225,23 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
   EXPECT_TRUE(chained[2].world_from_body.translation.isApprox(Vector3(1, 1, 0)));
 }
 
+TEST(G2o, RefusesWhatOverflowsOnTheWay) {
+  const Scratch scratch;
+  const auto why = [&](const std::string& text) {
+    const auto file = scratch.file("a.g2o", text);
+    const std::string said = refusal([&] { read_trajectory(file); });
+    EXPECT_TRUE(said.starts_with(file.string())) << said;
+    return said.substr(file.string().size());
+  };
+  EXPECT_EQ(why("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
+            ":1: information is not positive definite once the edge is turned round");
+  EXPECT_EQ(why("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
+            ": pose 2: is not finite");
+  EXPECT_EQ(why("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
+            ": pose 1: stamp does not increase");
+  EXPECT_EQ(why("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
+            ":1: scale is 1e-310, too small to divide by");
+}
+
 }  // namespace
 }  // namespace loopbench

@@ -83,6 +83,22 @@ TEST_F(Cli, AnUndefinedScoreIsTellingAndFails) {
   EXPECT_NE(result.out.find("1 of 1 cells done, 1 failed"), std::string::npos) << result.out;
 }
 
+TEST_F(Cli, SeveralProtocolsSplitTheTables) {
+  folder_.file("c.yaml", std::string(kConfig) + "protocol: [loopbench, {base: evo, align: se3}]\n");
+  const CommandResult result = run("run c.yaml");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("### b, dense, loopbench\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("### b, dense, evo (align=se3)\n"), std::string::npos);
+  EXPECT_NE(result.out.find("protocol: loopbench [1], evo (align=se3) [26d0953]"),
+            std::string::npos);
+  const CommandResult rows = run("table results/c --format rows --where metric=ate");
+  EXPECT_NE(rows.out.find(",evo (align=se3),26d0953,keyframes,ate,"), std::string::npos)
+      << rows.out;
+  const CommandResult one = run("table results/c --where protocol=loopbench");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out.find("evo"), std::string::npos) << one.out;
+}
+
 TEST_F(Cli, OnlyRunsWhatMatches) {
   folder_.file("c.yaml", kConfig);
   const CommandResult result = run("run c.yaml --only 'b / (raw|cubic)' --out here");
@@ -151,14 +167,17 @@ TEST_F(Cli, AKilledSweepLeavesReadableCells) {
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
                "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  const std::string script = "cd '" + folder_.path().string() +
-                             "' && '" LOOPBENCH_BINARY
-                             "' run c.yaml --out k >/dev/null 2>&1 & pid=$!; "
+  // exec: the process killed must be the sweep itself, not a shell around it.
+  const std::string in = "'" + folder_.path().string();
+  const std::string script = "(cd " + in +
+                             "' && exec '" LOOPBENCH_BINARY
+                             "' run c.yaml --out k >/dev/null 2>&1) & pid=$!; "
                              "for i in $(seq 600); do sleep 0.05; "
-                             "n=$('" LOOPBENCH_BINARY "' table '" +
-                             folder_.path().string() +
+                             "n=$('" LOOPBENCH_BINARY "' table " +
+                             in +
                              "/k' --format rows 2>/dev/null | wc -l); "
-                             "[ \"$n\" -gt 10 ] && break; done; kill -9 $pid";
+                             "[ \"$n\" -gt 10 ] && break; done; "
+                             "kill -9 $pid; wait $pid; [ $? -eq 137 ]";
   const std::string quoted = "bash -c \"$SCRIPT\"";
   setenv("SCRIPT", script.c_str(), 1);
   EXPECT_EQ(std::system(quoted.c_str()), 0);
@@ -199,6 +218,11 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
   }
   const CommandResult json = run("list methods --json");
   EXPECT_EQ(json.out.rfind("{\n  \"methods\": [", 0), 0u) << json.out.substr(0, 80);
+  const CommandResult protocols = run("list protocols");
+  for (const char* name :
+       {"loopbench ", "evo ", "tum ", "rpg ", "rpg-fixed ", "kitti ", "eth3d "}) {
+    EXPECT_NE(("\n" + protocols.out).find(std::string("\n") + name), std::string::npos) << name;
+  }
   const CommandResult slip = run("list method");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_NE(slip.err.find("did you mean 'methods'?"), std::string::npos);

@@ -77,6 +77,27 @@ TEST(Pivot, AveragesWhatFallsTogether) {
   EXPECT_EQ(tables[0].cells[0][0].records, 2u);
 }
 
+TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
+  std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0), ate("worse", 9.0)};
+  records.push_back(records[2]);
+  records[3].axis = "x";
+  for (const std::size_t i : {1u, 2u, 3u}) {
+    records[i].status = "incomplete";
+    records[i].why = "judged 1 of 9 poses";
+  }
+  records[1].repeat = 1;
+  const std::vector<Table> tables = pivot(records, TableSpec{});
+  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // the second repeat does not enter
+  EXPECT_EQ(tables[0].cells[0][0].records, 1u);
+  EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
+  EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
+  EXPECT_EQ(tables[0].notes,
+            (std::vector<std::string>{"raw: incomplete: judged 1 of 9 poses",
+                                      "worse: incomplete: judged 1 of 9 poses"}));
+  EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
+  EXPECT_TRUE(gains(records, "worse").empty());
+}
+
 TEST(Pivot, RefusesToAverageDifferentScores) {
   std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
   records[1].relation = "rotation";
@@ -106,7 +127,7 @@ TEST(Pivot, RefusesUnknownColumnsByName) {
 TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
-  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,keyframes,ate,translation,3d,m,0,0.1,"),
+  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,,,keyframes,ate,translation,3d,m,0,0.1,"),
             std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;

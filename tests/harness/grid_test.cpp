@@ -79,6 +79,11 @@ TEST(Grid, RefusesWithFileAndLine) {
             "c.yaml:2: a range needs from, to and steps; 'steps' is missing");
   EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 0}}\n"),
             "c.yaml:2: steps: expected a whole number, 1 to 100000");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: -1e308, to: 1e308, steps: 3}}\n"),
+            "c.yaml:2: a range from, to must not be wider than a double is");
+  EXPECT_EQ(why("method: m\nsweep:\n  a: {from: 1, to: 101, steps: 101}\n"
+                "  b: {from: 1, to: 100, steps: 100}\n"),
+            "c.yaml:1: sweeps over more than 10000 combinations");
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ TEST(ReadSweep, FillsInDefaults) {
   EXPECT_EQ(sweep.methods[0].label, "shift");
   EXPECT_EQ(sweep.repeats, 1);
   EXPECT_EQ(sweep.times, (std::vector<Times>{Times::keyframes, Times::dense}));
-  EXPECT_EQ(sweep.protocol.align, Align::se3);
+  ASSERT_EQ(sweep.protocols.size(), 1u);
+  EXPECT_EQ(sweep.protocols[0].label(), "loopbench");
   EXPECT_EQ(sweep.baseline, "");
+  EXPECT_EQ(sweep.min_coverage, 0.0);
 }
 
 TEST(ReadSweep, ComposesStagesAndDistributesOptions) {
@@ -84,16 +86,56 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
             "c.yaml:7: repeats: expected a whole number, 1 to 1000000");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "times: [keyframes, sometimes]\n")),
             "c.yaml:7: times: expected keyframes | dense");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "protocol:\n  align: se4\n")),
-            "c.yaml:8: protocol: align = se4: expected one of se3 | sim3 | origin | none");
+  EXPECT_EQ(
+      why(config("- line", "- shift", "- ate", "protocol:\n  align: se4\n")),
+      "c.yaml:8: protocol: align = se4: expected one of se3 | sim3 | scale | posyaw | origin | "
+      "posyaw_origin | none");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "baseline: shifd\n")),
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
             "c.yaml:7: method: '(' is not a regular expression");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
+            "c.yaml:7: min_coverage = 80.0 breaks 0 <= min_coverage <= 1");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),
+            "c.yaml:7: min_coverage = most: expected a number");
+  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: [0.8]\n")),
+            "c.yaml:7: min_coverage: expected a number from 0 to 1");
   EXPECT_EQ(why("methods: [shift]\nmetrics: [ate]\n"), "c.yaml:1: 'datasets' is missing");
   EXPECT_EQ(why("datasets: []\nmethods: [shift]\nmetrics: [ate]\n"),
             "c.yaml:1: datasets: expected a list with at least one entry");
   EXPECT_EQ(why("- 1\n"), "c.yaml:1: expected a map with datasets, methods and metrics");
+}
+
+TEST(ReadSweep, ProtocolsAreNamedChangedAndListed) {
+  const auto labels = [](const std::string& text) {
+    std::vector<std::string> out;
+    const std::string config_text =
+        config("- line", "- shift", "- ate", "protocol: " + text + "\n");
+    for (const NamedProtocol& p : parse(config_text).protocols) out.push_back(p.label());
+    return out;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(labels("evo"), Labels{"evo"});
+  EXPECT_EQ(labels("{base: evo, max_diff: 0.02}"), Labels{"evo (max_diff=0.02)"});
+  EXPECT_EQ(labels("{align: origin}"), Labels{"loopbench (align=origin)"});
+  EXPECT_EQ(labels("{base: kitti, segments: {lengths: 100}}"),
+            Labels{"kitti (segments.lengths=100)"});
+  EXPECT_EQ(labels("[evo, {base: evo, align: se3}, rpg-fixed]"),
+            (Labels{"evo", "evo (align=se3)", "rpg-fixed"}));
+}
+
+TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
+  const auto refusal = [](const std::string& text) {
+    return why(config("- line", "- shift", "- ate", "protocol: " + text + "\n"));
+  };
+  EXPECT_EQ(refusal("evoo"),
+            "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
+  EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is there twice");
+  EXPECT_EQ(refusal("[]"), "c.yaml:7: protocol: is empty, expected a name");
+  EXPECT_EQ(refusal("{sweep: {align: [se3, sim3]}}"),
+            "c.yaml:7: protocol: is not swept; give a list of protocols");
+  EXPECT_EQ(refusal("\n  base: kitti\n  offset: 1"),
+            "c.yaml:9: protocol: offset = 1.0: association index does not look at stamps");
 }
 
 }  // namespace

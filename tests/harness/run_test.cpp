@@ -79,6 +79,64 @@ TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
   EXPECT_EQ(records[6].repeat, 1);
 }
 
+/// The reference goes on for 9 s, the keyframes end after 3 s: dense and keyframes see a third.
+TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
+  known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
+    Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
+    if (given.at("bias") == Param(0.3)) out.reference.push_back({9.0, {}});
+    return out;
+  };
+  sweep_.min_coverage = 0.5;
+  const std::vector<Record> records = run(1);
+  int incomplete = 0;
+  for (const Record& r : records) {
+    const bool is_short = r.sequence.find("0.3") != std::string::npos;
+    if (r.method != "straight" || r.metric != "ate") continue;
+    EXPECT_EQ(r.status, is_short ? "incomplete" : "ok") << r.sequence;
+    EXPECT_GT(r.statistics.rmse, 0.0);  // kept all the same
+    if (!is_short) continue;
+    ++incomplete;
+    EXPECT_EQ(r.why, "judged 4 of 4 poses over 33.3 % of the reference's time, below 50.0 %");
+  }
+  EXPECT_EQ(incomplete, 3);
+  for (const Record& r : records) {  // what the metric could not do at all stays failed
+    if (r.metric == "undefined") {
+      EXPECT_EQ(r.status, "failed");
+    }
+  }
+}
+
+TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
+  known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
+    Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
+    out.reference.erase(out.reference.begin() + 1, out.reference.begin() + 3);
+    return out;  // two of four keyframes have a partner; dense asks at both reference stamps
+  };
+  sweep_.protocol.align = Align::none;
+  sweep_.min_coverage = 0.9;
+  sweep_.times = {Times::keyframes, Times::dense};
+  for (const Record& r : run(1)) {
+    if (r.method != "straight" || r.metric != "ate") continue;
+    EXPECT_EQ(r.status, r.times == "dense" ? "ok" : "incomplete");
+  }
+}
+
+TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
+  known_.metrics[0].score = [](const Evaluation& evaluation, const Params&) {
+    EXPECT_NE(evaluation.context.problem, nullptr);
+    EXPECT_NE(evaluation.context.curve, nullptr);
+    EXPECT_EQ(evaluation.context.estimate->size(), 4u);
+    return std::vector<Score>{{"rotation", "3d", "deg", {}, "positions only"},
+                              single("translation", "3d", "m", -2.0)};
+  };
+  for (const Record& r : run(1)) {
+    if (r.method != "straight" || r.metric != "ate") continue;
+    EXPECT_EQ(r.status, r.relation == "rotation" ? "declined" : "ok");
+    EXPECT_EQ(r.why, r.relation == "rotation" ? "positions only" : "");
+    EXPECT_EQ(r.statistics.rmse, r.relation == "rotation" ? 0.0 : -2.0);
+  }
+}
+
 TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
   known_.datasets[0].load = [](const Params& given, const DataRoot&) -> Sequence {
     if (given.at("bias") == Param(0.3)) throw InputError("gone.txt: no such file");

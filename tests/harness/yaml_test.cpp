@@ -36,6 +36,19 @@ TEST(Yaml, RefusesWhatWouldBeLostSilently) {
   EXPECT_EQ(why("a: 1\n[x]: 2\n"), "c.yaml:2: a key must be a word");
 }
 
+TEST(Yaml, RefusesAliasesThatNeverEnd) {
+  const std::string told = "holds too many values or levels (an alias of itself?)";
+  EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: " + told);
+  std::string laughs = "a: &a [x, x, x, x, x, x, x, x, x, x]\n";
+  for (char c = 'b'; c < 'i'; ++c) {
+    const std::string alias = std::string(", *") + static_cast<char>(c - 1);
+    std::string list;
+    for (int i = 0; i < 10; ++i) list += alias;
+    laughs += std::string{c} + ": &" + c + " [" + list.substr(2) + "]\n";
+  }
+  EXPECT_EQ(why(laughs), "c.yaml:1: " + told);
+}
+
 TEST(Yaml, TellsTheLineOfBrokenSyntax) {
   const std::string text = why("a: 1\nb: [1, 2\nc: 3\n");
   EXPECT_TRUE(text.starts_with("c.yaml:3: not valid YAML")) << text;

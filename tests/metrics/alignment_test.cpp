@@ -164,6 +164,53 @@ TEST(Alignment, OriginPutsTheFirstPosesTogether) {
   EXPECT_LT(worst(reference, moved(align(reference, estimate, Align::origin), estimate)), 1e-12);
 }
 
+TEST(Alignment, PosyawTurnsAboutZOnly) {
+  std::mt19937_64 random(8);
+  const Trajectory reference = random_walk(random, 50);
+  const Pose turned{exp_so3(Vector3(0.0, 0.0, 2.5)), Vector3(1.0, -2.0, 3.0)};
+  const Trajectory estimate = moved_by(turned, 1.0, reference);
+  for (const Align type : {Align::posyaw, Align::posyaw_origin}) {
+    const Alignment found = align(reference, estimate, type);
+    EXPECT_LT(worst(reference, moved(found, estimate)), 1e-12);
+  }
+  // What is turned about x stays so, and the z axis stays up.
+  const Trajectory tilted = moved_by({exp_so3(Vector3(0.3, 0.0, 0.0)), {}}, 1.0, reference);
+  const Alignment found = align(reference, tilted, Align::posyaw);
+  EXPECT_NEAR((found.reference_from_estimate.rotation * Vector3::UnitZ()).z(), 1.0, 1e-15);
+}
+
+TEST(Alignment, PosyawRefusesWhatMovesAlongZOnly) {
+  const Trajectory lift = at_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}});
+  const auto text = why<std::runtime_error>([&] { align(lift, lift, Align::posyaw); });
+  EXPECT_NE(text.find("do not move across z together"), std::string::npos) << text;
+}
+
+TEST(Alignment, ScaleAloneLeavesPlaceAndTurn) {
+  std::mt19937_64 random(9);
+  const Trajectory reference = random_walk(random, 50);
+  const Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 0.25, reference);
+  const Alignment found = align(reference, estimate, Align::scale);
+  EXPECT_NEAR(found.scale, 4.0, 1e-12);
+  EXPECT_TRUE(is_close(found.reference_from_estimate, Pose{}, 0.0, 0.0));
+}
+
+TEST(Alignment, FirstPairsDecideAloneWhenAsked) {
+  std::mt19937_64 random(10);
+  const Trajectory reference = random_walk(random, 50);
+  Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 1.0, reference);
+  estimate.back().world_from_body.translation += Vector3(100.0, 0.0, 0.0);
+  const Alignment found = align(reference, estimate, Align::se3, 49);
+  const Trajectory there = moved(found, estimate);
+  EXPECT_LT(
+      (there[0].world_from_body.translation - reference[0].world_from_body.translation).norm(),
+      1e-12);
+  // More than there are is all there are.
+  EXPECT_TRUE(is_close(align(reference, estimate, Align::se3, 500).reference_from_estimate,
+                       align(reference, estimate, Align::se3).reference_from_estimate,
+                       0.0,
+                       0.0));
+}
+
 TEST(Alignment, NoneChangesNoBit) {
   std::mt19937_64 random(7);
   const Trajectory estimate = random_walk(random, 20);

@@ -6,7 +6,9 @@
 
 #include "datasets/formats/formats.hpp"
 #include "metrics/ate.hpp"
+#include "metrics/protocols.hpp"
 #include "metrics/rpe.hpp"
+#include "metrics/segments/segments.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {
@@ -58,6 +60,34 @@ TEST_F(PublicValues, Fr2DeskOrbSlam) {
   const Evaluation rpg = judged(file, {.association = Association::tum, .align = Align::sim3});
   EXPECT_NEAR(rpg.alignment.scale, 0.9970022884061697, 1e-12);
   expect_ate(rpg, 2223, 0.0061856729003283);
+
+  const RpeOptions second{.delta = 1.0, .unit = DeltaUnit::s};
+  const auto tum = [&](const Params& changes) {
+    return rpe(judged(file, named_protocol("tum", changes).rules), second);
+  };
+  const Statistics metres = find(tum({}), "translation", "3d");
+  EXPECT_EQ(metres.count, 1998u);
+  EXPECT_NEAR(metres.rmse, 0.00716111168698483, 1e-9 * 0.007);
+  EXPECT_NEAR(find(tum({}), "rotation", "3d").rmse, 0.00794134274559751 * 180.0 / M_PI, 1e-9);
+  const Statistics evo_form = find(tum({{"form", std::string("evo")}}), "translation", "3d");
+  EXPECT_NEAR(evo_form.rmse, 0.0070935, 5e-8);  // quoted with five digits
+}
+
+// Quoted with six digits, for SE(3): no scale on the motions.
+TEST_F(PublicValues, RpgPairsStartsWithOtherStartsEnds) {
+  const std::string file = "fr2_desk/orbslam_frames_evo.txt";
+  const auto over_2_metres = [&](const std::string& name) {
+    const Params rigid{{"align", std::string("se3")}};
+    const std::vector<Score> scores = segments(judged(file, named_protocol(name, rigid).rules), {});
+    for (const Score& score : scores) {
+      if (score.relation == "translation" && score.axis == "10%" && score.unit == "m") {
+        return score.statistics.rmse;
+      }
+    }
+    return 0.0;
+  };
+  EXPECT_NEAR(over_2_metres("rpg"), 0.0166305, 5e-8);
+  EXPECT_NEAR(over_2_metres("rpg-fixed"), 0.0155026, 5e-8);
 }
 
 TEST_F(PublicValues, Fr1XyzRgbdSlam) {
@@ -65,6 +95,10 @@ TEST_F(PublicValues, Fr1XyzRgbdSlam) {
   expect_ate(
       judged(file, {.association = Association::evo, .max_diff = 0.01}), 785, 0.0134700888497337);
   expect_ate(judged(file, {.association = Association::tum}), 786, 0.0134734677699068);
+  const std::vector<Score> got =
+      rpe(judged(file, named_protocol("tum").rules), {.delta = 1.0, .unit = DeltaUnit::s});
+  EXPECT_EQ(find(got, "translation", "3d").count, 753u);
+  EXPECT_NEAR(find(got, "translation", "3d").rmse, 0.0212174440791267, 1e-9 * 0.02);
 }
 
 }  // namespace

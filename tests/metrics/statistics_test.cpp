@@ -35,6 +35,12 @@ TEST(Statistics, SumsOfAMillionKeepTheirDigits) {
   EXPECT_LT(s.std, 1e-15);
 }
 
+TEST(Statistics, DividesByOneLessWhenAsked) {
+  EXPECT_DOUBLE_EQ(statistics({1.0, 3.0}).std, 1.0);
+  EXPECT_DOUBLE_EQ(statistics({1.0, 3.0}, 1).std, std::sqrt(2.0));
+  EXPECT_EQ(statistics({1.0}, 1).std, 0.0);
+}
+
 TEST(Statistics, RefusesNothingAndNonsense) {
   EXPECT_THROW(statistics({}), std::invalid_argument);
   EXPECT_THROW(statistics({1.0, std::nan("")}), std::runtime_error);

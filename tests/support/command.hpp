@@ -27,7 +27,8 @@ inline std::string read_all(const std::filesystem::path& file) {
 }
 
 /// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.
-inline CommandResult loopbench_command(const std::string& arguments, const TemporaryFolder& folder) {
+inline CommandResult loopbench_command(const std::string& arguments,
+                                       const TemporaryFolder& folder) {
   const std::filesystem::path out = folder.path() / ".out";
   const std::filesystem::path err = folder.path() / ".err";
   const std::string line = "cd '" + folder.path().string() + "' && '" LOOPBENCH_BINARY "' " +

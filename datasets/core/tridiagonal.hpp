@@ -23,7 +23,8 @@ inline double inverse(double block) { return 1.0 / block; }
 inline Matrix3 inverse(const Matrix3& block) { return block.inverse(); }
 
 /// Elimination without pivoting: backward stable for the totally positive matrices of B-spline
-/// interpolation (de Boor & Pinkus 1977), which is what it is used for here. Destroys `rows`.
+/// interpolation (de Boor & Pinkus 1977) and for diagonally dominant ones, which is what it is
+/// used for here. Destroys `rows`.
 template <class Block, class Value>
 std::vector<Value> solve_tridiagonal(std::vector<TridiagonalRow<Block, Value>>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {

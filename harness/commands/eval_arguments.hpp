@@ -1,0 +1,61 @@
+/// What `eval` is told on its command line, and what that means.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/formats/formats.hpp"
+#include "harness/commands/judgement.hpp"
+#include "harness/commands/layout.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace loopbench {
+
+/// Empty words and optionals: the protocol's own.
+struct EvalArguments {
+  std::string reference;
+  std::vector<std::string> estimates;
+  std::string format = "auto";
+  std::string reference_format;  ///< empty: as `format`
+  std::string times;             ///< empty: none
+  std::string repeats = "refuse";
+  double period = ReadOptions{}.period;
+  std::vector<std::string> protocols{"loopbench"};
+  std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
+  std::string association;
+  std::string align;
+  bool correct_scale = false;
+  std::optional<int> align_first;
+  std::string project;
+  std::optional<double> max_diff;
+  std::optional<double> max_gap;
+  std::optional<double> offset;
+  std::string relation;
+  std::optional<double> delta;
+  std::string delta_unit;
+  bool all_pairs = false;
+  bool pairs_from_reference = false;
+  bool json = false;
+  bool csv = false;
+  std::string per_pose;  ///< file; empty: none
+};
+
+/// Declares the options; values are checked later, by the functions below.
+void declare(CLI::App& command, EvalArguments& arguments);
+
+/// Throws InputError for an unknown protocol or setting text, OptionError for a wrong one.
+std::vector<NamedProtocol> protocols(const EvalArguments& arguments);
+
+/// evo's habits: a relation asks for ape and rpe in it; a delta or unit alone for one rpe. Without
+/// any the usual questions. Throws OptionError.
+std::vector<Asked> questions(const EvalArguments& arguments, const Protocol& protocol);
+
+/// REF with each EST, or the files of an rpg folder (no EST) or of ov_eval folders (REF and EST).
+/// Throws InputError, CLI::RequiredError when an EST is missing.
+std::vector<FilePair> file_pairs(const EvalArguments& arguments);
+
+}  // namespace loopbench

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include "harness/commands/judgement.hpp"
+#include "harness/export/text.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string head(const Judgement& j) {
+  return quoted(j.reference) + "," + quoted(j.estimate) + "," + quoted(j.protocol.label()) + "," +
+         quoted(j.protocol.version);
+}
+
+}  // namespace
+
+std::string csv(const std::vector<Judgement>& judgements) {
+  std::string out =
+      "reference,estimate,protocol,protocol_version,metric,options,relation,axis,unit,count,rmse,"
+      "mean,median,std,min,max,sse,pairs,possible,scale,why\n";
+  for (const Judgement& j : judgements) {
+    const std::string tail =
+        fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
+    for (const JudgedMetric& metric : j.metrics) {
+      const std::string front = head(j) + "," + metric.name + "," + quoted(to_text(metric.options));
+      for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+        if (!why.empty()) {
+          out += fmt::format(
+              "{},{},{},{},,,,,,,,,{},{}\n", front, relation, axis, unit, tail, quoted(why));
+          continue;
+        }
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},\n",
+                           front,
+                           relation,
+                           axis,
+                           unit,
+                           s.count,
+                           s.rmse,
+                           s.mean,
+                           s.median,
+                           s.std,
+                           s.min,
+                           s.max,
+                           s.sse,
+                           tail);
+      }
+      if (metric.why_undefined.empty()) continue;
+      out += fmt::format("{},,,,,,,,,,,,{},{}\n", front, tail, quoted(metric.why_undefined));
+    }
+  }
+  return out;
+}
+
+std::string pose_csv(const std::vector<Judgement>& judgements) {
+  std::string out =
+      "reference,estimate,protocol,protocol_version,stamp,x_m,y_m,z_m,distance_m,"
+      "rx_rad,ry_rad,rz_rad,angle_rad\n";
+  for (const Judgement& j : judgements) {
+    const std::string front = head(j);
+    for (const auto& [stamp, e, r] : j.poses) {
+      out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
+                         front,
+                         stamp,
+                         e.x(),
+                         e.y(),
+                         e.z(),
+                         e.norm(),
+                         r.x(),
+                         r.y(),
+                         r.z(),
+                         r.norm());
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench

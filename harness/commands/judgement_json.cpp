@@ -1,0 +1,86 @@
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/judgement.hpp"
+
+namespace loopbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Params& params) {
+  Json out = Json::object();
+  for (const auto& [name, param] : params) {
+    out[name] = std::visit([](const auto& value) { return Json(value); }, param);
+  }
+  return out;
+}
+
+Json to_json(const JudgedMetric& metric, const Score& score) {
+  const Statistics& s = score.statistics;
+  return {{"metric", metric.name},
+          {"options", to_json(metric.options)},
+          {"relation", score.relation},
+          {"axis", score.axis},
+          {"unit", score.unit},
+          {"rmse", s.rmse},
+          {"mean", s.mean},
+          {"median", s.median},
+          {"std", s.std},
+          {"min", s.min},
+          {"max", s.max},
+          {"count", s.count}};
+}
+
+Json to_json(const Judgement& j) {
+  Json scores = Json::array();
+  Json undefined = Json::array();
+  Json diagnosis = Json::object();
+  for (const Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
+  for (const JudgedMetric& metric : j.metrics) {
+    for (const Score& score : metric.scores) {
+      if (score.why_undefined.empty()) {
+        scores.push_back(to_json(metric, score));
+      } else {
+        undefined.push_back({{"metric", metric.name},
+                             {"options", to_json(metric.options)},
+                             {"relation", score.relation},
+                             {"axis", score.axis},
+                             {"why", score.why_undefined}});
+      }
+    }
+    if (metric.why_undefined.empty()) continue;
+    undefined.push_back({{"metric", metric.name},
+                         {"options", to_json(metric.options)},
+                         {"why", metric.why_undefined}});
+  }
+  return {{"reference", j.reference},
+          {"estimate", j.estimate},
+          {"protocol",
+           {{"name", j.protocol.name},
+            {"version", j.protocol.version},
+            {"changes", to_json(j.protocol.changes)},
+            {"rules", to_json(echo(j.protocol.rules))}}},
+          {"pairs", j.coverage.pairs},
+          {"possible", j.coverage.possible},
+          {"coverage", j.coverage.share()},
+          {"span", j.coverage.span},
+          {"alignment",
+           {{"type", to_text(j.alignment.type)},
+            {"scale", j.alignment.scale},
+            {"rank", j.alignment.rank},
+            {"condition", j.alignment.condition}}},
+          {"diagnosis", std::move(diagnosis)},
+          {"metrics", std::move(scores)},
+          {"undefined", std::move(undefined)}};
+}
+
+}  // namespace
+
+std::string json(const std::vector<Judgement>& judgements) {
+  if (judgements.size() == 1) return to_json(judgements[0]).dump(2) + "\n";
+  Json all = Json::array();
+  for (const Judgement& judgement : judgements) all.push_back(to_json(judgement));
+  return all.dump(2) + "\n";
+}
+
+}  // namespace loopbench

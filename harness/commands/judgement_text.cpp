@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "harness/commands/judgement.hpp"
+#include "harness/export/text.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string in_words(const Params& options) {
+  std::string out;
+  for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
+  return out;
+}
+
+double quoted_statistic(const Protocol& protocol, const Statistics& s) {
+  if (protocol.statistic == Statistic::mean) return s.mean;
+  return protocol.statistic == Statistic::median ? s.median : s.rmse;
+}
+
+std::string protocol_text(const NamedProtocol& protocol) {
+  return fmt::format("{} [{}]", protocol.label(), protocol.version);
+}
+
+/// "largest_gap 0.25 s, repeated 0, ...", a few a line.
+std::string diagnosis_text(const std::vector<Score>& diagnosis) {
+  std::string out;
+  int count = 0;
+  for (const Score& score : diagnosis) {
+    const bool is_new_line = count++ % 4 == 0;
+    out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
+    out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
+  }
+  return out + "\n";
+}
+
+/// Columns as wide as what stands in them.
+struct Widths {
+  std::size_t metric = 13;
+  std::size_t relation = 11;
+  std::size_t axis = 4;
+  std::size_t unit = 4;
+
+  explicit Widths(const Judgement& j) {
+    for (const JudgedMetric& judged : j.metrics) {
+      metric = std::max(metric, label(judged).size());
+      for (const Score& score : judged.scores) {
+        relation = std::max(relation, score.relation.size());
+        axis = std::max(axis, score.axis.size());
+        unit = std::max(unit, score.unit.size());
+      }
+    }
+  }
+
+  std::string line(const std::string& m,
+                   const std::string& r,
+                   const std::string& a,
+                   const std::string& u) const {
+    return fmt::format("{:<{}} {:<{}} {:<{}} {:<{}}", m, metric, r, relation, a, axis, u, unit);
+  }
+};
+
+}  // namespace
+
+std::string label(const JudgedMetric& metric) {
+  Params rest = metric.options;
+  for (const char* told_elsewhere : {"relation", "each"}) rest.erase(told_elsewhere);
+  const auto delta = rest.find("delta");
+  const auto unit = rest.find("unit");
+  if (delta == rest.end() || unit == rest.end()) return metric.name + in_words(rest);
+  std::string out =
+      fmt::format("{} {} {}", metric.name, std::get<double>(delta->second), to_text(unit->second));
+  rest.erase("delta");
+  rest.erase("unit");
+  return out + in_words(rest);
+}
+
+std::string text(const Judgement& j) {
+  std::string out =
+      fmt::format("reference  {} ({} poses)\n", j.reference, j.reference_poses) +
+      fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
+      fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
+      fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
+                  j.coverage.pairs,
+                  j.coverage.possible,
+                  100.0 * j.coverage.share(),
+                  100.0 * j.coverage.span) +
+      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
+      diagnosis_text(j.diagnosis) + "\n";
+  const Widths widths(j);
+  out += widths.line("metric", "relation", "axis", "unit");
+  for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
+    out += fmt::format(" {:>12}", name);
+  }
+  out += fmt::format(" {:>9}\n", "count");
+  for (const JudgedMetric& metric : j.metrics) {
+    if (!metric.why_undefined.empty()) {
+      out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
+    }
+    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      out += widths.line(label(metric), relation, axis, unit);
+      if (!why.empty()) {
+        out += " undefined: " + why + "\n";
+        continue;
+      }
+      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+        out += fmt::format(" {:>12.6f}", value);
+      }
+      out += fmt::format(" {:>9}\n", s.count);
+    }
+  }
+  return out;
+}
+
+std::string comparison(const std::vector<Judgement>& judgements) {
+  std::vector<Table> tables;
+  std::vector<std::map<std::string, std::size_t>> columns;  // of each table
+  for (const Judgement& j : judgements) {
+    const Protocol& rules = j.protocol.rules;
+    const std::string title = fmt::format(
+        "{}, {} against {}", protocol_text(j.protocol), to_text(rules.statistic), j.reference);
+    auto table = std::ranges::find(tables, title, &Table::title);
+    if (table == tables.end()) {
+      table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});
+      columns.emplace_back();
+    }
+    auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
+    std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
+    table->rows.push_back(j.estimate);
+    const auto put = [&](const std::string& column, TableCell cell) {
+      const auto [place, is_new] = known.emplace(column, table->columns.size());
+      if (is_new) table->columns.push_back(column);
+      row.resize(table->columns.size());
+      row[place->second] = std::move(cell);
+    };
+    put("coverage [%]", {100.0 * j.coverage.share(), 1, ""});
+    for (const JudgedMetric& metric : j.metrics) {
+      if (!metric.why_undefined.empty()) {
+        table->notes.push_back(j.estimate + ": " + label(metric) + ": " + metric.why_undefined);
+      }
+      for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+        if (axis != "3d" && axis != "all") continue;
+        if (!why.empty()) {
+          table->notes.push_back(j.estimate + ": " + label(metric) + " " + relation + ": " + why);
+          continue;
+        }
+        put(fmt::format("{} {} [{}]", label(metric), relation, unit),
+            {quoted_statistic(rules, s), 1, ""});
+      }
+    }
+  }
+  for (Table& table : tables) {
+    for (std::vector<TableCell>& row : table.cells) row.resize(table.columns.size());
+  }
+  return markdown(tables);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "harness/commands/commands.hpp"
+#include "harness/commands/data_root.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "harness/export/write_file.hpp"
+#include "harness/reproduce/claims.hpp"
+#include "harness/reproduce/paper_figures.hpp"
+#include "harness/reproduce/paper_tables.hpp"
+#include "harness/run/progress.hpp"
+
+namespace loopbench {
+namespace {
+
+struct ReproduceArguments {
+  std::vector<std::string> configs;
+  std::string data;
+  std::string out = "results/paper";
+};
+
+std::vector<std::string> readings(const std::vector<PaperCell>& cells) {
+  std::vector<std::string> out;
+  for (const PaperCell& cell : cells) {
+    if (!cell.reading.empty() && std::ranges::count(out, cell.reading) == 0) {
+      out.push_back(cell.reading);
+    }
+  }
+  return out;
+}
+
+int reproduce(const ReproduceArguments& arguments) {
+  const Catalogue known = catalogue({});
+  std::vector<PaperCell> done;
+  for (const std::string& config : arguments.configs) {
+    const Sweep sweep = read_sweep(config, known);
+    Progress progress(cells(sweep, seeded(sweep, known), "").size());
+    const auto finished = [&](const PaperCell& c) {
+      progress.step(fmt::format("{} {} {} {}", c.sequence, c.input, c.reading, c.variant));
+    };
+    for (PaperCell& cell : run_paper(sweep, known, data_root(sweep, arguments.data), finished)) {
+      done.push_back(std::move(cell));
+    }
+  }
+  const std::filesystem::path out(arguments.out);
+  std::string claims;
+  for (const std::string& reading : readings(done)) {
+    claims += fmt::format("\n## Claims, reading `{}`\n\n", reading) +
+              claim_table(judge_claims(done, reading));
+    for (const std::string& name : paper_figures(done, reading, out / reading)) {
+      fmt::print("{}\n", (out / reading / name).string());
+    }
+  }
+  write_file(out / "tables.md", "# Tables 1 to 4\n" + paper_tables(done));
+  write_file(out / "claims.md", "# The article's claims\n" + claims);
+  fmt::print("{}\n{}\n", (out / "tables.md").string(), (out / "claims.md").string());
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ReproduceArguments>();
+  CLI::App* command = app.add_subcommand(
+      "reproduce", "The article's tables, claims and figures from configs/paper_tables.yaml");
+  command->add_option("configs", arguments->configs, "YAML files whose labels it understands")
+      ->required();
+  command->add_option("--data", arguments->data, "Folder with real data")
+      ->envname("LOOPBENCH_DATA")
+      ->type_name("DIR");
+  command->add_option("--out", arguments->out, "Folder for tables, claims and figures")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->callback([arguments, &exit_code] { exit_code = reproduce(*arguments); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,52 @@
+#include "harness/config/protocol_choice.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/config/grid.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+
+NamedProtocol known_protocol(const std::string& name, const Params& changes) {
+  std::vector<std::string> names;
+  for (const ProtocolEntry& entry : protocols()) names.push_back(entry.name);
+  if (std::ranges::count(names, name) == 0) throw InputError(unknown_name("protocol", name, names));
+  return named_protocol(name, changes);
+}
+
+NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
+  std::string base = NamedProtocol{}.name;
+  std::size_t base_line = node.line;
+  std::vector<Setting> settings;
+  if (node.type == YamlNode::Type::scalar) {
+    base = to_text(node.scalar);
+  } else if (node.type == YamlNode::Type::map) {
+    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
+      throw input_error(file, node.line, "protocol: is not swept; give a list of protocols");
+    }
+    if (const YamlNode* given = node.find("base")) {
+      if (given->type != YamlNode::Type::scalar) {
+        throw input_error(file, given->line, "protocol: base: expected a name");
+      }
+      base = to_text(given->scalar);
+      base_line = given->line;
+    }
+    settings = spread(node, {"base"}, file).front().settings;
+  } else {
+    throw input_error(file, node.line, "protocol: expected a name or a map with 'base: NAME'");
+  }
+  Params changes;
+  for (const Setting& setting : settings) changes[setting.name] = setting.value;
+  try {
+    return known_protocol(base, changes);
+  } catch (const InputError& error) {
+    throw input_error(file, base_line, std::string("protocol: ") + error.what());
+  } catch (const OptionError& error) {
+    const auto place = std::ranges::find(settings, error.option(), &Setting::name);
+    const std::size_t line = place == settings.end() ? node.line : place->line;
+    throw input_error(file, line, std::string("protocol: ") + error.what());
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,39 @@
+/// Vector figures by way of gnuplot, which needs no display.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/core/so3.hpp"
+
+namespace loopbench {
+
+/// One curve of a panel. Points in metres; NaN breaks the line.
+struct PlotSeries {
+  std::string name;   ///< in the legend; escaped for gnuplot
+  std::string color;  ///< "#rrggbb"
+  bool as_points = false;
+  std::vector<Vector3> points;
+};
+
+struct PlotPanel {
+  std::string title;
+  std::string x_label = "x [m]";
+  std::string y_label = "y [m]";
+  std::string z_label = "z [m]";
+  bool spatial = false;    ///< x, y and z; otherwise x and y
+  bool same_scale = true;  ///< a metre is as long along y as along x (in the plane only)
+  std::vector<PlotSeries> series;
+};
+
+/// Panels row by row on one SVG page of 640 x 480 points a panel. Throws InputError when gnuplot is
+/// missing or the file cannot be written.
+void write_svg(const std::filesystem::path& file,
+               const std::vector<PlotPanel>& panels,
+               std::size_t columns);
+
+/// Every k-th point so that at most `most` are left, the last one kept: what is drawn, not judged.
+std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);
+
+}  // namespace loopbench

@@ -1,0 +1,55 @@
+/// Maximum likelihood on a chain with few loops, in closed form through the loop multipliers.
+#pragma once
+
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+/// Corrections e_i of the odometry edges Z_i (X_i = X_{i-1} Z_i Exp(e_i)) that minimise
+///
+///     sum_i e_i' S_i^-1 e_i  +  sum_k eta_k' S_Lk^-1 eta_k,   eta_k = Log(L_k^-1 X_a^-1 X_b),
+///
+/// the cost of a pose graph whose odometry is a chain. Linearised at the current poses,
+/// eta = c + A e with A_ki = J^-1(eta_k) Ad(X_b^-1 X_i) J(e_i) for a < i <= b, and
+///
+///     (A S A' + S_L) lambda = c,   e_i = -S_i sum_k A_ki' lambda_k,
+///
+/// then relinearised until it stands still. Every block of A S A' is a difference of one prefix sum
+/// over the chain, so an iteration costs O(n + (6 K)^3) for n keyframes and K closures, and memory
+/// O(n + (6 K)^2): no sparse solver. For many loops a pose graph is the better choice.
+///
+/// Odometry edges must join every two neighbours. Information matrices are used whole.
+/// Source: generalised least squares with few constraints; design notes, methods 2.10.
+class Dual final : public Corrector {
+ public:
+  struct Options {
+    int max_iterations = 20;
+    double tolerance = 1e-10;
+    int max_closures = 300;
+  };
+  explicit Dual(const Options& options) : options_(options) {}
+
+  std::optional<std::string> declines(const Problem& problem) const override;
+
+  /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2). Throws
+  /// std::runtime_error when the cost cannot be lowered to a finite value.
+  Trajectory correct(const Problem& problem, Report& report) const override;
+
+ private:
+  Options options_;
+};
+
+template <class Visit>
+void fields(Dual::Options& o, Visit visit) {
+  visit("max_iterations", o.max_iterations, "relinearisations at most", Between{1, 1000});
+  visit("tolerance",
+        o.tolerance,
+        "relative change of the cost that ends them [-]",
+        Between{0.0, 1.0});
+  visit("max_closures",
+        o.max_closures,
+        "declines above: the dense solve grows with their cube",
+        Between{1, 2000});
+}
+
+}  // namespace loopbench

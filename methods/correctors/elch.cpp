@@ -1,0 +1,138 @@
+#include "methods/correctors/elch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+namespace loopbench {
+namespace {
+
+/// The chain 0 - 1 - ... - n-1 and the closures taken so far, with lengths.
+class LoopGraph {
+ public:
+  explicit LoopGraph(std::vector<double> steps) : steps_(std::move(steps)), jumps_(steps_.size()) {}
+
+  void add(const Edge& loop, double length) {
+    jumps_[loop.from].push_back({loop.to, length});
+    jumps_[loop.to].push_back({loop.from, length});
+  }
+
+  /// Share of every keyframe in the closing error of a -> b.
+  std::vector<double> shares(std::size_t a, std::size_t b) const {
+    std::vector<std::size_t> before(steps_.size());
+    const std::vector<double> from_a = distances({a}, before);
+    std::vector<std::size_t> path{b};
+    while (path.back() != a) path.push_back(before[path.back()]);
+    std::vector<double> out(steps_.size());
+    const double total = from_a[b];
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      const double by_count = 1.0 - static_cast<double>(k) / static_cast<double>(path.size() - 1);
+      out[path[k]] = total > 0.0 ? from_a[path[k]] / total : by_count;
+    }
+    // Everyone else follows the keyframe of the path that reached it first.
+    const std::vector<double> off_path = distances(path, before);
+    std::vector<std::size_t> order(steps_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return off_path[i]; });
+    for (const std::size_t i : order) {
+      if (before[i] != i) out[i] = out[before[i]];
+    }
+    return out;
+  }
+
+ private:
+  struct Jump {
+    std::size_t to;
+    double length;
+  };
+
+  /// Dijkstra from several sources; before[i] is the neighbour i was reached from, i for sources.
+  std::vector<double> distances(const std::vector<std::size_t>& sources,
+                                std::vector<std::size_t>& before) const {
+    std::vector<double> out(steps_.size(), std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, std::size_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const std::size_t s : sources) {
+      out[s] = 0.0;
+      before[s] = s;
+      queue.push({0.0, s});
+    }
+    while (!queue.empty()) {
+      const auto [distance, i] = queue.top();
+      queue.pop();
+      if (distance > out[i]) continue;
+      const auto reach = [&, at = i, here = distance](std::size_t to, double length) {
+        if (here + length < out[to]) {
+          out[to] = here + length;
+          before[to] = at;
+          queue.push({out[to], to});
+        }
+      };
+      if (i > 0) reach(i - 1, steps_[i]);
+      if (i + 1 < steps_.size()) reach(i + 1, steps_[i + 1]);
+      for (const Jump& jump : jumps_[i]) reach(jump.to, jump.length);
+    }
+    return out;
+  }
+
+  std::vector<double> steps_;  ///< steps_[i] joins i - 1 and i
+  std::vector<std::vector<Jump>> jumps_;
+};
+
+/// Length of a closure in the graph, in the unit of the steps.
+double jump_length(const Edge& loop, StepWeights weights) {
+  switch (weights) {
+    case StepWeights::distance:
+      return loop.from_from_to.translation.norm();
+    case StepWeights::rotation:
+      return log_so3(loop.from_from_to.rotation).norm();
+    case StepWeights::time:  // a closure joins two moments at one place: no time passes
+      return 0.0;
+    case StepWeights::index:
+      break;
+  }
+  return 1.0;
+}
+
+void bend(Trajectory& poses, const Edge& loop, const std::vector<double>& shares) {
+  const Pose start = poses[loop.from].world_from_body;
+  const Pose end = poses[loop.to].world_from_body;
+  const Pose target = start * loop.from_from_to;
+  const Vector3 pivot = start.translation;
+  const Vector3 phi = log_so3(target.rotation * end.rotation.conjugate());
+  const Vector3 shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (shares[i] == 0.0) continue;
+    Pose& pose = poses[i].world_from_body;
+    const Rotation part = exp_so3(shares[i] * phi);
+    pose = normalized(
+        {part * pose.rotation, part * (pose.translation - pivot) + pivot + shares[i] * shift});
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> Elch::declines(const Problem& problem) const {
+  if (problem.closures.empty()) return "no loop closure to spread";
+  return std::nullopt;
+}
+
+Trajectory Elch::correct(const Problem& problem, Report& report) const {
+  check_closures(problem, "elch");
+  LoopGraph graph(step_shares(problem.keyframes, options_.weights));
+  Trajectory out = problem.keyframes;
+  for (const Edge& loop : problem.closures) {
+    bend(out, loop, graph.shares(loop.from, loop.to));
+    graph.add(loop, jump_length(loop, options_.weights));
+  }
+  double gap = 0.0;
+  for (const Edge& loop : problem.closures) {
+    const Pose target = out[loop.from].world_from_body * loop.from_from_to;
+    gap = std::max(gap, (target.translation - out[loop.to].world_from_body.translation).norm());
+  }
+  report.count("closures", static_cast<double>(problem.closures.size()));
+  report.count("largest_gap_left", gap);
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,56 @@
+#include "metrics/ape.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "metrics/ate.hpp"
+#include "metrics/position_only.hpp"
+#include "metrics/rpy.hpp"
+
+namespace loopbench {
+
+std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) {
+  const Relation relation = options.relation;
+  if (relation == Relation::point_distance_error_ratio) {
+    throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
+  }
+  if (relation == Relation::usual) return ate(evaluation, {});
+  const bool is_distance =
+      relation == Relation::point_distance || relation == Relation::translation_part;
+  if (const std::string why = why_no_attitude(evaluation); !is_distance && !why.empty()) {
+    throw std::runtime_error("ape: " + why);
+  }
+  const auto& [reference, estimate] = std::tie(evaluation.reference, evaluation.estimate);
+  const std::size_t n = reference.size();
+  Rpy turns(relation == Relation::rpy ? n : 0);
+  std::vector<double> errors(relation == Relation::rpy ? 0 : n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Pose& Q = reference[i].world_from_body;
+    const Pose& P = estimate[i].world_from_body;
+    if (relation == Relation::rpy) {
+      turns.set(i, P.rotation * Q.rotation.conjugate());
+    } else if (relation == Relation::point_distance) {
+      errors[i] = (P.translation - Q.translation).norm();
+    } else {
+      errors[i] = measure(relation, P.inverse() * Q, evaluation.protocol.angle);
+    }
+  }
+  const int ddof = evaluation.protocol.ddof;
+  if (relation == Relation::rpy) return turns.scores(ddof);
+  return {{to_text(relation), "3d", unit(relation), statistics(std::move(errors), ddof)}};
+}
+
+std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
+  std::vector<PoseError> out;
+  out.reserve(evaluation.reference.size());
+  for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
+    const auto& [stamp, Q] = evaluation.reference[i];
+    const Pose& P = evaluation.estimate[i].world_from_body;
+    out.push_back(
+        {stamp, P.translation - Q.translation, log_so3(P.rotation * Q.rotation.conjugate())});
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,28 @@
+#include "metrics/local_shape.hpp"
+
+#include <stdexcept>
+
+#include "metrics/angle.hpp"
+
+namespace loopbench {
+
+std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOptions&) {
+  const Trajectory& before =
+      needed(evaluation.context.problem, "local_shape", "keyframes before correction").keyframes;
+  const Trajectory& after = needed(evaluation.context.estimate, "local_shape", "keyframes");
+  if (before.size() < 2) throw std::runtime_error("local_shape: needs two keyframes");
+  std::vector<double> metres;
+  std::vector<double> degrees;
+  const auto step = [](const Trajectory& poses, std::size_t i) {
+    return poses.at(i).world_from_body.inverse() * poses.at(i + 1).world_from_body;
+  };
+  for (std::size_t i = 0; i + 1 < before.size(); ++i) {
+    const Pose E = step(before, i).inverse() * step(after, i);
+    metres.push_back(E.translation.norm());
+    degrees.push_back(kDegrees * log_so3(E.rotation).norm());
+  }
+  return {{"translation", "3d", "m", statistics(std::move(metres))},
+          {"rotation", "3d", "deg", statistics(std::move(degrees))}};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,26 @@
+/// The natural cubic spline through points in time: what smoothness alone can make of keyframes.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/so3.hpp"
+
+namespace loopbench {
+
+/// Twice differentiable, zero second derivative at both ends. Positions only.
+/// Source: de Boor, A Practical Guide to Splines, ch. IV (second derivatives as unknowns).
+class NaturalCubic {
+ public:
+  /// At least two strictly increasing stamps, as many points. O(n).
+  NaturalCubic(std::vector<double> stamps, std::vector<Vector3> points);
+
+  /// `interval` i means stamps[i] .. stamps[i + 1], which hold `time`. O(1).
+  Vector3 at(std::size_t interval, double time) const;
+
+ private:
+  std::vector<double> stamps_;
+  std::vector<Vector3> points_;
+  std::vector<Vector3> bends_;  ///< second derivatives at the stamps [m/s^2]
+};
+
+}  // namespace loopbench

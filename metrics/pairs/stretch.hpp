@@ -1,0 +1,37 @@
+/// Which pairs of poses a relative error compares, by the protocol's rule.
+#pragma once
+
+#include "metrics/evaluation.hpp"
+#include "metrics/pair_search.hpp"
+
+namespace loopbench {
+
+enum class DeltaUnit { frames, s, m, deg, rad };
+inline auto choices(DeltaUnit) {
+  return std::array{std::pair{"frames", DeltaUnit::frames},
+                    std::pair{"s", DeltaUnit::s},
+                    std::pair{"m", DeltaUnit::m},
+                    std::pair{"deg", DeltaUnit::deg},
+                    std::pair{"rad", DeltaUnit::rad}};
+}
+
+struct Stretch {
+  double delta = 1.0;
+  DeltaUnit unit = DeltaUnit::frames;
+  double tolerance = 0.1;  ///< part of delta
+};
+
+/// Rule `all`: every i with its one j by frames, seconds or metres (pair_search.hpp), or every j
+/// that is turned by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule
+/// `consecutive`: see consecutive.hpp. Seconds are reference stamps; metres and angles are measured
+/// on `measured`. Throws OptionError for a delta that is not whole for frames or beyond 180
+/// degrees.
+std::vector<FromTo> stretch_pairs(const Trajectory& reference,
+                                  const Trajectory& measured,
+                                  PairRule rule,
+                                  const Stretch& stretch);
+
+/// Rotation from each pose to the one before it [rad]; 0 for the first.
+std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula);
+
+}  // namespace loopbench

@@ -1,0 +1,31 @@
+/// The pairs of TUM's evaluate_rpe.py with --fixed_delta.
+#pragma once
+
+#include "metrics/pairs/stretch.hpp"
+
+namespace loopbench {
+
+/// poses.estimate is the whole estimate, moved by the alignment; poses.reference[i] the reference
+/// pose nearest in time to estimate pose i, however far.
+struct TumMotions {
+  Paired poses;
+  std::vector<FromTo> pairs;
+};
+
+/// Every estimate pose i with the j whose measure is nearest to i's plus delta by the tool's own
+/// bisection, unless j is the last pose or either gap to the reference exceeds twice the median
+/// reference interval. Measures: stamps, frames, path, turning (trace formula), of the estimate.
+/// j = i happens, as there, when the steps are longer than 2 delta. The tool's default mode, 10000
+/// random pairs, is left out: its draws depend on the Python version. m, rad and deg follow its
+/// text; under Python 3 they crash there. Stands in evo's test/tum_benchmark_tools (26d0953). O(n
+/// log m).
+TumMotions tum_motions(const Paired& whole,
+                       double offset,
+                       const Alignment& alignment,
+                       const Stretch& stretch);
+
+/// find_closest_index of the tool: a bisection with a running best. On a tie the one probed first
+/// wins, which need not be the earlier one. `sorted` is not empty.
+std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted);
+
+}  // namespace loopbench

@@ -1,0 +1,144 @@
+#include "metrics/protocols.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+Protocol evo() {
+  Protocol p;
+  p.association = Association::evo;
+  p.max_diff = 0.01;
+  p.align = Align::none;
+  p.pairs = PairRule::consecutive;
+  p.pairs_from = PairsFrom::estimate;
+  return p;
+}
+
+Protocol tum() {
+  Protocol p;
+  p.association = Association::tum;
+  p.pairs = PairRule::tum;
+  p.pairs_from = PairsFrom::estimate;
+  p.form = ErrorForm::tum;
+  p.angle = AngleFormula::trace;
+  return p;
+}
+
+Protocol rpg() {
+  Protocol p;
+  p.association = Association::tum;
+  p.align = Align::sim3;
+  p.angle = AngleFormula::trace;
+  p.segments.end = SegmentEnd::rpg;
+  p.segments.fewest = 2;
+  p.segments.up = PairsFrom::estimate;
+  return p;
+}
+
+Protocol rpg_fixed() {
+  Protocol p = rpg();
+  p.segments.end = SegmentEnd::nearest;
+  return p;
+}
+
+Protocol kitti() {
+  Protocol p;
+  p.association = Association::index;
+  p.align = Align::none;
+  p.form = ErrorForm::kitti;
+  p.angle = AngleFormula::trace;
+  p.segments = {.lengths = "100 200 300 400 500 600 700 800",
+                .tolerance = "0",
+                .end = SegmentEnd::beyond,
+                .step = 10,
+                .precision = Precision::float32};
+  p.statistic = Statistic::mean;
+  return p;
+}
+
+Protocol kitti_double() {
+  Protocol p = kitti();
+  p.segments.precision = Precision::float64;
+  return p;
+}
+
+Protocol ov_eval() {
+  Protocol p;
+  p.association = Association::ov_eval;
+  p.align = Align::posyaw;
+  p.segments = {.lengths = "8 16 24 32 40 48", .tolerance = "0.5"};
+  p.ddof = 1;
+  return p;
+}
+
+Protocol eth3d() {
+  Protocol p;
+  p.association = Association::interpolate;
+  p.max_gap = 1.0 / 75.0;
+  p.form = ErrorForm::tum;
+  p.segments = {.lengths = "0.5 1 1.5 2", .tolerance = "0.025", .end = SegmentEnd::eth3d};
+  return p;
+}
+
+}  // namespace
+
+std::vector<ProtocolEntry> protocols() {
+  return {
+      {"loopbench",
+       "1",
+       "one-to-one nearest stamps, SE(3) least squares, all pairs measured on the reference",
+       Protocol{}},
+      {"evo",
+       "26d0953",
+       "evo_ape and evo_rpe: 10 ms, one pose may serve twice, no alignment unless asked",
+       evo()},
+      {"tum",
+       "evo 26d0953, test/tum_benchmark_tools",
+       "evaluate_ate.py and evaluate_rpe.py --fixed_delta: 20 ms one-to-one, SE(3)",
+       tum()},
+      {"rpg",
+       "8c8ceec",
+       "rpg_trajectory_evaluation as shipped: Sim(3), sub-trajectories with shifted ends",
+       rpg()},
+      {"rpg-fixed", "8c8ceec", "rpg with every sub-trajectory's end at its own start", rpg_fixed()},
+      {"kitti",
+       "2afdb93",
+       "KITTI odometry devkit: pose by pose, 100..800 m, % and deg/m, in float32",
+       kitti()},
+      {"kitti-double", "2afdb93", "the devkit's rules in double precision", kitti_double()},
+      {"ov_eval",
+       "6948812",
+       "OpenVINS: one pass over stamps, yaw and position, segments of 8..48 m",
+       ov_eval()},
+      {"eth3d",
+       "30edfa0",
+       "ETH3D SLAM at the estimate's stamps: reference interpolated, SE(3), 0.5..2 m",
+       eth3d()},
+  };
+}
+
+std::string NamedProtocol::label() const {
+  return changes.empty() ? name : name + " (" + to_text(changes) + ")";
+}
+
+NamedProtocol named_protocol(const std::string& name, const Params& changes) {
+  const std::vector<ProtocolEntry> known = protocols();
+  const auto found = std::ranges::find(known, name, &ProtocolEntry::name);
+  if (found == known.end()) {
+    std::string names;
+    for (const ProtocolEntry& entry : known) names += (names.empty() ? "" : ", ") + entry.name;
+    throw InputError("no protocol is named '" + name + "' (known: " + names + ")");
+  }
+  NamedProtocol out{found->name, found->version, {}, with(found->protocol, changes)};
+  check(out.rules);
+  const Params before = echo(found->protocol);
+  for (auto& [field, value] : echo(out.rules)) {
+    if (before.at(field) != value) out.changes.emplace(field, value);
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,36 @@
+/// The errors of sub-trajectories of one length, before they are summed up.
+#pragma once
+
+#include <vector>
+
+#include "metrics/evaluation.hpp"
+#include "metrics/pair_search.hpp"
+
+namespace loopbench {
+
+/// Equally long; the last four are empty in float32.
+struct SegmentErrors {
+  std::vector<std::size_t> start;
+  std::vector<double> translation_share;  ///< [m/m]
+  std::vector<double> rotation_rate;      ///< [rad/m]
+  std::vector<double> translation;        ///< [m]
+  std::vector<double> rotation;           ///< [rad]
+  std::vector<double> yaw;                ///< [rad], magnitude
+  std::vector<double> gravity;            ///< [rad]
+};
+
+SegmentErrors segment_errors(const Evaluation& evaluation,
+                             const std::vector<double>& distances,
+                             const std::vector<FromTo>& pairs,
+                             double length);
+
+/// The devkit's: distances, angles and lengths of translations in float, transforms in double.
+std::vector<float> float_distances(const Trajectory& trajectory);
+SegmentErrors float_segment_errors(const Evaluation& evaluation,
+                                   const std::vector<FromTo>& pairs,
+                                   float length);
+
+/// Sum in float, term by term, over the count.
+double float_mean(const std::vector<double>& values);
+
+}  // namespace loopbench

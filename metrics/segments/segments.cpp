@@ -1,0 +1,133 @@
+#include "metrics/segments/segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "metrics/angle.hpp"
+#include "metrics/segments/ends.hpp"
+#include "metrics/segments/errors.hpp"
+#include "metrics/segments/lengths.hpp"
+
+namespace loopbench {
+namespace {
+
+/// The rates of several lengths in the order of their starts, in which the devkit sums its floats.
+struct Together {
+  struct Rates {
+    std::size_t start;
+    double translation;
+    double rotation;
+  };
+  std::vector<Rates> rates;
+
+  void add(const SegmentErrors& errors) {
+    for (std::size_t k = 0; k < errors.start.size(); ++k) {
+      rates.push_back({errors.start[k], errors.translation_share[k], errors.rotation_rate[k]});
+    }
+  }
+
+  SegmentErrors in_order() {
+    std::ranges::stable_sort(rates, {}, &Rates::start);
+    SegmentErrors out;
+    for (const Rates& rate : rates) {
+      out.translation_share.push_back(rate.translation);
+      out.rotation_rate.push_back(rate.rotation);
+    }
+    return out;
+  }
+};
+
+/// Adds scores of values times `factor`.
+struct Scores {
+  const Protocol& protocol;
+  std::vector<Score> out;
+
+  void add(const char* relation,
+           const std::string& axis,
+           const char* unit,
+           double factor,
+           std::vector<double> values) {
+    const bool is_float = protocol.segments.precision == Precision::float32;
+    const double mean = is_float ? factor * float_mean(values) : 0.0;
+    for (double& value : values) value *= factor;
+    Score score{relation, axis, unit, statistics(std::move(values), protocol.ddof)};
+    if (is_float) score.statistics.mean = mean;
+    out.push_back(std::move(score));
+  }
+
+  void add_rates(const std::string& axis, const SegmentErrors& errors) {
+    add("translation", axis, "%", 100.0, errors.translation_share);
+    add("rotation", axis, "deg/m", kDegrees, errors.rotation_rate);
+  }
+};
+
+class Finder {
+ public:
+  explicit Finder(const Evaluation& evaluation)
+      : evaluation_(evaluation), rule_(evaluation.protocol.segments) {
+    if (rule_.precision == Precision::float32) {
+      floats_ = float_distances(evaluation.reference);
+    } else {
+      distances_ = accumulated_distances(evaluation.reference);
+    }
+  }
+
+  SegmentErrors errors(double length) const {
+    const auto step = static_cast<std::size_t>(rule_.step);
+    if (rule_.precision == Precision::float32) {
+      const auto wanted = static_cast<float>(length);
+      return float_segment_errors(evaluation_, segments_beyond(floats_, wanted, step), wanted);
+    }
+    const double miss = tolerance("segments.tolerance", rule_.tolerance).of(length);
+    return segment_errors(
+        evaluation_, distances_, segment_pairs(distances_, length, miss, rule_.end, step), length);
+  }
+
+ private:
+  const Evaluation& evaluation_;
+  const SegmentRule& rule_;
+  std::vector<double> distances_;
+  std::vector<float> floats_;
+};
+
+double metres(const Length& length, double whole) {
+  return length.is_share ? std::floor(100.0 * length.of(whole)) / 100.0 : length.value;
+}
+
+}  // namespace
+
+std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions& options) {
+  const SegmentRule& rule = evaluation.protocol.segments;
+  const bool is_own = !options.lengths.empty();
+  const std::vector<Length> wanted =
+      is_own ? lengths("lengths", options.lengths) : lengths("segments.lengths", rule.lengths);
+  const Finder find(evaluation);
+  Scores each{evaluation.protocol, {}};
+  Together all;
+  for (const Length& length : wanted) {
+    const double target = metres(length, evaluation.reference_length);
+    if (target <= 0.0) continue;
+    const SegmentErrors errors = find.errors(target);
+    if (errors.rotation_rate.size() < static_cast<std::size_t>(rule.fewest)) continue;
+    all.add(errors);
+    if (!options.each) continue;
+    each.add_rates(length.text, errors);
+    if (rule.precision == Precision::float32) continue;
+    each.add("translation", length.text, "m", 1.0, errors.translation);
+    each.add("rotation", length.text, "deg", kDegrees, errors.rotation);
+    each.add("yaw", length.text, "deg", kDegrees, errors.yaw);
+    each.add("gravity", length.text, "deg", kDegrees, errors.gravity);
+  }
+  if (all.rates.empty()) {
+    throw std::runtime_error("segments: no stretch of the reference (" +
+                             to_text(evaluation.reference_length) + " m) has a length of " +
+                             (is_own ? options.lengths : rule.lengths));
+  }
+  Scores out{evaluation.protocol, {}};
+  out.add_rates("all", all.in_order());
+  out.out.insert(out.out.end(), each.out.begin(), each.out.end());
+  return out.out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,24 @@
+/// Where a trajectory is heading, safe against the jitter of a dense reference.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench {
+
+/// The straight way around each pose.
+struct Chord {
+  Vector3 way = Vector3::Zero();  ///< last minus first position of the window [m]
+  double seconds = 0.0;           ///< last minus first stamp of the window
+
+  bool is_moving(double standing_speed) const {
+    return seconds > 0.0 && way.norm() > standing_speed * seconds;
+  }
+};
+
+/// From the first pose at most window / 2 before to the last at most window / 2 after each pose;
+/// where poses are sparser, from neighbour to neighbour. Stamps must not decrease. O(n).
+std::vector<Chord> chords(const Trajectory& trajectory, double window);
+
+}  // namespace loopbench

@@ -1,0 +1,123 @@
+// What judging a trajectory costs, step by step, from a thousand poses to ten million.
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "datasets/formats/formats.hpp"
+#include "metrics/association.hpp"
+#include "metrics/ate.hpp"
+#include "metrics/rpe.hpp"
+#include "tests/benchmarks/markdown.hpp"
+
+namespace loopbench {
+namespace {
+
+/// A car at 10 m/s seen ten times a second, its path wound up; the estimate drifts, shakes by
+/// centimetres and is stamped up to 2 ms off.
+Trajectory drive(std::size_t size, double shake) {
+  Trajectory out(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto k = static_cast<double>(i);
+    const double yaw = 0.02 * k + 0.3 * std::sin(0.01 * k);
+    const Vector3 noise(std::sin(12.9 * k), std::sin(78.2 * k), std::sin(37.7 * k));
+    out[i].stamp = 1.3e9 + 0.1 * k + 0.002 * shake * noise.x();
+    out[i].world_from_body = {
+        exp_so3(Vector3(0.0, 0.0, yaw) + 1e-3 * shake * noise),
+        Vector3(50.0 * std::cos(0.02 * k), 50.0 * std::sin(0.02 * k), 1.0) + 0.01 * shake * noise};
+  }
+  return out;
+}
+
+const Trajectory& reference(std::size_t size) {
+  static std::map<std::size_t, Trajectory> kept;
+  if (kept.contains(size)) return kept[size];
+  kept.clear();  // one size at a time is large enough
+  return kept[size] = drive(size, 0.0);
+}
+
+const Trajectory& estimate(std::size_t size) {
+  static std::map<std::size_t, Trajectory> kept;
+  if (kept.contains(size)) return kept[size];
+  kept.clear();
+  return kept[size] = drive(size, 1.0);
+}
+
+void parse_tum(std::size_t size, benchmark::State& state) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("loopbench_" + std::to_string(getpid()) + ".txt");
+  write_tum(file, estimate(size));
+  for (auto _ : state) benchmark::DoNotOptimize(read_trajectory(file));
+  state.SetBytesProcessed(static_cast<std::int64_t>(std::filesystem::file_size(file)) *
+                          state.iterations());
+  std::filesystem::remove(file);
+}
+
+template <Association kAssociation>
+void pair_up(std::size_t size, benchmark::State& state) {
+  Protocol protocol;
+  protocol.association = kAssociation;
+  protocol.max_gap = 1.0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(associate(reference(size), estimate(size), protocol));
+  }
+}
+
+void align_se3(std::size_t size, benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(align(reference(size), estimate(size), Align::se3));
+  }
+}
+
+Evaluation evaluation(std::size_t size) { return {reference(size), estimate(size), {}, {}}; }
+
+void score_ate(std::size_t size, benchmark::State& state) {
+  const Evaluation pairs = evaluation(size);
+  for (auto _ : state) benchmark::DoNotOptimize(ate(pairs, {}));
+}
+
+template <int kDelta, DeltaUnit kUnit>
+void score_rpe(std::size_t size, benchmark::State& state) {
+  RpeOptions options;
+  options.delta = kDelta;
+  options.unit = kUnit;
+  const Evaluation pairs = evaluation(size);
+  for (auto _ : state) benchmark::DoNotOptimize(rpe(pairs, options));
+}
+
+struct Step {
+  const char* name;
+  void (*run)(std::size_t, benchmark::State&);
+};
+
+constexpr Step kSteps[] = {{"parse_tum", parse_tum},
+                           {"associate_nearest", pair_up<Association::nearest>},
+                           {"associate_evo", pair_up<Association::evo>},
+                           {"associate_interpolate", pair_up<Association::interpolate>},
+                           {"align_se3", align_se3},
+                           {"ate", score_ate},
+                           {"rpe_1_frame", score_rpe<1, DeltaUnit::frames>},
+                           {"rpe_1_s", score_rpe<1, DeltaUnit::s>},
+                           {"rpe_100_m", score_rpe<100, DeltaUnit::m>}};
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int argc, char** argv) {
+  using namespace loopbench;
+  for (const Step& step : kSteps) {
+    benchmark::RegisterBenchmark(step.name,
+                                 [&step](benchmark::State& state) {
+                                   step.run(static_cast<std::size_t>(state.range(0)), state);
+                                   state.SetComplexityN(state.range(0));
+                                 })
+        ->RangeMultiplier(10)
+        ->Range(1'000, 10'000'000)
+        ->MeasureProcessCPUTime()  // of all threads: what other processes do does not show
+        ->Unit(benchmark::kMillisecond)
+        ->Complexity();
+  }
+  return test::run_benchmarks(argc, argv);
+}

@@ -1,0 +1,20 @@
+#include <fstream>
+#include <iterator>
+
+#include "harness/catalogue.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace loopbench {
+
+void fuzz_config(const std::filesystem::path& file) {
+  static const Catalogue known = catalogue({});
+  std::ifstream in(file, std::ios::binary);
+  try {
+    parse_sweep({std::istreambuf_iterator<char>(in), {}}, "fuzz.yaml", known);
+  } catch (const InputError&) {
+    // refused in words, as it should be
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,94 @@
+#include "tests/fuzz/targets.hpp"
+
+#include <stdexcept>
+
+#include "datasets/core/problem.hpp"
+#include "datasets/derive/closure_file.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "datasets/formats/kitti.hpp"
+
+namespace loopbench {
+namespace {
+
+using Path = std::filesystem::path;
+
+void expect(bool promise, const char* what) {
+  if (!promise) throw std::logic_error(std::string("broken promise: ") + what);
+}
+
+/// check() speaks InputError, which is a reader's word for a wrong file: here it is a finding.
+template <class T>
+void expect_checked(const T& value) {
+  try {
+    check(value, "result");
+  } catch (const InputError& error) {
+    throw std::logic_error(std::string("broken promise: ") + error.what());
+  }
+}
+
+/// Nothing when the file is refused in words, as it should be.
+template <class Read>
+auto read_or_refuse(Read read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+void fuzz_trajectory(const Path& file, Format format) {
+  ReadOptions options;
+  options.format = format;
+  expect_checked(read_or_refuse([&] { return read_trajectory(file, options); }));
+}
+
+/// As a problem of two poses, which has rules for edges.
+void expect_sound(Edge edge) {
+  edge.from = 0;
+  edge.to = 1;
+  Problem problem;
+  problem.keyframes = {{0.0, {}}, {1.0, {}}};
+  problem.closures = {edge};
+  expect_checked(problem);
+}
+
+}  // namespace
+
+void fuzz_tum(const Path& file) { fuzz_trajectory(file, Format::tum); }
+void fuzz_kitti(const Path& file) { fuzz_trajectory(file, Format::kitti); }
+void fuzz_euroc(const Path& file) { fuzz_trajectory(file, Format::euroc); }
+void fuzz_any(const Path& file) { fuzz_trajectory(file, Format::automatic); }
+
+void fuzz_g2o(const Path& file) {
+  const PoseGraph graph = read_or_refuse([&] { return read_g2o(file); });
+  expect(graph.lines.size() == graph.edges.size(), "a line for each edge");
+  expect(graph.vertices.empty() || graph.vertices.size() == graph.ids.size(), "a pose for each id");
+  for (std::size_t i = 1; i < graph.ids.size(); ++i) {
+    expect(graph.ids[i - 1] < graph.ids[i], "ids ascend");
+  }
+  for (const Pose& pose : graph.vertices) expect_checked(Trajectory{{0.0, pose}});
+  for (const Edge& edge : graph.edges) {
+    expect(edge.from < edge.to && edge.to < graph.ids.size(), "edges lead forward");
+    expect_sound(edge);
+  }
+}
+
+void fuzz_times(const Path& file) {
+  const std::vector<double> times = read_or_refuse([&] { return read_times(file); });
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    expect(std::isfinite(times[i]), "times are finite");
+    expect(i == 0 || times[i - 1] < times[i], "times increase");
+  }
+}
+
+void fuzz_closures(const Path& file) {
+  for (const TimedClosure& closure :
+       read_or_refuse([&] { return read_closure_file(file, ClosureNoise{}); })) {
+    expect(std::isfinite(closure.stamp_from) && std::isfinite(closure.stamp_to), "finite stamps");
+    expect_checked(Trajectory{{0.0, closure.from_from_to}});
+    expect(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0, "positive sigmas");
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,143 @@
+#include "methods/correctors/dual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "methods/correctors/chain.hpp"
+#include "tests/support/random_chain.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::random_twist;
+using test::walk;
+
+std::vector<Pose> poses(const Trajectory& trajectory) {
+  std::vector<Pose> out;
+  for (const StampedPose& p : trajectory) out.push_back(p.world_from_body);
+  return out;
+}
+
+/// A pose graph solved with brute force: dense Gauss-Newton on numeric derivatives.
+std::vector<Pose> by_brute_force(const Problem& problem, int iterations) {
+  std::vector<Pose> x = poses(problem.keyframes);
+  std::vector<Edge> edges = problem.odometry;
+  edges.insert(edges.end(), problem.closures.begin(), problem.closures.end());
+  const auto N = static_cast<Eigen::Index>(6 * (x.size() - 1));  // the first pose is fixed
+  for (int it = 0; it < iterations; ++it) {
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(N, N);
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(N);
+    for (const Edge& e : edges) {
+      Eigen::Matrix<double, 6, 12> J;
+      for (int d = 0; d < 12; ++d) {
+        const auto moved = [&](double by) {
+          Twist t = Twist::Zero();
+          t[d % 6] = by;
+          return edge_error(e,
+                            d < 6 ? x[e.from] * exp_se3(t) : x[e.from],
+                            d < 6 ? x[e.to] : x[e.to] * exp_se3(t));
+        };
+        J.col(d) = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+      }
+      const Twist error = edge_error(e, x[e.from], x[e.to]);
+      const Eigen::Matrix<double, 12, 12> h = J.transpose() * e.information * J;
+      const Eigen::Matrix<double, 12, 1> b = J.transpose() * e.information * error;
+      const std::size_t ends[] = {e.from, e.to};
+      for (int r = 0; r < 2; ++r) {
+        if (ends[r] == 0) continue;
+        const auto row = static_cast<Eigen::Index>(6 * (ends[r] - 1));
+        g.segment<6>(row) += b.segment<6>(6 * r);
+        for (int c = 0; c < 2; ++c) {
+          if (ends[c] == 0) continue;
+          const auto column = static_cast<Eigen::Index>(6 * (ends[c] - 1));
+          H.block<6, 6>(row, column) += h.block<6, 6>(6 * r, 6 * c);
+        }
+      }
+    }
+    const Eigen::VectorXd step = -H.ldlt().solve(g);
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      const Twist t = step.segment<6>(static_cast<Eigen::Index>(6 * (i - 1)));
+      x[i] = normalized(x[i] * exp_se3(t));
+    }
+  }
+  return x;
+}
+
+TEST(Dual, EqualsAPoseGraphSolvedByBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Problem problem = walk(seed, 14, 0.05);
+    Report report;
+    const Trajectory ours =
+        Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
+    const std::vector<Pose> theirs = by_brute_force(problem, 20);
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+      EXPECT_TRUE(is_close(ours[i].world_from_body, theirs[i], 1e-6, 1e-6)) << seed << " " << i;
+    }
+    const double cost = chain_cost(problem, poses(ours));
+    EXPECT_NEAR(cost, chain_cost(problem, theirs), 1e-9 * cost);
+    EXPECT_LT(cost, 0.8 * chain_cost(problem, poses(problem.keyframes)));
+  }
+}
+
+TEST(Dual, SpreadsOneScalarLoopAsTheoryDoes) {
+  // Straight along x, pure translation, equal weights: each of n steps takes gap / (n + ratio).
+  Problem problem;
+  for (int i = 0; i <= 4; ++i) {
+    problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
+    if (i > 0) {
+      problem.odometry.push_back({std::size_t(i - 1),
+                                  std::size_t(i),
+                                  {Rotation::Identity(), Vector3(1, 0, 0)},
+                                  Matrix6::Identity()});
+    }
+  }
+  // The closure says 5 m instead of 4, with half the information of a step.
+  problem.closures.push_back(
+      {0, 4, {Rotation::Identity(), Vector3(5, 0, 0)}, 0.5 * Matrix6::Identity()});
+  Report report;
+  const Trajectory out = Dual({}).correct(problem, report);
+  for (int i = 0; i <= 4; ++i) {  // variances: 4 steps of 1 and a closure of 2, so 1/6 m each
+    EXPECT_NEAR(out[std::size_t(i)].world_from_body.translation.x(), i + i / 6.0, 1e-9);
+  }
+  ASSERT_EQ(report.counts.size(), 3u);
+  EXPECT_NEAR(report.counts[0].value, 0.5 * 0.5, 1e-12);        // chi^2 / 2 of the raw gap
+  EXPECT_NEAR(report.counts[2].value, 0.5 * 1.0 / 6.0, 1e-12);  // gap^2 / total variance / 2
+}
+
+TEST(Dual, ChangesNothingWhenNothingIsWrong) {
+  const Problem problem = walk(3, 20, 0.0);
+  Report report;
+  const Trajectory out = Dual({}).correct(problem, report);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    EXPECT_TRUE(is_close(out[i].world_from_body, problem.keyframes[i].world_from_body, 1e-9, 1e-9));
+  }
+}
+
+TEST(Dual, StartsFromKeyframesButAnswersToTheEdges) {
+  Problem problem = walk(5, 16, 0.05);
+  Report report;
+  const Trajectory a = Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
+  std::mt19937_64 random(1);
+  for (std::size_t i = 1; i < problem.keyframes.size(); ++i) {
+    Pose& pose = problem.keyframes[i].world_from_body;
+    pose = pose * exp_se3(random_twist(random, 0.1, 0.1));
+  }
+  const Trajectory b = Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, 1e-6, 1e-6)) << i;
+  }
+}
+
+TEST(Dual, DeclinesWhatIsNoChainOrHasTooManyLoops) {
+  Problem problem = walk(1, 14, 0.05);
+  EXPECT_EQ(Dual({}).declines(problem), std::nullopt);
+  EXPECT_EQ(Dual({.max_closures = 2}).declines(problem), "3 closures, more than max_closures = 2");
+  problem.odometry.pop_back();
+  EXPECT_EQ(Dual({}).declines(problem), "odometry has 12 edges, a whole chain has 13");
+  problem.closures.clear();
+  EXPECT_EQ(Dual({}).declines(problem), "no loop closure to spread");
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,111 @@
+#include "methods/correctors/two_pass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "methods/correctors/dual.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Trajectory corrected(const Problem& problem, const TwoPass::Options& options = {}) {
+  Report report;
+  return TwoPass(options).correct(problem, report);
+}
+
+double gap(const Edge& loop, const Trajectory& t) {
+  const Pose target = t[loop.from].world_from_body * loop.from_from_to;
+  const Pose& end = t[loop.to].world_from_body;
+  return (target.translation - end.translation).norm() +
+         angle_between(target.rotation, end.rotation);
+}
+
+/// Steps of 1 m along x, never turning; the loop says the end looks 90 degrees to the left.
+Problem straight(int steps, const Pose& measured, double scale = 1.0) {
+  Problem out;
+  for (int i = 0; i <= steps; ++i) {
+    out.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
+  }
+  out.closures.push_back({0, std::size_t(steps), measured, Matrix6::Identity(), scale});
+  return out;
+}
+
+TEST(TwoPass, TurnsTheStepsAfterATurnAndThenSpreadsTheShift) {
+  // Two steps: the first turns by 45 degrees at its end, so the second points there. The chain then
+  // ends at (1 + r, r) with r = sqrt(1/2); asked for exactly that, no shift is left.
+  const double r = std::sqrt(0.5);
+  const Problem problem = straight(2, {exp_so3({0, 0, kPi / 2}), Vector3(1.0 + r, r, 0.0)});
+  const Trajectory out = corrected(problem);
+  EXPECT_TRUE(
+      is_close(out[1].world_from_body, {exp_so3({0, 0, kPi / 4}), {1, 0, 0}}, 1e-12, 1e-12));
+  EXPECT_TRUE(is_close(out[2].world_from_body, problem.closures[0].from_from_to, 1e-12, 1e-12));
+
+  // A shift of (0, 0, 3) besides is spread evenly.
+  Problem lifted = problem;
+  lifted.closures[0].from_from_to.translation.z() = 3.0;
+  EXPECT_NEAR(corrected(lifted)[1].world_from_body.translation.z(), 1.5, 1e-12);
+}
+
+TEST(TwoPass, SpreadsScaleAsAPowerOfTheShare) {
+  // Four steps measured as 1, in a unit that grows by 16 = 2^4 over the loop: 1, 2, 4, 8.
+  const Problem problem = straight(4, {Rotation::Identity(), Vector3(15, 0, 0)}, 16.0);
+  const Trajectory out = corrected(problem);
+  const double wanted[] = {0.0, 1.0, 3.0, 7.0, 15.0};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    EXPECT_NEAR(out[i].world_from_body.translation.x(), wanted[i], 1e-9);
+  }
+  const Trajectory rigid = corrected(problem, {.scale = false});
+  EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
+}
+
+TEST(TwoPass, CarriesTheTailAlong) {
+  Problem problem = straight(6, {});
+  problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};
+  const Trajectory out = corrected(problem);
+  EXPECT_TRUE(is_close(out[6].world_from_body, {exp_so3({0, 0, kPi / 2}), {1, 5, 0}}, 1e-9, 1e-9));
+}
+
+TEST(TwoPass, OpenLeavesEveryLoopClosedWholeOnlyTheLast) {
+  const Problem problem = test::drifting(test::hand_held_truth(60),
+                                         twist({0.002, -0.001, 0.003}, {0.001, 0.002, 0.01}),
+                                         {{5, 30}, {10, 45}, {2, 57}});
+  const Trajectory open = corrected(problem, {.overlap = LoopOverlap::open});
+  for (const Edge& loop : problem.closures) EXPECT_LT(gap(loop, open), 1e-9);
+  const Trajectory whole = corrected(problem);
+  EXPECT_LT(gap(problem.closures.back(), whole), 1e-9);
+  EXPECT_GT(gap(problem.closures.front(), whole), 1e-3);
+}
+
+TEST(TwoPass, EqualsMaximumLikelihoodToFirstOrderForOneSureLoop) {
+  // Isotropic equal steps and a closure that is certain: the multipliers of the closed-form
+  // solution spread rotation evenly too, so the two differ by the lever arm alone. On a straight
+  // line driven without turning, for a pure shift, there is none: the two agree exactly.
+  Problem problem = straight(8, {Rotation::Identity(), Vector3(8.2, 0.1, -0.05)});
+  for (std::size_t i = 0; i < 8; ++i) {
+    Matrix6 information = Matrix6::Identity();
+    information.bottomRightCorner<3, 3>() *= 1e12;  // turning is out of the question
+    problem.odometry.push_back({i, i + 1, {Rotation::Identity(), {1, 0, 0}}, information});
+  }
+  problem.closures[0].information *= 1e12;
+  Report report;
+  const Trajectory dual = Dual({}).correct(problem, report);
+  const Trajectory ours = corrected(problem);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_TRUE(is_close(ours[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
+  }
+}
+
+TEST(TwoPass, RefusesUnsortedClosures) {
+  Problem problem = straight(6, {});
+  problem.closures = {{0, 5, {}, Matrix6::Identity()}, {0, 3, {}, Matrix6::Identity()}};
+  EXPECT_THROW(corrected(problem), std::runtime_error);
+  problem.closures.clear();
+  EXPECT_EQ(TwoPass({}).declines(problem), "no loop closure to spread");
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,165 @@
+/// Metrics of the curve itself: jumps at keyframes, jerk.
+#include <cmath>
+#include <functional>
+
+#include "judged_cell.hpp"
+#include "metrics/jerk.hpp"
+#include "metrics/jumps.hpp"
+#include "support.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::find;
+using test::JudgedCell;
+using test::why;
+
+const Protocol kAsIs{.align = Align::none};
+
+/// Positions by formula, over 0..end past `zero`.
+class Formula final : public Curve {
+ public:
+  Formula(double zero, double end, std::function<Vector3(double)> position)
+      : zero_(zero), end_(end), position_(std::move(position)) {}
+  double start() const override { return zero_; }
+  double end() const override { return zero_ + end_; }
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      poses[k] = {Rotation::Identity(), position_(times[k] - zero_)};
+    }
+  }
+
+ private:
+  double zero_;
+  double end_;
+  std::function<Vector3(double)> position_;
+};
+
+/// A keyframe every half second for four seconds; the reference is the formula at `rate`.
+JudgedCell made(double zero, const std::function<Vector3(double)>& position, double rate = 100.0) {
+  const auto sampled = [&](double every) {
+    std::vector<double> times;
+    for (double k = 0.0; k * every <= 4.0 + 1e-9; ++k) times.push_back(zero + k * every);
+    times.back() = zero + 4.0;
+    return Formula(zero, 4.0, position).sample(times);
+  };
+  Problem problem;
+  problem.keyframes = sampled(0.5);
+  return {sampled(1.0 / rate),
+          std::move(problem),
+          std::make_unique<Formula>(zero, 4.0, position),
+          Times::dense,
+          kAsIs};
+}
+
+class JumpsAt : public testing::TestWithParam<double> {};
+
+TEST_P(JumpsAt, ByHandOnPieces) {
+  const JudgedCell cell = made(GetParam(), [](double t) -> Vector3 {
+    if (t < 2.0) return {t, t * t, 0.0};  // velocity (1, 4, 0), acceleration (0, 2, 0) at 2
+    return {t + 3.0, 4.0, 4.0};           // velocity (1, 0, 0), acceleration 0
+  });
+  const auto scores = jumps(cell.evaluation, {});
+  EXPECT_EQ(find(scores, "position", "3d").count, 7u);
+  EXPECT_NEAR(find(scores, "position", "3d").max, 5.0, 1e-12);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, 4.0, 1e-10);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").max, 2.0, 1e-8);
+  EXPECT_NEAR(find(scores, "position", "3d").median, 0.0, 1e-13);
+  EXPECT_NEAR(find(scores, "velocity", "3d").median, 0.0, 1e-11);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").median, 0.0, 1e-9);
+}
+
+// Seconds since 1970 come in steps of 2.4e-7 s; the derivatives must not show it.
+INSTANTIATE_TEST_SUITE_P(Stamps, JumpsAt, testing::Values(0.0, 1305031910.765));
+
+TEST(Jumps, SmoothCurvesHaveNone) {
+  const JudgedCell cell = made(7.0, [](double t) -> Vector3 {
+    return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
+  });
+  const auto scores = jumps(cell.evaluation, {.reach = 0.02});
+  EXPECT_LT(find(scores, "position", "3d").max, 1e-12);
+  EXPECT_LT(find(scores, "velocity", "3d").max, 1e-7);
+  EXPECT_LT(find(scores, "acceleration", "3d").max, 1e-4);
+}
+
+TEST(Jumps, APolylineKinksByTheChangeOfItsVelocity) {
+  Trajectory poses(3);
+  for (std::size_t i = 0; i < 3; ++i) poses[i].stamp = static_cast<double>(i);
+  poses[1].world_from_body.translation = Vector3(1.0, 0.0, 0.0);
+  poses[2].world_from_body.translation = Vector3(1.0, 2.0, 0.0);
+  Problem problem;
+  problem.keyframes = poses;
+  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  const auto scores = jumps(cell.evaluation, {});
+  EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 1e-14);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(find(scores, "acceleration", "3d").max, 0.0, 1e-10);
+}
+
+TEST(Jumps, RefusesFilesAndShortCurves) {
+  Trajectory poses(2);
+  poses[1].stamp = 1.0;
+  poses[1].world_from_body.translation.x() = 1.0;
+  EXPECT_EQ(why<std::runtime_error>([&] { jumps(evaluate(poses, poses, kAsIs), {}); }),
+            "jumps: needs a curve; files have none");
+  Problem problem;
+  problem.keyframes = poses;
+  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  EXPECT_EQ(why<std::runtime_error>([&] { jumps(cell.evaluation, {}); }),
+            "jumps: needs three keyframes");
+  problem.keyframes.push_back({1.0 + 1e-15, poses[1].world_from_body});
+  problem.keyframes[2].stamp = std::nextafter(1.0, 2.0);
+  const JudgedCell coarse(poses,
+                          problem,
+                          std::make_unique<Polyline>(problem.keyframes),
+                          Times::keyframes,
+                          Protocol{.align = Align::none});
+  EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
+            "jumps: the stamps around 1.0 s are too coarse to look beside a keyframe");
+}
+
+TEST(Jerk, ByHandOnACubic) {
+  for (const double zero : {0.0, 1305031910.765}) {
+    const JudgedCell cell = made(zero, [](double t) -> Vector3 {
+      return {2.0 * t * t * t, t, -1.0};
+    });
+    const auto scores = jerk(cell.evaluation, {.rate = 10.0});
+    EXPECT_GT(find(scores, "estimate", "3d").count, 36u);
+    EXPECT_NEAR(find(scores, "estimate", "3d").min, 12.0, 1e-6);
+    EXPECT_NEAR(find(scores, "estimate", "3d").max, 12.0, 1e-6);
+    // The reference is read on chords 10 ms long: off by up to jerk-free quarters of them.
+    EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
+    EXPECT_NEAR(find(scores, "ratio", "3d").rmse, 1.0, 0.1);
+  }
+}
+
+TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
+  const auto cubic = [](double t) -> Vector3 { return {2.0 * t * t * t, t, -1.0}; };
+  const JudgedCell whole = made(0.0, cubic);
+  Trajectory holed;
+  for (const StampedPose& pose : whole.reference) {
+    if (pose.stamp < 1.005 || pose.stamp > 1.995) holed.push_back(pose);
+  }
+  Evaluation evaluation = whole.evaluation;
+  evaluation.context.reference = &holed;
+  const auto scores = jerk(evaluation, {.rate = 10.0});
+  const std::size_t all = find(jerk(whole.evaluation, {.rate = 10.0}), "estimate", "3d").count;
+  EXPECT_EQ(find(scores, "estimate", "3d").count, all - 12);  // begins 0.8 .. 1.9
+  EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
+  EXPECT_THROW(jerk(evaluation, {.rate = 0.1}), std::runtime_error);
+  EXPECT_THROW(jerk(evaluation, {.rate = 1e12}), std::runtime_error);
+}
+
+TEST(Jerk, OfAStraightReferenceHasNoRatio) {
+  Trajectory poses(5);
+  for (std::size_t i = 0; i < 5; ++i) poses[i].stamp = static_cast<double>(i);
+  Problem problem;
+  problem.keyframes = poses;
+  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  EXPECT_EQ(jerk(cell.evaluation, {.rate = 1.0, .max_gap = 2.0}).at(2).why_undefined,
+            "the reference has no jerk to compare with");
+}
+
+}  // namespace
+}  // namespace loopbench

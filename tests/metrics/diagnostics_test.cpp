@@ -1,0 +1,154 @@
+#include "metrics/diagnostics.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "datasets/formats/formats.hpp"
+#include "metrics/ate.hpp"
+#include "metrics/axis_error.hpp"
+#include "metrics/position_only.hpp"
+#include "metrics/rpe.hpp"
+#include "support.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::find;
+
+/// A metre a second along x, a stop of five seconds after five, then on along y; ten a second.
+Trajectory with_a_stop() {
+  Trajectory out;
+  for (int k = 0; k <= 150; ++k) {
+    const double t = 0.1 * k;
+    const Vector3 place(std::min(t, 5.0), std::max(t - 10.0, 0.0), 0.0);
+    out.push_back({t, {exp_so3({0.0, 0.0, 0.05 * t}), place}});
+  }
+  return out;
+}
+
+Trajectory without(Trajectory poses, double from, double to) {
+  std::erase_if(poses, [&](const StampedPose& p) { return p.stamp > from && p.stamp < to; });
+  return poses;
+}
+
+Diagnostics of(const Trajectory& reference, const Trajectory& estimate, Protocol protocol = {}) {
+  Evaluation e = evaluate(reference, estimate, protocol);
+  e.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol};
+  return diagnose(e, {});
+}
+
+TEST(Diagnostics, OfAHealthyPair) {
+  const Diagnostics d = of(with_a_stop(), with_a_stop());
+  EXPECT_EQ(d.matched, 151u);
+  EXPECT_EQ(d.possible, 151u);
+  EXPECT_NEAR(d.largest_gap, 0.1, 1e-12);
+  EXPECT_EQ(d.repeated + d.crossing + d.losses, 0u);
+  EXPECT_LT(d.off_unit, 1e-15);
+  EXPECT_EQ(d.rank, 2);  // it never leaves the plane
+  EXPECT_GT(d.condition, 1.0);
+  // Half a second on either side still moves: 5.5 .. 9.5 s, give or take a pose.
+  EXPECT_NEAR(d.standing, 40.0 / 151.0, 2.0 / 151.0);
+  EXPECT_FALSE(d.position_only_reference || d.position_only_estimate);
+}
+
+TEST(Diagnostics, ALossIsAPauseDuringWhichTheReferenceMoved) {
+  const Trajectory reference = with_a_stop();
+  const Diagnostics moving = of(reference, without(reference, 1.05, 4.05));
+  EXPECT_EQ(moving.losses, 1u);
+  EXPECT_NEAR(moving.lost, 3.1, 1e-9);
+  EXPECT_NEAR(moving.longest_loss, 3.1, 1e-9);
+  EXPECT_NEAR(moving.largest_gap, 3.1, 1e-9);
+  const Diagnostics standing = of(reference, without(reference, 6.05, 9.05));
+  EXPECT_EQ(standing.losses, 0u);
+  EXPECT_NEAR(standing.largest_gap, 3.1, 1e-9);
+  const Trajectory holed = without(reference, 1.05, 4.05);  // the reference's own hole
+  EXPECT_EQ(of(holed, reference).losses, 0u);
+  EXPECT_EQ(of(reference, without(without(reference, 0.05, 2.55), 10.05, 14.05)).losses, 2u);
+}
+
+TEST(Diagnostics, CountsPosesUsedAgainAndPairsThatCross) {
+  const Trajectory reference = with_a_stop();
+  Trajectory burst = reference;
+  burst.insert(burst.begin() + 11, burst[10]);
+  burst[11].stamp += 0.004;
+  burst.resize(60);
+  const Diagnostics evo =
+      of(reference, burst, {.association = Association::evo, .align = Align::none});
+  EXPECT_EQ(evo.repeated, 1u);
+  Evaluation crossed = evaluate(reference, reference, {});
+  std::swap(crossed.estimate[7], crossed.estimate[8]);
+  EXPECT_EQ(diagnose(crossed, {}).crossing, 1u);
+}
+
+TEST(Diagnostics, ScoresAreSingleNumbers) {
+  const Trajectory reference = with_a_stop();
+  const Evaluation e = evaluate(reference, without(reference, 1.05, 4.05), {});
+  for (const Score& score : diagnostics(e, {})) {
+    EXPECT_EQ(score.statistics.count, 1u);
+    EXPECT_EQ(score.statistics.rmse, score.statistics.max) << score.relation;
+  }
+  EXPECT_NEAR(find(diagnostics(e, {}), "lost", "").mean, 3.1, 1e-9);  // from the pairs alone
+}
+
+/// A bend without any attitude, as of GPS.
+Trajectory positions_only(const Rotation& attitude) {
+  Trajectory out = with_a_stop();
+  for (StampedPose& pose : out) pose.world_from_body.rotation = attitude;
+  return out;
+}
+
+TEST(PositionOnly, IsOneAttitudeOnAPathThatTurns) {
+  EXPECT_TRUE(is_position_only(positions_only(Rotation::Identity())));
+  EXPECT_TRUE(is_position_only(positions_only(exp_so3({0.3, -2.0, 1.0}))));
+  EXPECT_FALSE(is_position_only(with_a_stop()));
+  Trajectory straight = positions_only(Rotation::Identity());
+  straight.resize(60);
+  EXPECT_FALSE(is_position_only(straight));        // may well have driven straight on
+  EXPECT_FALSE(is_position_only(Trajectory(20)));  // standing
+  Trajectory few{straight[40], straight[45], straight[50], straight[55]};
+  few[1].world_from_body.translation.y() += 1.0;
+  EXPECT_FALSE(is_position_only(few));
+  EXPECT_FALSE(is_position_only({}));
+}
+
+TEST(PositionOnly, RotationIsRefusedAndPositionIsNot) {
+  const Trajectory reference = positions_only(Rotation::Identity());
+  const Evaluation e = evaluate(reference, with_a_stop(), {});
+  const std::string why =
+      "the reference keeps one attitude while its path turns: it holds positions only, so rotation "
+      "is not judged";
+  EXPECT_EQ(why_no_attitude(e), why);
+  const auto absolute = ate(e, {});
+  EXPECT_EQ(absolute[0].why_undefined, "");
+  EXPECT_EQ(absolute[0].statistics.count, 151u);
+  EXPECT_EQ(absolute[1].why_undefined, why);
+  EXPECT_EQ(absolute[1].statistics.count, 0u);
+  for (const Score& score : rpe(e, {})) {
+    const bool is_axis = score.axis != "3d";  // in the world, where attitudes do not enter
+    EXPECT_EQ(score.why_undefined, is_axis ? "" : why) << score.relation << score.axis;
+  }
+  for (const Score& score : rpe(e, {.frame = RpeFrame::body})) EXPECT_EQ(score.why_undefined, why);
+  for (const Score& score : axis_error(e, {})) EXPECT_EQ(score.why_undefined, "");
+  EXPECT_EQ(find(diagnostics(e, {}), "position_only_reference", "").mean, 1.0);
+}
+
+TEST(PositionOnly, IsWhatThePublishedTruthOfTheHagueIs) {
+  const char* folder = std::getenv("LOOPBENCH_DATA");
+  if (folder == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
+  const std::filesystem::path data = std::filesystem::path(folder) / "cop_slam";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is not there";
+  EXPECT_TRUE(is_position_only(read_trajectory(data / "TheHague_02_gt.g2o", {})));
+  EXPECT_FALSE(is_position_only(read_trajectory(data / "TheHague_02_vo.g2o", {})));
+  EXPECT_FALSE(is_position_only(read_trajectory(data / "KITTI_00_gt.g2o", {})));
+}
+
+TEST(PositionOnly, AnEstimateCanBeSoToo) {
+  const Evaluation e = evaluate(with_a_stop(), positions_only(exp_so3({1.0, 0.0, 0.0})), {});
+  EXPECT_EQ(why_no_attitude(e).substr(0, 12), "the estimate");
+  EXPECT_NE(ate(e, {})[1].why_undefined, "");
+}
+
+}  // namespace
+}  // namespace loopbench

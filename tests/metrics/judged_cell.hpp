@@ -1,0 +1,34 @@
+/// What the harness hands a metric for one method on one sequence.
+#pragma once
+
+#include <memory>
+
+#include "datasets/core/polyline.hpp"
+#include "metrics/evaluation.hpp"
+
+namespace loopbench::test {
+
+/// Owns everything its evaluation points at; do not copy or move.
+struct JudgedCell {
+  JudgedCell(Trajectory truth,
+             Problem given,
+             std::unique_ptr<const Curve> made,
+             Times times,
+             Protocol protocol = {})
+      : reference(std::move(truth)),
+        problem(std::move(given)),
+        curve(std::move(made)),
+        at_keyframes(curve->sample(stamps(problem.keyframes))),
+        evaluation(evaluate(reference, *curve, stamps(problem.keyframes), times, protocol)) {
+    evaluation.context = {&reference, &at_keyframes, &problem, curve.get(), times, protocol};
+  }
+  JudgedCell(const JudgedCell&) = delete;
+
+  Trajectory reference;
+  Problem problem;
+  std::unique_ptr<const Curve> curve;
+  Trajectory at_keyframes;
+  Evaluation evaluation;
+};
+
+}  // namespace loopbench::test

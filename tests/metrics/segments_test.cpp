@@ -1,0 +1,135 @@
+#include "metrics/segments/segments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/protocols.hpp"
+#include "metrics/segments/ends.hpp"
+#include "metrics/segments/lengths.hpp"
+#include "support.hpp"
+
+namespace loopbench::test {
+namespace {
+
+using Pairs = std::vector<FromTo>;
+
+std::vector<double> uneven_path(std::size_t size) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> step(0.0, 1.0);
+  std::vector<double> out{0.0};
+  while (out.size() < size) out.push_back(out.back() + (out.size() % 7 == 0 ? 0.0 : step(random)));
+  return out;
+}
+
+TEST(SegmentPairs, NearestIsWhatLookingAtAllOfThemFinds) {
+  const std::vector<double> d = uneven_path(200);
+  Pairs wanted;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    double best = 0.2;
+    std::size_t end = d.size();
+    for (std::size_t j = i; j < d.size(); ++j) {
+      if (std::abs(d[j] - (d[i] + 3.0)) >= best) continue;
+      best = std::abs(d[j] - (d[i] + 3.0));
+      end = j;
+    }
+    if (end < d.size()) wanted.emplace_back(i, end);
+  }
+  EXPECT_LT(wanted.size(), 150u);
+  EXPECT_EQ(segment_pairs(d, 3.0, 0.2, SegmentEnd::nearest, 1), wanted);
+}
+
+TEST(SegmentPairs, RpgGivesTheKthEndToTheKthPose) {
+  // Nothing is 1 m after pose 0; from there on every end is one pose early.
+  const std::vector<double> d{0.0, 5.0, 6.0, 7.0};
+  EXPECT_EQ(segment_pairs(d, 1.0, 0.2, SegmentEnd::nearest, 1), (Pairs{{1, 2}, {2, 3}}));
+  EXPECT_EQ(segment_pairs(d, 1.0, 0.2, SegmentEnd::rpg, 1), (Pairs{{0, 2}, {1, 3}}));
+}
+
+TEST(SegmentPairs, BeyondIsStrictAndSteps) {
+  const std::vector<double> d{0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+  EXPECT_EQ(segment_pairs(d, 2.0, 0.0, SegmentEnd::beyond, 1), (Pairs{{0, 3}, {1, 4}, {2, 5}}));
+  EXPECT_EQ(segment_pairs(d, 2.0, 0.0, SegmentEnd::beyond, 2), (Pairs{{0, 3}, {2, 5}}));
+}
+
+TEST(SegmentPairs, Eth3dLosesTheFirstStartsAndTheLast) {
+  // The end runs to 2 m less a step before it stops; it fits when the start is 1 m before it. At
+  // 2.75 m the end meets the last pose and all stops.
+  std::vector<double> d;
+  for (int i = 0; i <= 16; ++i) d.push_back(0.25 * i);
+  const Pairs got = segment_pairs(d, 1.0, 0.025, SegmentEnd::eth3d, 1);
+  ASSERT_FALSE(got.empty());
+  EXPECT_EQ(got.front(), (FromTo{3, 7}));
+  EXPECT_EQ(got.back(), (FromTo{11, 15}));
+  EXPECT_EQ(got.size(), 9u);
+}
+
+TEST(Lengths, AreMetresOrShares) {
+  const std::vector<Length> got = lengths("lengths", " 8 0.5m 10% ");
+  ASSERT_EQ(got.size(), 3u);
+  EXPECT_EQ(got[0].of(70.0), 8.0);
+  EXPECT_EQ(got[1].text, "0.5 m");
+  EXPECT_EQ(got[2].text, "10%");
+  EXPECT_DOUBLE_EQ(got[2].of(70.0), 7.0);
+  for (const char* wrong : {"", "x", "8 km", "0", "-1", "nan", "inf", "10%%", "1e999"}) {
+    EXPECT_THROW(lengths("lengths", wrong), OptionError) << wrong;
+  }
+}
+
+/// A straight road of 1 m steps; the estimate is 1 % too long and turns 0.001 rad a step.
+Evaluation road(const Protocol& protocol) {
+  Trajectory reference;
+  Trajectory estimate;
+  for (int i = 0; i <= 1000; ++i) {
+    reference.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0.0, 0.0)}});
+    estimate.push_back(
+        {0.1 * i, {exp_so3(Vector3(0.0, 0.0, 0.001 * i)), Vector3(1.01 * i, 0.0, 0.0)}});
+  }
+  return evaluate(reference, estimate, protocol);
+}
+
+TEST(Segments, OfAStraightRoadByHand) {
+  Params changes{{"association", std::string("index")}, {"align", std::string("none")}};
+  changes["segments.lengths"] = std::string("10 20%");
+  changes["segments.tolerance"] = std::string("0.5");
+  const std::vector<Score> got = segments(road(named_protocol("loopbench", changes).rules), {});
+  const auto score = [&](const char* relation, const char* axis, const char* unit) {
+    for (const Score& s : got) {
+      if (s.relation == relation && s.axis == axis && s.unit == unit) return s.statistics;
+    }
+    ADD_FAILURE() << relation << axis << unit;
+    return Statistics{};
+  };
+  EXPECT_EQ(score("rotation", "10 m", "deg").count, 991u);
+  EXPECT_EQ(score("rotation", "20%", "deg").count, 801u);
+  EXPECT_EQ(score("rotation", "all", "deg/m").count, 1792u);
+  const double degree = 180.0 / M_PI;
+  EXPECT_NEAR(score("rotation", "10 m", "deg").max, 0.01 * degree, 1e-12);
+  EXPECT_NEAR(score("yaw", "10 m", "deg").max, 0.01 * degree, 1e-12);
+  EXPECT_NEAR(score("gravity", "10 m", "deg").max, 0.0, 1e-12);
+  EXPECT_NEAR(score("rotation", "all", "deg/m").mean, 0.001 * degree, 1e-12);
+  // From pose 0, where the estimate looks straight: 10.1 m against 10 m.
+  EXPECT_NEAR(score("translation", "10 m", "m").min, 0.1, 1e-12);
+  EXPECT_NEAR(score("translation", "10 m", "%").min, 1.0, 1e-11);
+}
+
+TEST(Segments, FloatAndDoubleAgreeToFloat) {
+  const auto mean = [](const std::string& name) {
+    return find(segments(road(named_protocol(name).rules), {}), "translation", "all");
+  };
+  const Statistics in_float = mean("kitti");
+  const Statistics in_double = mean("kitti-double");
+  EXPECT_EQ(in_float.count, in_double.count);
+  EXPECT_NE(in_float.mean, in_double.mean);
+  EXPECT_NEAR(in_float.mean, in_double.mean, 1e-5 * in_double.mean);
+}
+
+TEST(Segments, WithoutAnySaysSo) {
+  const Params far{{"segments.lengths", std::string("5000")}};
+  EXPECT_EQ(
+      why<std::runtime_error>([&] { segments(road(named_protocol("kitti", far).rules), {}); }),
+      "segments: no stretch of the reference (1000.0 m) has a length of 5000");
+}
+
+}  // namespace
+}  // namespace loopbench::test
