@@ -1,5 +1,6 @@
 #include "methods/smoothers/manifold/family.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "datasets/core/fields.hpp"
