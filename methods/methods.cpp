@@ -10,6 +10,22 @@
 #include "methods/smoothers/polyline.hpp"
 
 namespace loopbench {
+namespace {
+
+/// y = f(x) and z = q(x, y) in the axes of the world, wherever the nodes lead; pieces as they come.
+Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
+  return {.planar = 4,
+          .spatial = 7,
+          .segment = thresholds,
+          .up = manifold::Up::world_z,
+          .height_guard = false,
+          .frame = manifold::Axes::world,
+          .guard = false,
+          .quadric_cut = 1e-12,  // rounding only: a design of full rank is solved as it is
+          .joint = {.meet = manifold::Meet::none}};
+}
+
+}  // namespace
 
 std::vector<MethodEntry> methods() {
   return {
@@ -60,6 +76,22 @@ std::vector<MethodEntry> methods() {
       method<Dm>("dm_m6", "dm: only heights, quadric through 6 nodes", {.planar = 0, .spatial = 6}),
       method<Dm>("dm_m7", "dm: only heights, quadric on 7 nodes", {.planar = 0, .spatial = 7}),
       method<Dm>("dm_m8", "dm: only heights, quadric on 8 nodes", {.planar = 0, .spatial = 8}),
+      method<Dm>("dm_n3_m6", "dm: N = 3 in the plane, M = 6 in space", {.planar = 3, .spatial = 6}),
+      method<Dm>("dm_n3_m7", "dm: N = 3 in the plane, M = 7 in space", {.planar = 3, .spatial = 7}),
+      method<Dm>("dm_n3_m8", "dm: N = 3 in the plane, M = 8 in space", {.planar = 3, .spatial = 8}),
+      method<Dm>("dm_n4_m6", "dm: N = 4 in the plane, M = 6 in space", {.planar = 4, .spatial = 6}),
+      method<Dm>("dm_n4_m7", "dm: N = 4 in the plane, M = 7 in space", {.planar = 4, .spatial = 7}),
+      method<Dm>("dm_n4_m8", "dm: N = 4 in the plane, M = 8 in space", {.planar = 4, .spatial = 8}),
+      method<Dm>("dm_n5_m6", "dm: N = 5 in the plane, M = 6 in space", {.planar = 5, .spatial = 6}),
+      method<Dm>("dm_n5_m7", "dm: N = 5 in the plane, M = 7 in space", {.planar = 5, .spatial = 7}),
+      method<Dm>("dm_n5_m8", "dm: N = 5 in the plane, M = 8 in space", {.planar = 5, .spatial = 8}),
+      method<Dm>("dm_robust", "dm: the setting to be judged by", {.planar = 4}),
+      method<Dm>("paper_literal_fr1",
+                 "the article's letter with its thresholds for fr1_room: world axes, no guard",
+                 paper_literal({.speed_band = 0.33, .turn_max = 0.75})),
+      method<Dm>("paper_literal_fr3",
+                 "the article's letter with its thresholds for fr3_office: world axes, no guard",
+                 paper_literal({.speed_band = 0.25, .turn_max = 0.42})),
   };
 }
 

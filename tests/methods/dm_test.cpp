@@ -147,10 +147,10 @@ TEST(Dm, ExactFamiliesKeepEveryNodeInTheFittingFrame) {
   const manifold::NodeSpline spline(nodes);
   for (const std::size_t N : {3u, 4u}) {
     const auto fit = manifold::fit_planar(
-        nodes, manifold::segments(nodes, {}), spline, Vector3::UnitZ(), N, manifold::Fallback::arc);
+        nodes, manifold::segments(nodes, {}), spline, Vector3::UnitZ(), {.size = N});
     std::size_t graphs = 0;
     for (std::size_t k = 0; k < fit.pieces.size(); ++k) {
-      const auto* graph = std::get_if<manifold::Graph>(&fit.pieces[k]);
+      const auto* graph = std::get_if<manifold::Graph<manifold::Polynomial>>(&fit.pieces[k]);
       if (graph == nullptr) continue;
       ++graphs;
       for (const auto& point : manifold::local(nodes, fit.windows[k].fitted, graph->frame)) {

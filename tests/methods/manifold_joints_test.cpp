@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "manifold_paths.hpp"
-#include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
+#include "methods/smoothers/manifold/strip.hpp"
 
 namespace loopbench::manifold {
 namespace {
@@ -65,7 +65,10 @@ TEST(Joint, ReachesNoFurtherThanAPiecesOwnLastStep) {
 TEST(Strip, BlendsNeighboursAndLeavesTheMiddleToItsPiece) {
   const Nodes nodes(through(std::vector<Vector3>(9, Vector3::Zero())));
   const std::vector<Window> windows{{{0, 4}, {0, 4}}, {{4, 8}, {4, 8}}};
-  const Strip<double> strip = joined(nodes, windows, std::vector{10.0, 20.0});
+  const auto unasked = [](double piece, std::size_t, const Jet<double>&) {
+    return Jet<double>{piece, 0.0, 0.0};
+  };
+  const auto strip = laid<double>(nodes, windows, std::vector{10.0, 20.0}, {}, unasked);
   const auto identity = [](double piece) { return piece; };
   EXPECT_EQ(strip.at(0, 0.5, identity), 10.0);
   EXPECT_EQ(strip.at(4, 4.0, identity), 15.0);

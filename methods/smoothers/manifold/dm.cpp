@@ -1,7 +1,8 @@
 #include "methods/smoothers/manifold/dm.hpp"
 
 #include "datasets/core/polyline.hpp"
-#include "methods/smoothers/manifold/curve.hpp"
+#include "methods/smoothers/manifold/dm_report.hpp"
+#include "methods/smoothers/manifold/regression.hpp"
 
 namespace loopbench {
 
@@ -9,37 +10,67 @@ using namespace manifold;  // NOLINT: the steps below are this file's vocabulary
 
 namespace {
 
-double mean_nodes(const std::vector<Window>& windows) {
-  double sum = 0.0;
-  for (const Window& window : windows) sum += static_cast<double>(window.fitted.nodes());
-  return sum / static_cast<double>(windows.size());
+std::size_t whole_segment(const DmOptions& o) {
+  const int nodes = o.min_nodes > 0 ? o.min_nodes : o.planar > 0 ? o.planar : o.spatial;
+  return static_cast<std::size_t>(nodes);
 }
 
-void count(Report& report, const char* name, std::size_t value) {
-  report.count(name, static_cast<double>(value));
+PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families) {
+  return {.size = static_cast<std::size_t>(o.planar),
+          .axes = o.frame,
+          .guarded = o.guard,
+          .scheme = o.scheme,
+          .families = std::move(families),
+          .family = o.family,
+          .selection = o.selection,
+          .fallback = o.fallback,
+          .chords_below = o.short_policy == Short::polyline ? whole_segment(o) : 0};
 }
 
-void describe(const Densified& dense, Report& report) {
-  count(report, "nodes", dense.nodes.size());
-  count(report, "quasi_keyframes", dense.inserted);
-  count(report, "gaps_left", dense.gaps_left);
-  if (dense.gaps_left > 0) report.notes.push_back("some gaps hold no tracked frame: left open");
+SpatialRule spatial_rule(const DmOptions& o) {
+  return {.size = static_cast<std::size_t>(o.spatial),
+          .axes = o.frame,
+          .guarded = o.height_guard,
+          .scheme = o.scheme,
+          .cut = o.quadric_cut,
+          .plain_below = o.short_policy == Short::polyline ? whole_segment(o) : 0};
 }
 
-void describe(const PlanarFit& fit, Report& report) {
-  count(report, "windows", fit.windows.size());
-  report.count("mean_window_nodes", mean_nodes(fit.windows));
-  count(report, "split_windows", fit.split);
-  count(report, "fallbacks", fit.fallbacks);
+NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const DmOptions& o) {
+  if (o.abscissa == Abscissa::polyline || o.spline_order == 2) return NodeSpline::polyline(nodes);
+  if (o.spline_order != 4) {
+    return NodeSpline::of_order(nodes, static_cast<std::size_t>(o.spline_order));
+  }
+  NodeSpline natural(nodes);
+  if (o.psi == PsiUse::none) return natural;
+  return NodeSpline(
+      nodes, clamps(nodes, natural, runs, static_cast<std::size_t>(o.psi_half_window), o.psi_mean));
 }
 
-void describe(const SpatialFit& fit, Report& report) {
-  count(report, "spatial_windows", fit.windows.size());
-  count(report, "spatial_truncated", fit.truncated);
-  count(report, "spatial_fallbacks", fit.fallbacks);
+Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
+  return up_axis(nodes, o.frame == Axes::world ? Up::world_z : o.up);
 }
 
 }  // namespace
+
+Dm::Dm(const Options& options) : options_(options), families_(read_families(options.families)) {
+  const bool parametric = options.frame == Axes::parametric;
+  const auto refuse = [](const char* name, const char* why) {
+    throw OptionError(name, std::string(name) + ": " + why);
+  };
+  if (options.joint.meet == Meet::constrained_ls && !parametric) {
+    refuse("joint", "constrained_ls needs frame = parametric: axes differ from window to window");
+  }
+  for (const Family family : families_) {
+    if (parametric && !is_polynomial(family)) {
+      refuse("families", "frame = parametric fits polynomials only");
+    }
+  }
+  if (options.psi != PsiUse::none &&
+      (options.abscissa != Abscissa::spline || options.spline_order != 4)) {
+    refuse("psi", "boundary_tangent needs abscissa = spline of spline_order = 4");
+  }
+}
 
 std::optional<std::string> Dm::declines(const Problem& problem) const {
   if (problem.keyframes.empty()) return "no keyframes";
@@ -48,30 +79,70 @@ std::optional<std::string> Dm::declines(const Problem& problem) const {
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
   Densified dense = with_quasi_keyframes(problem, options_.gap);
-  describe(dense, report);
   if (dense.nodes.size() < 3) {
+    describe(dense, report);
     count(report, "fallbacks", 1);
     report.notes.push_back("fewer than three nodes: polyline");
     return std::make_unique<Polyline>(std::move(dense.nodes));
   }
-  const Nodes nodes(dense.nodes);
-  const std::vector<NodeRange> runs = segments(nodes, options_.segment);
+  Nodes nodes(dense.nodes);
+  Vector3 up = up_of(dense.nodes, options_);
+  const SegmentRule& rule = options_.segment;
+  std::vector<NodeRange> runs =
+      segments(nodes, rule, kappas(nodes, dense.nodes, rule.kappa, rule.plane, up));
+  if (options_.short_policy == Short::merge) {
+    runs = merged(nodes, std::move(runs), whole_segment(options_));
+  } else if (options_.short_policy == Short::quasi_keyframes) {
+    Filled more = filled(dense.nodes, runs, problem.frames, whole_segment(options_));
+    dense.nodes = std::move(more.nodes);
+    dense.inserted += more.inserted;
+    runs = std::move(more.runs);
+    nodes = Nodes(dense.nodes);
+    up = up_of(dense.nodes, options_);
+  }
+  describe(dense, report);
   count(report, "segments", runs.size());
 
-  Parts parts{nodes.base, up_axis(dense.nodes, options_.up), NodeSpline(nodes), {}, {}};
+  Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
+  Laying laying{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
+  // One regression spline has no joints; the heights above it, and a way without length, still do.
+  if (laying.rule.meet == Meet::constrained_ls) laying.rule.meet = Meet::overlap_blend;
   if (options_.planar > 0) {
-    const auto N = static_cast<std::size_t>(options_.planar);
-    PlanarFit fit = fit_planar(nodes, runs, parts.spline, parts.up, N, options_.fallback);
-    describe(fit, report);
-    parts.planar = joined(nodes, fit.windows, std::move(fit.pieces));
+    std::optional<PlanarFit> fit;
+    if (options_.joint.meet == Meet::constrained_ls) {
+      fit = fit_regression(nodes, runs, parts.spline, laying.size);
+    }
+    if (!fit) fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_));
+    describe(*fit, report);
+    if (options_.report_coefficients) note_coefficients(*fit, report);
+    parts.planar =
+        laid<Vector3>(nodes,
+                      fit->windows,
+                      std::move(fit->pieces),
+                      laying,
+                      [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
+                        return asked(piece, parts.spline.at(edge, time));
+                      });
   }
   if (options_.spatial > 0) {
-    const auto M = static_cast<std::size_t>(options_.spatial);
-    SpatialFit fit = fit_spatial(nodes, runs, parts.spline, parts.up, M, options_.height_guard);
+    laying.size = static_cast<std::size_t>(options_.spatial);
+    SpatialFit fit = fit_spatial(nodes, runs, parts.spline, up, spatial_rule(options_));
     describe(fit, report);
-    parts.spatial = joined(nodes, fit.windows, std::move(fit.pieces));
+    if (options_.report_coefficients) note_coefficients(fit, up.dot(nodes.base), report);
+    parts.spatial =
+        laid<double>(nodes,
+                     fit.windows,
+                     std::move(fit.pieces),
+                     laying,
+                     [&](const Height& piece, std::size_t edge, const Jet<double>& time) {
+                       const Moving point = parts.planar_point(edge, time);
+                       return piece.over<Jet<double>>(point, along(up, point));
+                     });
   }
-  return std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
+  auto curve = std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
+  describe(continuity(*curve), report);
+  if (options_.report_frames) describe(moving_frames(*curve), report);
+  return curve;
 }
 
 }  // namespace loopbench

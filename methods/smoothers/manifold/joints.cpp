@@ -4,6 +4,13 @@
 
 namespace loopbench::manifold {
 
+Meet JointRule::at(const Nodes& nodes, std::size_t node) const {
+  if (!c0_below) return meet;
+  const double length = nodes.step(node - 1).norm() + nodes.step(node).norm();
+  const double duration = nodes.stamps[node + 1] - nodes.stamps[node - 1];
+  return length / duration < *c0_below ? Meet::c0 : meet;
+}
+
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after) {
   const std::size_t node = after.owned.first;
   const double step_before = nodes.step(node - 1).norm();
@@ -13,6 +20,13 @@ Joint joint_between(const Nodes& nodes, const Window& before, const Window& afte
   const double forth = before.fitted.last > node ? 1.0 : reach(step_before, step_after);
   return {nodes.stamps[node] - back * nodes.duration(node - 1),
           nodes.stamps[node] + forth * nodes.duration(node)};
+}
+
+Joint sliding_joint(const Nodes& nodes, const Window& after, std::size_t size) {
+  const std::size_t node = after.owned.first;
+  if (size % 2 == 1) return {nodes.stamps[node - 1], nodes.stamps[node]};
+  return {nodes.stamps[node] - 0.5 * nodes.duration(node - 1),
+          nodes.stamps[node] + 0.5 * nodes.duration(node)};
 }
 
 }  // namespace loopbench::manifold

@@ -1,21 +1,49 @@
-/// Step 10: neighbouring pieces overlap and blend, so the curve is C2 where they meet.
+/// Step 10: how neighbouring pieces meet.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
+#include "methods/smoothers/manifold/jet.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
 namespace loopbench::manifold {
 
+/// overlap_blend: pieces reach into each other and blend, C2. quintic_bridge: half a step around
+/// the joint is replaced by a quintic, C2. constrained_ls: all pieces are one cubic regression
+/// spline, C2 (regression.hpp). c0: each piece is moved to meet its neighbour half way. none.
+enum class Meet { overlap_blend, quintic_bridge, constrained_ls, c0, none };
+inline auto choices(Meet) {
+  return std::array{std::pair{"overlap_blend", Meet::overlap_blend},
+                    std::pair{"quintic_bridge", Meet::quintic_bridge},
+                    std::pair{"constrained_ls", Meet::constrained_ls},
+                    std::pair{"c0", Meet::c0},
+                    std::pair{"none", Meet::none}};
+}
+
+struct JointRule {
+  Meet meet = Meet::overlap_blend;
+  std::optional<double> c0_below =
+      std::nullopt;  ///< slower joints only meet in position [m/s]; none: no such
+
+  /// How the pieces before and after `node` meet, by the speed over its two steps.
+  Meet at(const Nodes& nodes, std::size_t node) const;
+};
+
 /// Where one piece hands over to the next: around their shared node, never beyond its two edges.
 struct Joint {
   double begin = 0.0;  ///< [s]
-  double end = 0.0;    ///< [s]
+  double end = 0.0;    ///< [s]; `begin` for a sharp joint
 
   /// Share of the later piece: 6 s^5 - 15 s^4 + 10 s^3, flat to second order at both ends.
-  double weight(double time) const {
-    const double s = (time - begin) / (end - begin);
-    return s <= 0.0 ? 0.0 : s >= 1.0 ? 1.0 : s * s * s * (10.0 + s * (6.0 * s - 15.0));
+  template <class T>
+  T weight(const T& time) const {
+    const double at = value_of(time);
+    if (at <= begin) return 0.0 * time;
+    if (at >= end) return 0.0 * time + 1.0;
+    const T s = (time - begin) / (end - begin);
+    return s * s * s * (10.0 + s * (6.0 * s - 15.0));
   }
 };
 
@@ -25,44 +53,8 @@ struct Joint {
 /// is not extended there at all.
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after);
 
-/// Pieces laid end to end in time with a joint between each two.
-template <class Piece>
-struct Strip {
-  std::vector<Piece> pieces;
-  std::vector<Joint> joints;  ///< joints[k] is between pieces k and k + 1
-  std::vector<std::uint32_t> piece_of_edge;
-
-  /// `value(piece)` blended where pieces meet. Pieces that meet in a node which both pass through
-  /// leave it where it is, whatever the weights. O(1), three pieces at most.
-  template <class Value>
-  auto at(std::size_t edge, double time, Value value) const {
-    const std::size_t k = piece_of_edge[edge];
-    auto out = value(pieces[k]);
-    if (k > 0 && time < joints[k - 1].end) {
-      const double w = joints[k - 1].weight(time);
-      out = (1.0 - w) * value(pieces[k - 1]) + w * out;
-    }
-    if (k < joints.size() && time > joints[k].begin) {
-      const double w = joints[k].weight(time);
-      out = (1.0 - w) * out + w * value(pieces[k + 1]);
-    }
-    return out;
-  }
-};
-
-/// Pieces and the windows they were fitted to, both in time order and covering every edge.
-template <class Piece>
-Strip<Piece> joined(const Nodes& nodes,
-                    const std::vector<Window>& windows,
-                    std::vector<Piece> pieces) {
-  Strip<Piece> out;
-  out.pieces = std::move(pieces);
-  out.piece_of_edge.reserve(nodes.size());
-  for (std::size_t k = 0; k < windows.size(); ++k) {
-    if (k > 0) out.joints.push_back(joint_between(nodes, windows[k - 1], windows[k]));
-    out.piece_of_edge.resize(windows[k].owned.last, static_cast<std::uint32_t>(k));
-  }
-  return out;
-}
+/// The joint between two windows of one edge each. Windows around nodes (`size` odd) blend over the
+/// whole earlier edge, from its one node to the other; windows around edges from middle to middle.
+Joint sliding_joint(const Nodes& nodes, const Window& after, std::size_t size);
 
 }  // namespace loopbench::manifold

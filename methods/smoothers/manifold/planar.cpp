@@ -1,17 +1,12 @@
 #include "methods/smoothers/manifold/planar.hpp"
 
+#include "methods/smoothers/manifold/window_fit.hpp"
+
 namespace loopbench::manifold {
 namespace {
 
 constexpr std::size_t kSmallest = 3;  // [nodes] a window is not split further: two make a line
-
-std::optional<Graph> fit_graph(const Nodes& nodes, NodeRange range, const Vector3& up) {
-  const auto frame = chord_frame(nodes, range, up);
-  if (!frame) return std::nullopt;
-  const std::vector<Vector2> points = local(nodes, range, *frame);
-  if (!is_graph(points)) return std::nullopt;
-  return Graph{*frame, fit_polynomial(points, points.size() > 3 ? 3 : 2)};
-}
+constexpr std::array kPolynomial{Family::by_n};
 
 PlanarPiece fallen_back(const Nodes& nodes,
                         NodeRange range,
@@ -25,30 +20,46 @@ PlanarPiece fallen_back(const Nodes& nodes,
   return arc ? PlanarPiece(AsArc{*arc}) : PlanarPiece(AsSpline{});
 }
 
+void keep_chords(const Nodes& nodes, NodeRange segment, PlanarFit& out) {
+  for (std::size_t i = segment.first; i < segment.last; ++i) {
+    ++out.chords;
+    out.keep({{i, i + 1}, {i, i + 1}},
+             AsChord{nodes.stamps[i], nodes.stamps[i + 1], nodes.points[i], nodes.points[i + 1]});
+  }
+}
+
 }  // namespace
 
 PlanarFit fit_planar(const Nodes& nodes,
                      std::span<const NodeRange> segments,
                      const NodeSpline& spline,
                      const Vector3& up,
-                     std::size_t N,
-                     Fallback fallback) {
+                     const PlanarRule& rule) {
   PlanarFit out;
-  const auto keep = [&](const Window& window, const PlanarPiece& piece) {
-    out.windows.push_back(window);
-    out.pieces.push_back(piece);
+  const WindowFitter fitter{nodes, spline, up, rule};
+  // The families of the rule, a polynomial when they refuse, or nothing when the guard does.
+  const auto fit = [&](const Window& window) -> std::optional<PlanarPiece> {
+    if (!fitter.admits(window)) return std::nullopt;
+    if (auto piece = fitter.fit(window, rule.families)) return piece;
+    auto piece = fitter.fit(window, kPolynomial);
+    if (piece) ++out.refused;
+    return piece;
   };
   const auto fit_small = [&](const Window& window) {
-    if (const auto graph = fit_graph(nodes, window.fitted, up)) return keep(window, *graph);
+    if (const auto piece = fit(window)) return out.keep(window, *piece);
     ++out.fallbacks;
-    keep(window, fallen_back(nodes, window.fitted, spline, fallback));
+    out.keep(window, fallen_back(nodes, window.fitted, spline, rule.fallback));
   };
   for (const NodeRange& segment : segments) {
-    for (const Window& window : windows(segment, N, nodes.size())) {
-      if (window.fitted.nodes() <= kSmallest) {
+    if (segment.nodes() < rule.chords_below) {
+      keep_chords(nodes, segment, out);
+      continue;
+    }
+    for (const Window& window : windows(segment, rule.size, nodes.size(), rule.scheme)) {
+      if (window.fitted.nodes() <= kSmallest || !rule.guarded) {
         fit_small(window);
-      } else if (const auto graph = fit_graph(nodes, window.fitted, up)) {
-        keep(window, *graph);
+      } else if (const auto piece = fit(window)) {
+        out.keep(window, *piece);
       } else {
         ++out.split;
         for (const Window& part : windows(window.owned, kSmallest, nodes.size())) fit_small(part);

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <span>
-#include <variant>
 
-#include "methods/smoothers/manifold/families/arc.hpp"
-#include "methods/smoothers/manifold/families/polynomial.hpp"
-#include "methods/smoothers/manifold/joints.hpp"
-#include "methods/smoothers/manifold/spline.hpp"
+#include "methods/smoothers/manifold/family.hpp"
+#include "methods/smoothers/manifold/selection.hpp"
+#include "methods/smoothers/manifold/windows.hpp"
 
 namespace loopbench::manifold {
 
@@ -16,45 +14,40 @@ inline auto choices(Fallback) {
   return std::array{std::pair{"arc", Fallback::arc}, std::pair{"spline", Fallback::spline}};
 }
 
-/// The spline with its y' replaced by the fitted curve at its x'.
-struct Graph {
-  Frame frame;
-  Polynomial curve;
-
-  Vector3 operator()(const Place& place) const {
-    const Vector2 on_spline = frame.local(place.point);
-    return place.point + (curve(on_spline.x()) - on_spline.y()) * frame.y;
-  }
+struct PlanarRule {
+  std::size_t size = 4;  ///< N
+  Axes axes = Axes::chord;
+  bool guarded = true;
+  Scheme scheme = Scheme::consecutive;
+  std::vector<Family> families{Family::by_n};
+  FamilyRule family = {};
+  Selection selection = Selection::fixed;
+  Fallback fallback = Fallback::arc;
+  std::size_t chords_below = 0;  ///< segments of fewer nodes become straight lines
 };
-
-/// The spline itself.
-struct AsSpline {
-  Vector3 operator()(const Place& place) const { return place.point; }
-};
-
-/// The parametric curve at the spline's way.
-struct AsArc {
-  Arc arc;
-  Vector3 operator()(const Place& place) const { return arc(place.way); }
-};
-
-using PlanarPiece = std::variant<Graph, AsArc, AsSpline>;
 
 struct PlanarFit {
   std::vector<Window> windows;
   std::vector<PlanarPiece> pieces;  ///< one for each window
   std::size_t split = 0;            ///< windows the guard sent back in parts of three nodes
-  std::size_t fallbacks = 0;        ///< pieces that are no graph
+  std::size_t fallbacks = 0;        ///< pieces that are no curve of a family
+  std::size_t refused = 0;          ///< windows whose families all refused: a polynomial instead
+  std::size_t chords = 0;           ///< pieces that are straight lines by the short policy
+
+  void keep(const Window& window, const PlanarPiece& piece) {
+    windows.push_back(window);
+    pieces.push_back(piece);
+  }
 };
 
-/// Family by N: parabola for 3, cubic for 4 (both through their nodes), cubic by least squares
-/// for 5. A window that is no graph is split into windows of three nodes; those that are none
-/// either take the fallback. O(nodes).
+/// A guarded window that is no graph is split into windows of three nodes; those that are none
+/// either take the fallback. Unguarded, whatever can be solved is taken and the rest is the
+/// spline. A family other than a polynomial that leaves the spline, on the edges it is asked for,
+/// by more than a quarter of its chord is refused when guarded. O(nodes).
 PlanarFit fit_planar(const Nodes& nodes,
                      std::span<const NodeRange> segments,
                      const NodeSpline& spline,
                      const Vector3& up,
-                     std::size_t N,
-                     Fallback fallback);
+                     const PlanarRule& rule);
 
 }  // namespace loopbench::manifold

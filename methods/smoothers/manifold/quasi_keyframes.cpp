@@ -30,10 +30,28 @@ Trajectory::const_iterator nearest(Trajectory::const_iterator begin,
 
 }  // namespace
 
+std::size_t insert_frames(const StampedPose& here,
+                          const StampedPose& next,
+                          std::size_t parts,
+                          const Trajectory& frames,
+                          Trajectory& out) {
+  const auto earlier = [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
+  auto begin = std::upper_bound(frames.begin(), frames.end(), here, earlier);
+  const auto end = std::lower_bound(begin, frames.end(), next, earlier);
+  std::size_t inserted = 0;
+  for (std::size_t part = 1; part < parts && begin != end; ++part) {
+    const double share = static_cast<double>(part) / static_cast<double>(parts);
+    const auto frame = nearest(begin, end, std::lerp(here.stamp, next.stamp, share));
+    out.push_back(*frame);
+    ++inserted;
+    begin = std::next(frame);
+  }
+  return inserted;
+}
+
 Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
   Densified out;
   out.nodes.reserve(problem.keyframes.size());
-  const auto earlier = [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
     const StampedPose& here = problem.keyframes[i];
     out.nodes.push_back(here);
@@ -41,16 +59,13 @@ Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
     const StampedPose& next = problem.keyframes[i + 1];
     const double parts = parts_wanted(here, next, rule);
     if (parts < 2.0) continue;
-    const auto& frames = problem.frames;
-    auto begin = std::upper_bound(frames.begin(), frames.end(), here, earlier);
-    const auto end = std::lower_bound(begin, frames.end(), next, earlier);
-    if (begin == end) ++out.gaps_left;
-    for (double part = 1.0; part < parts && begin != end; ++part) {
-      const auto frame = nearest(begin, end, std::lerp(here.stamp, next.stamp, part / parts));
-      out.nodes.push_back(*frame);
-      ++out.inserted;
-      begin = std::next(frame);
-    }
+    // No gap holds more frames than there are: a rule near zero asks for no end of parts.
+    const auto wanted =
+        static_cast<std::size_t>(std::min(parts, static_cast<double>(problem.frames.size()) + 1.0));
+    const std::size_t inserted =
+        insert_frames(here, next, std::max<std::size_t>(wanted, 2), problem.frames, out.nodes);
+    out.inserted += inserted;
+    if (inserted == 0) ++out.gaps_left;
   }
   return out;
 }

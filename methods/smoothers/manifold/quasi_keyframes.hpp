@@ -18,6 +18,14 @@ struct Densified {
   std::size_t gaps_left = 0;  ///< gaps over the rule that no tracked frame lies in
 };
 
+/// The time from one pose to another cut into equal `parts`, the tracked frame strictly between
+/// nearest to each cut appended to `out`, none twice. Returns how many. O(parts log frames).
+std::size_t insert_frames(const StampedPose& here,
+                          const StampedPose& next,
+                          std::size_t parts,
+                          const Trajectory& frames,
+                          Trajectory& out);
+
 /// A gap is cut into equal parts that obey the rule and the tracked frame nearest to each cut is
 /// taken; never an interpolated pose. Source: paper section 3.3, where the choice is by hand.
 /// O(keyframes log frames).

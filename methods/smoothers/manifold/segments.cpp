@@ -1,6 +1,7 @@
 #include "methods/smoothers/manifold/segments.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace loopbench::manifold {
 namespace {
@@ -11,28 +12,62 @@ double mean_speed(const Nodes& nodes) {
   return length / (nodes.stamps.back() - nodes.stamps.front());
 }
 
+/// The speeds of the open segment, as far as the rules want to know them.
+struct Speeds {
+  double slowest, fastest, last, sum;
+  double count = 1.0;
+
+  explicit Speeds(double first) : slowest(first), fastest(first), last(first), sum(first) {}
+
+  bool admit(double speed, double band, SpeedRule rule) const {
+    switch (rule) {
+      case SpeedRule::adjacent:
+        return std::abs(speed - last) <= band;
+      case SpeedRule::bins:
+        return band == 0.0 || std::floor(speed / band) == std::floor(last / band);
+      case SpeedRule::running_mean:
+        return std::abs(speed - sum / count) <= band;
+      case SpeedRule::absolute:
+        return (speed > band) == (last > band);
+      default:
+        return std::max(fastest, speed) - std::min(slowest, speed) <= band;
+    }
+  }
+  void add(double speed) {
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+    last = speed;
+    sum += speed;
+    ++count;
+  }
+};
+
 }  // namespace
 
-std::vector<NodeRange> segments(const Nodes& nodes, const SegmentRule& rule) {
+std::vector<NodeRange> segments(const Nodes& nodes,
+                                const SegmentRule& rule,
+                                std::span<const double> kappa) {
   const double band = rule.speed_band ? *rule.speed_band : mean_speed(nodes);
   std::vector<NodeRange> out;
   std::size_t first = 0;
-  double slowest = 0.0;
-  double fastest = 0.0;
+  Speeds speeds(0.0);
   for (std::size_t edge = 0; edge + 1 < nodes.size(); ++edge) {
     const double speed = nodes.step(edge).norm() / nodes.duration(edge);
-    if (edge > first) {
-      const double range = std::max(fastest, speed) - std::min(slowest, speed);
-      if (range > band || turn_between(nodes.step(edge - 1), nodes.step(edge)) > rule.turn_max) {
-        out.push_back({first, edge});
-        first = edge;
-      }
+    if (edge > first && speeds.admit(speed, band, rule.speed) && !(kappa[edge] > rule.turn_max)) {
+      speeds.add(speed);
+      continue;
     }
-    slowest = edge == first ? speed : std::min(slowest, speed);
-    fastest = edge == first ? speed : std::max(fastest, speed);
+    if (edge > first) out.push_back({first, edge});
+    first = edge;
+    speeds = Speeds(speed);
   }
   out.push_back({first, nodes.size() - 1});
   return out;
+}
+
+std::vector<NodeRange> segments(const Nodes& nodes, const SegmentRule& rule) {
+  return segments(
+      nodes, rule, kappas(nodes, {}, Kappa::turn_per_kf, Plane::space, Vector3::UnitZ()));
 }
 
 }  // namespace loopbench::manifold

@@ -30,14 +30,19 @@ bool is_tame(const Height::Surface& surface,
   return true;
 }
 
-std::optional<Height::Surface> fit_surface(const Nodes& nodes, NodeRange range, const Vector3& up) {
-  const auto frame = chord_frame(nodes, range, up);
+std::optional<Height::Surface> fit_surface(const Nodes& nodes,
+                                           const Window& window,
+                                           const Vector3& up,
+                                           const SpatialRule& rule) {
+  const auto frame = fitting_frame(rule.axes, nodes, window.fitted, up);
   if (!frame) return std::nullopt;
   std::vector<double> heights;
-  for (std::size_t i = range.first; i <= range.last; ++i) {
+  std::vector<Vector2> points;
+  for (const std::size_t i : picked(window)) {
     heights.push_back(up.dot(nodes.points[i]));
+    points.push_back(frame->local(nodes.points[i]));
   }
-  const auto quadric = fit_quadric(local(nodes, range, *frame), heights);
+  const auto quadric = fit_quadric(points, heights, rule.cut);
   if (!quadric) return std::nullopt;
   return Height::Surface{*frame, *quadric};
 }
@@ -48,13 +53,18 @@ SpatialFit fit_spatial(const Nodes& nodes,
                        std::span<const NodeRange> segments,
                        const NodeSpline& spline,
                        const Vector3& up,
-                       std::size_t M,
-                       bool guarded) {
+                       const SpatialRule& rule) {
   SpatialFit out;
   for (const NodeRange& segment : segments) {
-    for (const Window& window : windows(segment, M, nodes.size())) {
-      auto surface = fit_surface(nodes, window.fitted, up);
-      if (surface && guarded && !is_tame(*surface, nodes, window, spline, up)) surface.reset();
+    if (segment.nodes() < rule.plain_below) {
+      ++out.fallbacks;
+      out.windows.push_back({segment, segment});
+      out.pieces.emplace_back();
+      continue;
+    }
+    for (const Window& window : windows(segment, rule.size, nodes.size(), rule.scheme)) {
+      auto surface = fit_surface(nodes, window, up, rule);
+      if (surface && rule.guarded && !is_tame(*surface, nodes, window, spline, up)) surface.reset();
       if (!surface) ++out.fallbacks;
       if (surface && surface->quadric.rank < 6) ++out.truncated;
       out.windows.push_back(window);

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "methods/smoothers/manifold/families/quadric.hpp"
-#include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
+#include "methods/smoothers/manifold/windows.hpp"
 
 namespace loopbench::manifold {
 
@@ -17,12 +17,26 @@ struct Height {
     Quadric quadric;
 
     double height(const Vector3& point) const { return quadric(frame.local(point)); }
+    Jet<double> height(const Moving& point) const {
+      const Moving from_origin = point - frame.origin;
+      return quadric(along(frame.x, from_origin), along(frame.y, from_origin));
+    }
   };
   std::optional<Surface> surface;
 
-  double over(const Vector3& point, double own_height) const {
+  template <class T>
+  T over(const VectorOf<T>& point, const T& own_height) const {
     return surface ? surface->height(point) : own_height;
   }
+};
+
+struct SpatialRule {
+  std::size_t size = 7;  ///< M
+  Axes axes = Axes::chord;
+  bool guarded = true;
+  Scheme scheme = Scheme::consecutive;
+  double cut = kQuadricCut;     ///< weaker directions are dropped [of the strongest]
+  std::size_t plain_below = 0;  ///< segments of fewer nodes keep the height they have
 };
 
 struct SpatialFit {
@@ -40,7 +54,6 @@ SpatialFit fit_spatial(const Nodes& nodes,
                        std::span<const NodeRange> segments,
                        const NodeSpline& spline,
                        const Vector3& up,
-                       std::size_t M,
-                       bool guarded);
+                       const SpatialRule& rule);
 
 }  // namespace loopbench::manifold

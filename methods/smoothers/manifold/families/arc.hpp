@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "methods/smoothers/manifold/jet.hpp"
 #include "methods/smoothers/manifold/nodes.hpp"
 
 namespace loopbench::manifold {
@@ -15,7 +16,8 @@ struct Arc {
   std::array<double, 2> s{};            ///< first and second node [m]
   std::array<Vector3, 3> difference{};  ///< divided differences of order 0, 1, 2
 
-  Vector3 operator()(double way) const {
+  template <class T>
+  VectorOf<T> operator()(const T& way) const {
     return difference[0] + (way - s[0]) * (difference[1] + (way - s[1]) * difference[2]);
   }
 };

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+
 namespace loopbench::manifold {
 
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
@@ -14,8 +16,8 @@ Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
   out.scale = 0.5 * (right->x() - left->x());
 
   const Eigen::Index terms = std::min<Eigen::Index>(degree + 1, count);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 4> powers(count, terms);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> y(count);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNodes, 4> powers(count, terms);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1> y(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Vector2& point = points[static_cast<std::size_t>(i)];
     y[i] = point.y();

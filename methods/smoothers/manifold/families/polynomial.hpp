@@ -12,8 +12,9 @@ struct Polynomial {
   double scale = 1.0;                                      ///< half their range [m]
   Eigen::Vector4d coefficients = Eigen::Vector4d::Zero();  ///< of powers of u [m]
 
-  double operator()(double x) const {
-    const double u = (x - centre) / scale;
+  template <class T>
+  T operator()(const T& x) const {
+    const T u = (x - centre) / scale;
     const auto& a = coefficients;
     return a[0] + u * (a[1] + u * (a[2] + u * a[3]));
   }
@@ -21,7 +22,7 @@ struct Polynomial {
 
 /// Least squares in y by QR, x centred and scaled to [-1, 1]; with degree + 1 points it passes
 /// through all of them. The degree (1..3) is lowered to the number of points less one.
-/// Needs two points or more with distinct x, eight at most.
+/// Needs two points or more with distinct x, twelve at most.
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
 
 }  // namespace loopbench::manifold

@@ -2,12 +2,9 @@
 
 #include <Eigen/SVD>
 
+#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+
 namespace loopbench::manifold {
-namespace {
-
-constexpr double kWeakest = 1e-3;  // [of the largest singular value]
-
-}  // namespace
 
 Quadric::Coefficients Quadric::monomials(const Vector2& u) {
   Coefficients out;
@@ -15,7 +12,9 @@ Quadric::Coefficients Quadric::monomials(const Vector2& u) {
   return out;
 }
 
-std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z) {
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
+                                   std::span<const double> z,
+                                   double cut) {
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < 6) return std::nullopt;
   Vector2 low = points.front();
@@ -32,15 +31,15 @@ std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<co
   out.level = sum / static_cast<double>(count);
   if (!(out.scale > 0.0)) return std::nullopt;
 
-  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 8, 6> design(count, 6);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> height(count);
+  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMostNodes, 6> design(count, 6);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1> height(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     design.row(i) = Quadric::monomials((points[k] - out.centre) / out.scale).transpose();
     height[i] = z[k] - out.level;
   }
   Eigen::JacobiSVD<decltype(design)> svd(design, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(kWeakest);
+  svd.setThreshold(cut);
   out.coefficients = svd.solve(height);
   out.rank = static_cast<int>(svd.rank());
   return out;

@@ -5,8 +5,11 @@
 #include <span>
 
 #include "methods/smoothers/manifold/frame.hpp"
+#include "methods/smoothers/manifold/jet.hpp"
 
 namespace loopbench::manifold {
+
+constexpr double kQuadricCut = 1e-3;  ///< [of the largest singular value]
 
 struct Quadric {
   using Coefficients = Eigen::Matrix<double, 6, 1>;
@@ -20,14 +23,22 @@ struct Quadric {
   double operator()(const Vector2& point) const {
     return level + monomials((point - centre) / scale).dot(coefficients);
   }
+  Jet<double> operator()(const Jet<double>& x, const Jet<double>& y) const {
+    const Jet<double> u = (x - centre.x()) / scale;
+    const Jet<double> v = (y - centre.y()) / scale;
+    const Coefficients& c = coefficients;
+    return level + c[5] + u * (c[0] * u + c[2] * v + c[3]) + v * (c[1] * v + c[4]);
+  }
   static Coefficients monomials(const Vector2& u);
 };
 
 /// Least squares in z by truncated SVD: along a short path six nodes lie near a conic, where the
-/// full solution is noise blown up, so directions below 1/1000 of the strongest are dropped.
+/// full solution is noise blown up, so directions below `cut` of the strongest are dropped.
 /// Passes through six points when none is dropped. x and y share one scale: scaling each by
 /// itself would blow the noise across a straight path up to its length.
-/// Nothing when the points have no extent or are fewer than six; eight at most.
-std::optional<Quadric> fit_quadric(std::span<const Vector2> points, std::span<const double> z);
+/// Nothing when the points have no extent or are fewer than six; twelve at most.
+std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
+                                   std::span<const double> z,
+                                   double cut = kQuadricCut);
 
 }  // namespace loopbench::manifold

@@ -1,0 +1,57 @@
+/// The quintic between two pieces, and the ramp that moves a piece to where it should end.
+#pragma once
+
+#include <array>
+
+#include "methods/smoothers/manifold/jet.hpp"
+
+namespace loopbench::manifold {
+
+/// Asked at a time of type T, a Value or its Jet.
+template <class T, class Value>
+using Asked = std::conditional_t<std::is_same_v<T, double>, Value, Jet<Value>>;
+
+/// Quintic Hermite: value and two derivatives at both ends. Empty while begin == end.
+template <class Value>
+struct Bridge {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
+  std::array<Value, 6> c{};
+
+  Bridge() = default;
+  Bridge(double from, double to, const Jet<Value>& a, const Jet<Value>& b) : begin(from), end(to) {
+    const double h = end - begin;
+    const Value v0 = h * a.first, v1 = h * b.first;
+    const Value w0 = 0.5 * h * h * a.second, w1 = 0.5 * h * h * b.second;
+    const Value gap = b.value - a.value;
+    c = {a.value,
+         v0,
+         w0,
+         10.0 * gap - 6.0 * v0 - 4.0 * v1 - 3.0 * w0 + w1,
+         -15.0 * gap + 8.0 * v0 + 7.0 * v1 + 3.0 * w0 - 2.0 * w1,
+         6.0 * gap - 3.0 * v0 - 3.0 * v1 - w0 + w1};
+  }
+
+  bool spans(double time) const { return begin < time && time < end; }
+
+  template <class T>
+  Asked<T, Value> operator()(const T& time) const {
+    const T s = (time - begin) / (end - begin);
+    return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))));
+  }
+};
+
+/// What is added to a piece so that it meets its neighbours: linear over the time it owns.
+template <class Value>
+struct Ramp {
+  double from = 0.0, to = 1.0;  ///< [s]
+  Value begin{}, end{};
+
+  template <class T>
+  Asked<T, Value> operator()(const T& time) const {
+    const T s = (time - from) / (to - from);
+    return begin + s * Value(end - begin);
+  }
+};
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,33 @@
+#include "methods/smoothers/manifold/continuity.hpp"
+
+#include "methods/smoothers/manifold/frenet.hpp"
+
+namespace loopbench::manifold {
+
+Continuity continuity(const ManifoldCurve& curve) {
+  constexpr double standing = 1e-3;  // [of the mean speed]
+  const std::vector<double>& stamps = curve.stamps();
+  Continuity out;
+  double length = 0.0;
+  Vector3 last = curve.motion(0, stamps.front()).value;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const Vector3 here = curve.motion(i - 1, stamps[i]).value;
+    length += (here - last).norm();
+    last = here;
+  }
+  const double slowest = standing * length / (stamps.back() - stamps.front());
+  for (std::size_t i = 1; i + 1 < stamps.size(); ++i) {
+    const Moving a = curve.motion(i - 1, stamps[i]);
+    const Moving b = curve.motion(i, stamps[i]);
+    out.position = std::max(out.position, (b.value - a.value).norm());
+    out.velocity = std::max(out.velocity, (b.first - a.first).norm());
+    out.acceleration = std::max(out.acceleration, (b.second - a.second).norm());
+    if (!(a.first.norm() > slowest) || !(b.first.norm() > slowest)) continue;
+    out.slope = std::max(out.slope, turn_between(a.first, b.first));
+    const Vector3 bend = curvature_vector(b.first, b.second) - curvature_vector(a.first, a.second);
+    out.curvature = std::max(out.curvature, bend.norm());
+  }
+  return out;
+}
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,60 @@
+/// The family arc-poly: r(s) = c0 + c1 s + ... of degree 1 to 3, vector-valued, s the way along
+/// the nodes. No axis is singled out, so nothing has to be a graph.
+#pragma once
+
+#include <Eigen/QR>
+#include <optional>
+#include <span>
+
+#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+#include "methods/smoothers/manifold/jet.hpp"
+
+namespace loopbench::manifold {
+
+struct ArcPolynomial {
+  double centre = 0.0;                    ///< [m]
+  double scale = 1.0;                     ///< [m]
+  std::array<Vector3, 4> coefficients{};  ///< of powers of u = (s - centre) / scale [m]
+
+  template <class T>
+  VectorOf<T> operator()(const T& way) const {
+    const T u = (way - centre) / scale;
+    const auto& c = coefficients;
+    return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
+  }
+};
+
+/// Least squares in space by QR. The degree is lowered to the number of points less one. Nothing
+/// when two ways coincide; twelve points at most.
+inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> points,
+                                                       std::span<const double> ways,
+                                                       int degree) {
+  for (std::size_t i = 1; i < ways.size(); ++i) {
+    if (!(ways[i] > ways[i - 1])) return std::nullopt;
+  }
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index terms = std::min<Eigen::Index>(degree + 1, count);
+  ArcPolynomial out;
+  out.coefficients.fill(Vector3::Zero());
+  out.centre = 0.5 * (ways.front() + ways.back());
+  out.scale = 0.5 * (ways.back() - ways.front());
+  if (count < 2) return std::nullopt;
+  Slopes powers(count, terms);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostNodes, 3> right(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    right.row(i) = points[k].transpose();
+    powers(i, 0) = 1.0;
+    for (Eigen::Index j = 1; j < terms; ++j) {
+      powers(i, j) = powers(i, j - 1) * (ways[k] - out.centre) / out.scale;
+    }
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostParameters, 3> solved =
+      powers.householderQr().solve(right);
+  for (Eigen::Index j = 0; j < terms; ++j) {
+    out.coefficients[static_cast<std::size_t>(j)] = solved.row(j).transpose();
+  }
+  return out;
+}
+
+}  // namespace loopbench::manifold

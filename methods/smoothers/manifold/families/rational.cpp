@@ -1,0 +1,67 @@
+#include "methods/smoothers/manifold/families/rational.hpp"
+
+#include <Eigen/QR>
+
+#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+bool has_pole(double q1, double q2) {
+  const double under = 0.25 * q1 * q1 - q2;
+  if (under < 0.0) return false;
+  constexpr double reach = 1.0 + 2.0 * kPoleMargin;  // u runs from -1 to 1
+  const double root = std::sqrt(under);
+  return std::abs(-0.5 * q1 - root) <= reach || std::abs(-0.5 * q1 + root) <= reach;
+}
+
+}  // namespace
+
+std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level) {
+  const Eigen::Index unknowns = with_level ? 4 : 3;
+  const auto count = static_cast<Eigen::Index>(points.size());
+  if (count < unknowns + 1 || count > kMostNodes) return std::nullopt;
+  const Extent extent(points);
+  Rational out;
+  out.centre = extent.centre().x();
+  out.scale = 0.5 * extent.size().x();
+  if (!(out.scale > 0.0)) return std::nullopt;
+  const auto u = [&](Eigen::Index i) {
+    return (points[static_cast<std::size_t>(i)].x() - out.centre) / out.scale;
+  };
+  const auto y = [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)].y(); };
+
+  // y (u^2 + q1 u + q2) = p + d (...): without d linear in q1, q2, p.
+  Slopes design(count, 3);
+  Residuals right(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    design.row(i) << u(i) * y(i), y(i), -1.0;
+    right[i] = -y(i) * u(i) * u(i);
+  }
+  Parameters start = Parameters::Zero(unknowns);
+  start.head(3) = design.colPivHouseholderQr().solve(right);
+  // From across a pole no descent leads back: begin with a wide bell instead.
+  if (!start.allFinite() || has_pole(start[0], start[1])) start.head(3) << 0.0, 4.0, 4.0 * y(0);
+
+  const Parameters q = levenberg_marquardt(start, count, [&](const auto& q_, auto& r, auto& J) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double inverse = 1.0 / (u(i) * (u(i) + q_[0]) + q_[1]);
+      const double value = q_[2] * inverse;
+      r[i] = value - y(i);
+      J(i, 0) = -value * inverse * u(i);
+      J(i, 1) = -value * inverse;
+      J(i, 2) = inverse;
+      if (unknowns < 4) continue;
+      r[i] += q_[3];
+      J(i, 3) = 1.0;
+    }
+  });
+  if (!q.allFinite() || has_pole(q[0], q[1])) return std::nullopt;
+  out.q1 = q[0];
+  out.q2 = q[1];
+  out.p = q[2];
+  if (with_level) out.level = q[3];
+  return out;
+}
+
+}  // namespace loopbench::manifold

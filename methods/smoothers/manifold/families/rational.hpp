@@ -1,0 +1,32 @@
+/// The family rat02: y = p / (x^2 + q1 x + q2) [+ d].
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "methods/smoothers/manifold/families/extent.hpp"
+#include "methods/smoothers/manifold/jet.hpp"
+
+namespace loopbench::manifold {
+
+/// Kept about the middle of the window: the coefficients in x follow by shifting.
+struct Rational {
+  double centre = 0.0;  ///< [m]
+  double scale = 1.0;   ///< [m]; u = (x - centre) / scale
+  double p = 0.0;       ///< [m]
+  double q1 = 0.0, q2 = 1.0;
+  double level = 0.0;  ///< d [m]; 0 in the article
+
+  template <class T>
+  T operator()(const T& x) const {
+    const T u = (x - centre) / scale;
+    return level + p / (u * (u + q1) + q2);
+  }
+};
+
+/// Least squares in y by Levenberg-Marquardt from the linearised solution. Four points or more
+/// with distinct x, one more `with_level`. Nothing when the denominator has a real root in the
+/// range of x or half a range beside it.
+std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level);
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,90 @@
+#include "methods/smoothers/manifold/family.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "datasets/core/fields.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+int degree(Family family, std::size_t nodes) {
+  if (family == Family::line) return 1;
+  if (family == Family::by_n) return nodes > 3 ? 3 : 2;
+  return family == Family::poly2 ? 2 : 3;
+}
+
+// Unpivoted QR on equal x divides by nothing: such a fit is none.
+bool is_sound(const Polynomial& curve) {
+  return curve.scale > 0.0 && curve.coefficients.allFinite();
+}
+
+template <class Function>
+std::optional<PlanarPiece> graph(const Frame& frame, const std::optional<Function>& curve) {
+  if (!curve) return std::nullopt;
+  return Graph<Function>{frame, *curve};
+}
+
+}  // namespace
+
+std::vector<Family> read_families(const std::string& names) {
+  std::string words = names;
+  std::replace(words.begin(), words.end(), ',', ' ');
+  std::istringstream in(words);
+  std::vector<Family> out;
+  for (std::string word; in >> word;) {
+    const auto family = from_text<Family>(word);
+    if (!family) {
+      throw OptionError(
+          "families", "families = " + names + ": " + word + " is none of " + choice_list<Family>());
+    }
+    out.push_back(*family);
+  }
+  if (out.empty()) throw OptionError("families", "families: expected one name or more");
+  return out;
+}
+
+bool is_polynomial(Family family) {
+  return family == Family::by_n || family == Family::line || family == Family::poly2 ||
+         family == Family::poly3;
+}
+
+std::size_t unknowns(Family family, std::size_t nodes, const FamilyRule& rule) {
+  if (is_polynomial(family)) return static_cast<std::size_t>(degree(family, nodes)) + 1;
+  if (family == Family::hyperbola) return 3;
+  if (family == Family::implicit) {
+    return static_cast<std::size_t>(implicit_terms(rule.implicit_order)) - 1;
+  }
+  return rule.level ? 4 : 3;
+}
+
+std::optional<PlanarPiece> fit_family(Family family,
+                                      const Frame& frame,
+                                      std::span<const Vector2> points,
+                                      const FamilyRule& rule) {
+  switch (family) {
+    case Family::sin1:
+      return graph(frame, fit_sine(points, rule.level));
+    case Family::rat02:
+      return graph(frame, fit_rational(points, rule.level));
+    case Family::hyperbola:
+      return graph(frame, fit_hyperbola(points));
+    case Family::implicit: {
+      const auto curve = fit_implicit(points, rule.implicit_order);
+      return curve ? std::optional<PlanarPiece>(AsImplicit{frame, *curve}) : std::nullopt;
+    }
+    default: {
+      const Polynomial curve = fit_polynomial(points, degree(family, points.size()));
+      return is_sound(curve) ? graph(frame, std::optional(curve)) : std::nullopt;
+    }
+  }
+}
+
+std::optional<PlanarPiece> fit_along(Family family,
+                                     std::span<const Vector3> points,
+                                     std::span<const double> ways) {
+  const auto curve = fit_arc_polynomial(points, ways, degree(family, points.size()));
+  return curve ? std::optional<PlanarPiece>(AsArcPolynomial{*curve}) : std::nullopt;
+}
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,58 @@
+#include "methods/smoothers/manifold/kappa.hpp"
+
+#include "methods/smoothers/manifold/frenet.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+Nodes levelled(Nodes nodes, const Vector3& up) {
+  for (Vector3& point : nodes.points) point -= up.dot(point) * up;
+  return nodes;
+}
+
+double rotation(const Trajectory& poses, std::size_t i) {
+  return 0.5 * angle_between(poses[i - 1].world_from_body.rotation,
+                             poses[i + 1].world_from_body.rotation);
+}
+
+}  // namespace
+
+std::vector<double> kappas(
+    const Nodes& given, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up) {
+  const Nodes nodes = plane == Plane::plane ? levelled(given, up) : given;
+  std::vector<double> out(nodes.size(), 0.0);
+  std::optional<NodeSpline> spline;
+  if (definition == Kappa::analytic_spline) spline.emplace(nodes);
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    const Vector3 before = nodes.step(i - 1);
+    const Vector3 after = nodes.step(i);
+    const double turn = turn_between(before, after);
+    switch (definition) {
+      case Kappa::turn_per_kf:
+        out[i] = turn;
+        break;
+      case Kappa::menger:
+        out[i] = discrete_curvature(nodes.points[i - 1], nodes.points[i], nodes.points[i + 1]);
+        break;
+      case Kappa::dtheta_ds: {
+        const double way = 0.5 * (before.norm() + after.norm());
+        out[i] = way > 0.0 ? turn / way : 0.0;
+        break;
+      }
+      case Kappa::dtheta_dt:
+        out[i] = 2.0 * turn / (nodes.stamps[i + 1] - nodes.stamps[i - 1]);
+        break;
+      case Kappa::analytic_spline: {
+        const Moving motion = spline->at(i, moving_time(nodes.stamps[i])).point;
+        out[i] = curvature(motion.first, motion.second);
+        break;
+      }
+      case Kappa::rotation_per_kf:
+        out[i] = rotation(poses, i);
+        break;
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench::manifold

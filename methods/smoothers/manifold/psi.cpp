@@ -1,0 +1,132 @@
+#include "methods/smoothers/manifold/psi.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace loopbench::manifold {
+namespace {
+
+constexpr double kFades = 1.0;  // [s]
+
+void add(std::vector<Vector3>& out, const Vector3& direction, const Vector3& displacement) {
+  if (!(direction.norm() > 0.0)) return;
+  const Vector3 unit = direction.normalized();
+  out.push_back(unit.dot(displacement) < 0.0 ? Vector3(-unit) : unit);
+}
+
+NodeRange around(const Nodes& nodes, std::size_t node, std::size_t half) {
+  return {node - std::min(node, half), std::min(node + half, nodes.size() - 1)};
+}
+
+Vector3 widest(const Nodes& nodes, NodeRange range) {
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t i = range.first; i <= range.last; ++i) mean += nodes.points[i];
+  mean /= static_cast<double>(range.nodes());
+  Matrix3 covariance = Matrix3::Zero();
+  for (std::size_t i = range.first; i <= range.last; ++i) {
+    covariance += (nodes.points[i] - mean) * (nodes.points[i] - mean).transpose();
+  }
+  if (!(covariance.trace() > 0.0)) return Vector3::Zero();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(covariance);
+  return solver.eigenvectors().col(2);
+}
+
+}  // namespace
+
+double spread(const Vector3& psi, std::span<const WeightedDirection> chords) {
+  double sum = 0.0;
+  for (const auto& [direction, weight] : chords) {
+    const double angle = turn_between(psi, direction);
+    sum += weight * angle * angle;
+  }
+  return sum;
+}
+
+Vector3 frechet_mean(std::span<const WeightedDirection> directions) {
+  Vector3 mean = Vector3::Zero();
+  double weights = 0.0;
+  for (const auto& [direction, weight] : directions) {
+    mean += weight * direction;
+    weights += weight;
+  }
+  if (!(mean.norm() > 0.0)) return Vector3::Zero();
+  mean.normalize();
+  for (int step = 0; step < 5; ++step) {
+    Vector3 pull = Vector3::Zero();  // the mean of the logarithms, in the tangent plane
+    for (const auto& [direction, weight] : directions) {
+      const Vector3 off = direction - mean.dot(direction) * mean;
+      if (off.norm() > 0.0) pull += weight * turn_between(mean, direction) * off.normalized();
+    }
+    pull /= weights;
+    const double angle = pull.norm();
+    if (!(angle > 0.0)) break;
+    mean = (std::cos(angle) * mean + std::sin(angle) / angle * pull).normalized();
+  }
+  return mean;
+}
+
+std::vector<WeightedDirection> chords_around(const Nodes& nodes,
+                                             std::size_t node,
+                                             std::size_t half) {
+  std::vector<WeightedDirection> out;
+  const NodeRange range = around(nodes, node, half);
+  for (std::size_t edge = range.first; edge < range.last; ++edge) {
+    const double middle = 0.5 * (nodes.stamps[edge] + nodes.stamps[edge + 1]);
+    const Vector3 step = nodes.step(edge);
+    if (!(step.norm() > 0.0)) continue;
+    out.push_back({step.normalized(), std::exp(-std::abs(middle - nodes.stamps[node]) / kFades)});
+  }
+  return out;
+}
+
+std::vector<Vector3> candidates(const Nodes& nodes,
+                                const NodeSpline& spline,
+                                std::size_t node,
+                                std::size_t half) {
+  const NodeRange near = around(nodes, node, 1);
+  const NodeRange wide = around(nodes, node, half);
+  const Vector3 displacement = nodes.points[wide.last] - nodes.points[wide.first];
+  std::vector<Vector3> out;
+  add(out, nodes.points[node] - nodes.points[near.first], displacement);
+  add(out, nodes.points[near.last] - nodes.points[node], displacement);
+  add(out, nodes.points[near.last] - nodes.points[near.first], displacement);
+  add(out, widest(nodes, wide), displacement);
+  const std::size_t edge = std::min(node, nodes.size() - 2);
+  add(out, spline.at(edge, moving_time(nodes.stamps[node])).point.first, displacement);
+  return out;
+}
+
+Vector3 optimal_tangent(const Nodes& nodes,
+                        const NodeSpline& spline,
+                        std::size_t node,
+                        std::size_t half,
+                        PsiMean mean) {
+  const auto chords = chords_around(nodes, node, half);
+  if (chords.empty()) return Vector3::Zero();
+  if (mean == PsiMean::frechet) return frechet_mean(chords);
+  const auto all = candidates(nodes, spline, node, half);
+  if (all.empty()) return Vector3::Zero();
+  return *std::min_element(all.begin(), all.end(), [&](const Vector3& a, const Vector3& b) {
+    return spread(a, chords) < spread(b, chords);
+  });
+}
+
+std::vector<Clamp> clamps(const Nodes& nodes,
+                          const NodeSpline& spline,
+                          std::span<const NodeRange> segments,
+                          std::size_t half,
+                          PsiMean mean) {
+  std::vector<Clamp> out;
+  const auto clamp = [&](std::size_t node) {
+    const NodeRange near = around(nodes, node, 1);
+    double length = 0.0;
+    for (std::size_t edge = near.first; edge < near.last; ++edge) length += nodes.step(edge).norm();
+    const double speed = length / (nodes.stamps[near.last] - nodes.stamps[near.first]);
+    out.push_back({node, speed * optimal_tangent(nodes, spline, node, half, mean)});
+  };
+  clamp(segments.front().first);
+  for (const NodeRange& segment : segments) clamp(segment.last);
+  return out;
+}
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,113 @@
+/// Pieces laid end to end in time with a joint between each two.
+#pragma once
+
+#include <vector>
+
+#include "methods/smoothers/manifold/bridge.hpp"
+#include "methods/smoothers/manifold/joints.hpp"
+
+namespace loopbench::manifold {
+
+template <class Piece, class Value>
+struct Strip {
+  std::vector<Piece> pieces;
+  std::vector<Joint> joints;  ///< joints[k] is between pieces k and k + 1
+  std::vector<std::uint32_t> piece_of_edge;
+  std::vector<Ramp<Value>> ramps;      ///< one a piece, or none at all
+  std::vector<Bridge<Value>> bridges;  ///< one a joint, or none at all
+
+  /// Piece k and its ramp.
+  template <class T, class Ask>
+  Asked<T, Value> alone(std::size_t k, const T& time, Ask ask) const {
+    if (ramps.empty()) return ask(pieces[k]);
+    return ask(pieces[k]) + ramps[k](time);
+  }
+
+  /// `ask(piece)` blended or bridged where pieces meet. Blended pieces that meet in a node which
+  /// both pass through leave it where it is, whatever the weights. O(1), three pieces at most.
+  template <class T, class Ask>
+  Asked<T, Value> at(std::size_t edge, const T& time, Ask ask) const {
+    const std::size_t k = piece_of_edge[edge];
+    const double now = value_of(time);
+    if (!bridges.empty()) {
+      if (k > 0 && bridges[k - 1].spans(now)) return bridges[k - 1](time);
+      if (k < bridges.size() && bridges[k].spans(now)) return bridges[k](time);
+    }
+    Asked<T, Value> out = alone(k, time, ask);
+    if (k > 0 && now < joints[k - 1].end) {
+      const T w = joints[k - 1].weight(time);
+      out = (1.0 - w) * alone(k - 1, time, ask) + w * out;
+    }
+    if (k < joints.size() && now > joints[k].begin) {
+      const T w = joints[k].weight(time);
+      out = (1.0 - w) * out + w * alone(k + 1, time, ask);
+    }
+    return out;
+  }
+};
+
+/// How windows are laid and meet.
+struct Laying {
+  JointRule rule;
+  Scheme scheme = Scheme::consecutive;
+  std::size_t size = 4;  ///< nodes of a window
+};
+
+/// Pieces and the windows they were fitted to, both in time order and covering every edge.
+/// `ask(piece, edge, time)` is the piece at a Jet of time: what ramps and bridges are made from.
+template <class Value, class Piece, class Ask>
+Strip<Piece, Value> laid(const Nodes& nodes,
+                         const std::vector<Window>& windows,
+                         std::vector<Piece> pieces,
+                         const Laying& laying,
+                         Ask ask) {
+  Strip<Piece, Value> out;
+  out.pieces = std::move(pieces);
+  out.piece_of_edge.reserve(nodes.size());
+  const bool ramped = laying.rule.meet == Meet::c0 || laying.rule.c0_below;
+  if (ramped) out.ramps.resize(windows.size());
+  if (laying.rule.meet == Meet::quintic_bridge) out.bridges.resize(windows.size() - 1);
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const NodeRange& owned = windows[k].owned;
+    out.piece_of_edge.resize(owned.last, static_cast<std::uint32_t>(k));
+    if (ramped) {
+      out.ramps[k].from = nodes.stamps[owned.first];
+      out.ramps[k].to = nodes.stamps[owned.last];
+      if constexpr (!std::is_same_v<Value, double>) {
+        out.ramps[k].begin.setZero();
+        out.ramps[k].end.setZero();
+      }
+    }
+    if (k == 0) continue;
+    const double now = nodes.stamps[owned.first];
+    const Meet meet = laying.rule.at(nodes, owned.first);
+    if (meet == Meet::c0) {
+      const auto before = ask(out.pieces[k - 1], owned.first - 1, moving_time(now));
+      const auto after = ask(out.pieces[k], owned.first, moving_time(now));
+      const Value half = 0.5 * (after.value - before.value);
+      out.ramps[k - 1].end = half;
+      out.ramps[k].begin = -half;
+    }
+    if (meet != Meet::overlap_blend) {
+      out.joints.push_back({now, now});
+    } else if (laying.scheme == Scheme::sliding_blend) {
+      out.joints.push_back(sliding_joint(nodes, windows[k], laying.size));
+    } else {
+      out.joints.push_back(joint_between(nodes, windows[k - 1], windows[k]));
+    }
+  }
+  for (std::size_t k = 0; k < out.bridges.size(); ++k) {
+    const std::size_t node = windows[k + 1].owned.first;
+    if (laying.rule.at(nodes, node) != Meet::quintic_bridge) continue;
+    const double half = 0.5 * std::min(nodes.duration(node - 1), nodes.duration(node));
+    const auto begin = moving_time(nodes.stamps[node] - half);
+    const auto end = moving_time(nodes.stamps[node] + half);
+    const auto asked = [&](std::size_t piece, std::size_t edge, const Jet<double>& time) {
+      return out.alone(piece, time, [&](const Piece& p) { return ask(p, edge, time); });
+    };
+    out.bridges[k] = {begin.value, end.value, asked(k, node - 1, begin), asked(k + 1, node, end)};
+  }
+  return out;
+}
+
+}  // namespace loopbench::manifold

@@ -1,0 +1,239 @@
+/// Every switch of the manifold smoother turned, one at a time.
+#include <gtest/gtest.h>
+
+#include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/continuity.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
+#include "methods/smoothers/manifold/moving_frames.hpp"
+
+namespace loopbench {
+namespace {
+
+using Text = std::string;
+
+struct Switch {
+  Text name;
+  Params params;
+};
+void PrintTo(const Switch& one, std::ostream* out) { *out << one.name; }
+
+std::vector<Switch> switches() {
+  std::vector<Switch> out;
+  const auto add = [&](Params params) {
+    Text name;
+    for (const auto& [key, value] : params)
+      name += (name.empty() ? "" : "_") + key + "_" + to_text(value);
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    out.push_back({name, std::move(params)});
+  };
+  const auto five = std::int64_t{5}, six = std::int64_t{6};
+  for (const char* v : {"consecutive", "sliding_blend", "one_per_segment"})
+    add({{"scheme", Text(v)}});
+  add({{"scheme", Text("sliding_blend")}, {"planar", five}});
+  for (const char* v : {"chord", "pca", "parametric"}) add({{"frame", Text(v)}});
+  add({{"abscissa", Text("polyline")}});
+  for (const char* v : {"overlap_blend", "quintic_bridge", "c0", "none"}) {
+    add({{"joint", Text(v)}, {"planar", five}});
+    add({{"joint", Text(v)}, {"planar", std::int64_t{0}}, {"spatial", std::int64_t{7}}});
+  }
+  add({{"joint", Text("constrained_ls")}, {"frame", Text("parametric")}});
+  add({{"low_speed_c0_below", 0.3}, {"planar", five}});
+  for (const char* v : {"line", "poly2", "poly3"}) add({{"families", Text(v)}, {"planar", five}});
+  for (const char* v : {"sin1 poly3", "rat02 poly3", "hyperbola poly3", "implicit poly3"}) {
+    add({{"families", Text(v)}, {"planar", six}});
+  }
+  add({{"families", Text("sin1 rat02")}, {"planar", six}, {"level", true}});
+  for (const char* v : {"aicc", "loocv"}) {
+    add({{"selection", Text(v)}, {"families", Text("line poly2 poly3 sin1")}, {"planar", six}});
+  }
+  for (const char* v : {"adjacent", "bins", "running_mean", "absolute"})
+    add({{"speed_rule", Text(v)}});
+  for (const char* v : {"menger", "dtheta_ds", "dtheta_dt", "analytic_spline", "rotation_per_kf"}) {
+    add({{"kappa", Text(v)}});
+  }
+  add({{"kappa_plane", Text("xy")}});
+  for (const char* v : {"merge", "polyline", "quasi_keyframes"}) add({{"short_policy", Text(v)}});
+  for (const char* v : {"discrete", "frechet"}) {
+    add({{"psi", Text("boundary_tangent")}, {"psi_mean", Text(v)}});
+  }
+  for (const std::int64_t k : {2, 3, 5, 6}) add({{"spline_order", k}});
+  add({{"guard", false}});
+  add({{"planar", std::int64_t{3}}, {"spatial", std::int64_t{8}}, {"height_guard", false}});
+  return out;
+}
+
+class EverySwitch : public testing::TestWithParam<Switch> {
+ protected:
+  std::unique_ptr<const Curve> smoothed(const Problem& problem) {
+    report_ = {};
+    return Dm(with(Dm::Options{}, GetParam().params)).smooth(problem, report_);
+  }
+  double counted(const Text& name) const {
+    for (const Count& count : report_.counts) {
+      if (count.name == name) return count.value;
+    }
+    ADD_FAILURE() << "no count " << name;
+    return -1.0;
+  }
+  Text given(const Text& name) const {
+    const auto found = GetParam().params.find(name);
+    return found == GetParam().params.end() ? "" : to_text(found->second);
+  }
+  Report report_;
+};
+INSTANTIATE_TEST_SUITE_P(Dm, EverySwitch, testing::ValuesIn(switches()), [](const auto& one) {
+  return one.param.name;
+});
+
+TEST_P(EverySwitch, MovesWithTheWorld) {
+  const Problem problem = keyframes_only(wandering(60, 3));
+  const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
+  const auto here = smoothed(problem);
+  const auto there = smoothed(moved_by(there_from_here, problem));
+  for (const double t : times_over(problem.keyframes, 313)) {
+    const Pose expected = there_from_here * here->at(t);
+    EXPECT_LT((there->at(t).translation - expected.translation).norm(), 1e-6) << t;
+  }
+}
+
+TEST_P(EverySwitch, LeavesUniformMotionAlone) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < 20; ++i) points.push_back(Vector3(5, 1, 2) + i * Vector3(0.3, -0.2, 0.1));
+  const auto curve = smoothed(keyframes_only(through(points)));
+  for (double t = 0.0; t <= 19.0; t += 0.13) {
+    EXPECT_LT((curve->at(t).translation - Vector3(5, 1, 2) - t * Vector3(0.3, -0.2, 0.1)).norm(),
+              1e-8);
+  }
+}
+
+TEST_P(EverySwitch, MotionIsTheDerivativeOfWhatIsSampled) {
+  const Problem problem = keyframes_only(wandering(40, 6));
+  const auto curve = smoothed(problem);
+  const auto& own = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
+  const double h = 1e-5;
+  for (std::size_t edge = 0; edge + 1 < own.stamps().size(); ++edge) {
+    const double t = std::lerp(own.stamps()[edge], own.stamps()[edge + 1], 0.37);
+    const auto motion = own.motion(edge, t);
+    const Vector3 slope = (curve->at(t + h).translation - curve->at(t - h).translation) / (2 * h);
+    EXPECT_LT((motion.value - curve->at(t).translation).norm(), 1e-12);
+    EXPECT_LT((motion.first - slope).norm(), 1e-5 * (1.0 + motion.second.norm())) << edge;
+  }
+}
+
+TEST_P(EverySwitch, JumpsAtNodesAreWhatTheJointPromises) {
+  smoothed(keyframes_only(wandering(60, 5)));
+  const Text joint = given("joint");
+  const bool straight = given("abscissa") == "polyline" || given("spline_order") == "2";
+  if (joint != "none") {
+    EXPECT_LT(counted("jump_position"), 1e-9);
+  }
+  if (straight || joint == "none" || joint == "c0" || !given("low_speed_c0_below").empty()) {
+    EXPECT_GT(counted("jump_velocity"), 1e-3);
+    return;
+  }
+  EXPECT_LT(counted("jump_velocity"), 1e-7);
+  EXPECT_LT(counted("jump_slope"), 1e-6);
+  if (!given("psi").empty()) {
+    EXPECT_GT(counted("jump_acceleration"), 1e-2);  // clamped ends are C1
+    return;
+  }
+  EXPECT_LT(counted("jump_acceleration"), 1e-6);
+  EXPECT_LT(counted("jump_curvature"), 1e-4);
+}
+
+TEST(DmSwitches, QuinticBridgesAreC2WhereTheyBeginToo) {
+  const Problem problem = keyframes_only(wandering(40, 7));
+  Dm::Options options{.planar = 5};
+  options.joint.meet = manifold::Meet::quintic_bridge;
+  Report report;
+  const auto curve = Dm(options).smooth(problem, report);
+  const auto& own = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
+  const auto& t = own.stamps();
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    const double half = 0.5 * std::min(t[i] - t[i - 1], t[i + 1] - t[i]);
+    for (const auto& [edge, at] : {std::pair{i - 1, t[i] - half}, std::pair{i, t[i] + half}}) {
+      const auto before = own.motion(edge, at - 1e-9);
+      const auto after = own.motion(edge, at + 1e-9);
+      EXPECT_LT((after.first - before.first).norm(), 1e-6);
+      EXPECT_LT((after.second - before.second).norm(), 1e-4);
+    }
+  }
+}
+
+TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
+  const Trajectory keyframes = wandering(50, 12);
+  for (const char* frame : {"chord", "pca", "parametric", "world"}) {
+    for (const std::int64_t N : {3, 4}) {
+      Report report;
+      const auto curve = Dm(with(Dm::Options{}, {{"frame", Text(frame)}, {"planar", N}}))
+                             .smooth(keyframes_only(keyframes), report);
+      for (const auto& [stamp, pose] : keyframes) {
+        EXPECT_LT((curve->at(stamp).translation - pose.translation).norm(), 1e-9) << frame;
+      }
+    }
+  }
+}
+
+TEST(DmSwitches, LiteralReadsYAtWorldXAndDependsOnTheAxes) {
+  // y = x^2 in the world's axes: an exact parabola there, in no turned frame.
+  std::vector<Vector3> points;
+  for (const double x : {0.0, 0.4, 1.0, 1.3, 2.0}) points.push_back({x, x * x, 0.0});
+  const Problem problem = keyframes_only(through(points));
+  Dm::Options options{.planar = 3};
+  options.frame = manifold::Axes::world;
+  options.guard = false;
+  options.joint.meet = manifold::Meet::none;
+  options.segment = {100.0, 3.2};
+  Report report;
+  const auto curve = Dm(options).smooth(problem, report);
+  double farthest = 0.0;
+  const Pose turn{exp_so3({0, 0, 0.8}), Vector3::Zero()};
+  const auto turned = Dm(options).smooth(moved_by(turn, problem), report);
+  for (const double t : times_over(problem.keyframes, 60)) {
+    const Vector3 p = curve->at(t).translation;
+    EXPECT_NEAR(p.y(), p.x() * p.x(), 1e-12);
+    farthest = std::max(farthest, (turned->at(t).translation - turn.rotation * p).norm());
+  }
+  EXPECT_GT(farthest, 1e-3);
+}
+
+TEST(DmSwitches, CoefficientsAreNotedWhenAsked) {
+  Dm::Options options{.planar = 4, .spatial = 7};
+  options.report_coefficients = true;
+  options.report_frames = true;
+  Report report;
+  Dm(options).smooth(keyframes_only(wandering(30, 2)), report);
+  std::size_t cubics = 0, quadrics = 0;
+  for (const std::string& note : report.notes) {
+    if (note.find("alpha(3,0) = ") != Text::npos) ++cubics;
+    if (note.find("beta(2,0,0) = ") != Text::npos) ++quadrics;
+  }
+  EXPECT_GT(cubics, 3u);
+  EXPECT_GT(quadrics, 1u);
+}
+
+TEST(DmSwitches, FramesAreCarriedOnAlongAStraightLine) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < 8; ++i) points.push_back({1.0 * i, 0, 0});
+  Report report;
+  const auto curve = Dm({}).smooth(keyframes_only(through(points)), report);
+  const auto frames = manifold::moving_frames(dynamic_cast<const manifold::ManifoldCurve&>(*curve));
+  EXPECT_EQ(frames.carried, 8u);
+  for (const manifold::Triad& triad : frames.triads) {
+    EXPECT_TRUE(triad.N.isApprox(frames.triads[0].N, 1e-12));
+    EXPECT_TRUE(triad.T.isApprox(Vector3::UnitX(), 1e-12));
+  }
+}
+
+TEST(DmSwitches, ContradictionsAreRefused) {
+  const auto made = [](Params params) { return Dm(with(Dm::Options{}, std::move(params))); };
+  EXPECT_THROW(made({{"joint", Text("constrained_ls")}}), OptionError);
+  EXPECT_THROW(made({{"frame", Text("parametric")}, {"families", Text("sin1")}}), OptionError);
+  EXPECT_THROW(made({{"families", Text("poly7")}}), OptionError);
+  EXPECT_THROW(made({{"psi", Text("boundary_tangent")}, {"abscissa", Text("polyline")}}),
+               OptionError);
+  EXPECT_THROW(made({{"abscissa", Text("ground_truth")}}), OptionError);
+}
+
+}  // namespace
+}  // namespace loopbench

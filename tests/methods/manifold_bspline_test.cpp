@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/bspline.hpp"
+#include "methods/smoothers/manifold/spline.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+using Value = BSpline::Value;
+
+const std::vector<double> kSites{0.0, 0.4, 1.0, 1.3, 2.1, 2.5, 3.4, 4.0};
+
+std::vector<Value> values_of(const std::function<Value(double)>& f) {
+  std::vector<Value> out;
+  for (const double u : kSites) out.push_back(f(u));
+  return out;
+}
+Value wavy(double u) { return {std::sin(u), std::cos(2 * u), u * u, 1.0 / (1.0 + u)}; }
+Value cubic(double u) { return {u * u * u - u, 2.0 - u * u, 0.5 * u * u * u, u}; }
+
+// Equation (12) as it should be printed, to the letter and slow.
+double N(const std::vector<double>& m, std::size_t t, std::size_t k, double u) {
+  if (k == 1) return m[t] <= u && u < m[t + 1] ? 1.0 : 0.0;
+  const auto share = [](double above, double below) { return below == 0.0 ? 0.0 : above / below; };
+  return share(u - m[t], m[t + k - 1] - m[t]) * N(m, t, k - 1, u) +
+         share(m[t + k] - u, m[t + k] - m[t + 1]) * N(m, t + 1, k - 1, u);
+}
+
+class EveryOrder : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(BSpline, EveryOrder, testing::Values(2u, 3u, 4u, 5u, 6u));
+
+TEST_P(EveryOrder, BasisIsTheRecursionAndAPartitionOfUnity) {
+  const BSpline spline = BSpline::through(kSites, values_of(wavy), GetParam());
+  const std::size_t k = GetParam();
+  for (double u = 0.0; u < 4.0; u += 0.037) {
+    const std::size_t span = spline.span(u);
+    const auto values = basis(spline.knots(), k, span, u);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < k; ++j) {
+      EXPECT_GE(values[j], 0.0);
+      EXPECT_NEAR(values[j], N(spline.knots(), span + 1 - k + j, k, u), 1e-12) << u;
+      sum += values[j];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12) << u;
+  }
+}
+
+TEST_P(EveryOrder, PassesThroughEverySite) {
+  const auto values = values_of(wavy);
+  const BSpline spline = BSpline::through(kSites, values, GetParam());
+  EXPECT_EQ(spline.controls().size(), kSites.size());
+  EXPECT_EQ(spline.knots().size(), kSites.size() + GetParam());
+  for (std::size_t i = 0; i < kSites.size(); ++i) {
+    EXPECT_LT((spline.at(kSites[i]) - values[i]).norm(), 1e-12) << i;
+  }
+}
+
+TEST_P(EveryOrder, JetsAgreeWithDifferences) {
+  if (GetParam() < 4) return;  // corners in what is differenced
+  const BSpline spline = BSpline::through(kSites, values_of(wavy), GetParam());
+  const double h = 1e-4, u = 1.55;
+  const Jet<Value> jet = spline.at(moving_time(u));
+  EXPECT_LT((jet.first - (spline.at(u + h) - spline.at(u - h)) / (2 * h)).norm(), 1e-5);
+  EXPECT_LT(
+      (jet.second - (spline.at(u + h) - 2 * spline.at(u) + spline.at(u - h)) / (h * h)).norm(),
+      1e-4);
+}
+
+TEST(BSpline, ReproducesCubicsFromOrderFourOn) {
+  for (const std::size_t k : {4u, 5u, 6u}) {
+    const BSpline spline = BSpline::through(kSites, values_of(cubic), k);
+    for (double u = 0.0; u <= 4.0; u += 0.1) {
+      EXPECT_LT((spline.at(u) - cubic(u)).norm(), 1e-10) << k << " " << u;
+    }
+  }
+}
+
+TEST(BSpline, FewSitesLowerTheOrder) {
+  const std::vector<double> two{1.0, 3.0};
+  const std::vector<Value> ends{Value(0, 0, 0, 0), Value(2, 4, 0, 0)};
+  EXPECT_TRUE(BSpline::through(two, ends, 4).at(2.0).isApprox(Value(1, 2, 0, 0), 1e-15));
+}
+
+TEST(BSpline, LeastSquaresReproducesACubicWhateverTheKnots) {
+  const std::vector<double> inner{1.0, 1.3, 1.35, 1.4, 1.45, 2.5};  // more than the sites decide
+  const BSpline spline = BSpline::near(
+      kSites, values_of([](double u) { return Value(u, 1.0 - 2.0 * u, 0.0, 3.0); }), inner, 4);
+  for (double u = 0.0; u <= 4.0; u += 0.1) {
+    EXPECT_LT((spline.at(u) - Value(u, 1.0 - 2.0 * u, 0.0, 3.0)).norm(), 1e-5) << u;
+  }
+  const BSpline plain = BSpline::near(kSites, values_of(cubic), std::vector{2.0}, 4);
+  for (double u = 0.0; u <= 4.0; u += 0.1) {
+    EXPECT_LT((plain.at(u) - cubic(u)).norm(), 1e-6) << u;
+  }
+}
+
+TEST(NodeSpline, OfAnotherOrderPassesThroughTheNodesToo) {
+  const Nodes nodes(wandering(30, 4));
+  for (const std::size_t k : {2u, 3u, 5u, 6u}) {
+    const NodeSpline spline = NodeSpline::of_order(nodes, k);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      EXPECT_LT((spline.at(i, nodes.stamps[i]).point - nodes.points[i]).norm(), 1e-10);
+    }
+  }
+}
+
+TEST(NodeSpline, PolylineIsStraightBetweenNodes) {
+  const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}}));
+  EXPECT_TRUE(NodeSpline::polyline(nodes).at(1, 1.25).point.isApprox(Vector3(1, 0.5, 0), 1e-15));
+}
+
+}  // namespace
+}  // namespace loopbench::manifold

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/segments.hpp"
+#include "methods/smoothers/manifold/short_segments.hpp"
+#include "methods/smoothers/manifold/windows.hpp"
+
+namespace loopbench::manifold {
+namespace {
+
+using Ranges = std::vector<NodeRange>;
+using Windows = std::vector<Window>;
+
+Nodes with_speeds(const std::vector<double>& speeds) {
+  std::vector<Vector3> points{Vector3::Zero()};
+  for (const double v : speeds) points.push_back(points.back() + Vector3(v, 0.0, 0.0));
+  return Nodes(through(points));
+}
+
+Ranges by(SpeedRule rule, double band, const std::vector<double>& speeds) {
+  return segments(with_speeds(speeds), {.speed_band = band, .speed = rule});
+}
+
+TEST(SpeedRule, AdjacentComparesWithTheEdgeBefore) {
+  EXPECT_EQ(by(SpeedRule::adjacent, 0.3, {1.0, 1.2, 1.4, 1.6, 2.0}), (Ranges{{0, 4}, {4, 5}}));
+}
+
+TEST(SpeedRule, BinsComparesWithFixedSteps) {
+  // Bins of 0.5: 0.9 and 1.1 are neighbours in speed and not in bin.
+  EXPECT_EQ(by(SpeedRule::bins, 0.5, {0.6, 0.9, 1.1, 1.4}), (Ranges{{0, 2}, {2, 4}}));
+}
+
+TEST(SpeedRule, RunningMeanComparesWithTheSegmentSoFar) {
+  // Mean of 1.0, 1.2 is 1.1: 1.35 fits in 0.3; then 1.183: 1.5 does not.
+  EXPECT_EQ(by(SpeedRule::running_mean, 0.3, {1.0, 1.2, 1.35, 1.5}), (Ranges{{0, 3}, {3, 4}}));
+}
+
+TEST(SpeedRule, AbsoluteAsksOnWhichSideASpeedIs) {
+  EXPECT_EQ(by(SpeedRule::absolute, 1.0, {0.2, 0.9, 1.1, 3.0, 0.5}),
+            (Ranges{{0, 2}, {2, 4}, {4, 5}}));
+}
+
+TEST(Kappa, EveryReadingOfARightAngleByHand) {
+  // Steps of 1 m in 1 s and 3 m in 1 s, at a right angle, the second one upwards.
+  Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}});
+  poses[2].world_from_body.rotation = exp_so3({0.0, 0.8, 0.0});
+  const Nodes nodes(poses);
+  const auto at_corner = [&](Kappa kappa, Plane plane) {
+    const auto all = kappas(nodes, poses, kappa, plane, Vector3::UnitZ());
+    EXPECT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[0], 0.0);
+    EXPECT_EQ(all[2], 0.0);
+    return all[1];
+  };
+  const double right = std::numbers::pi / 2.0;
+  EXPECT_NEAR(at_corner(Kappa::turn_per_kf, Plane::space), right, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::menger, Plane::space), 2.0 / std::sqrt(10.0), 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::dtheta_ds, Plane::space), right / 2.0, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::dtheta_dt, Plane::space), right, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::rotation_per_kf, Plane::space), 0.4, 1e-12);
+  // Natural spline: velocity (0.5, 0, 1.5), acceleration 1.5 (-1, 0, 3).
+  EXPECT_NEAR(at_corner(Kappa::analytic_spline, Plane::space), 4.5 / std::pow(2.5, 1.5), 1e-12);
+  EXPECT_EQ(at_corner(Kappa::turn_per_kf, Plane::plane), 0.0);  // seen from above it stands
+}
+
+TEST(Kappa, OfACircleIsOneOverItsRadius) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < 40; ++i)
+    points.push_back({4 * std::cos(0.05 * i), 4 * std::sin(0.05 * i), 0});
+  const Trajectory poses = through(points);
+  for (const Kappa kappa : {Kappa::menger, Kappa::dtheta_ds, Kappa::analytic_spline}) {
+    EXPECT_NEAR(kappas(Nodes(poses), poses, kappa, Plane::plane, Vector3::UnitZ())[20], 0.25, 1e-4);
+  }
+}
+
+TEST(ShortSegments, MergeIntoTheNeighbourNearerInSpeed) {
+  const Nodes nodes = with_speeds({1.0, 1.0, 1.0, 1.8, 2.0, 2.0, 2.0});
+  EXPECT_EQ(merged(nodes, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 3}, {3, 7}}));
+  const Nodes other = with_speeds({1.0, 1.0, 1.0, 1.2, 2.0, 2.0, 2.0});
+  EXPECT_EQ(merged(other, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 4}, {4, 7}}));
+}
+
+TEST(ShortSegments, MergingStopsWithOneSegment) {
+  const Nodes nodes = with_speeds({1.0, 2.0, 3.0});
+  EXPECT_EQ(merged(nodes, {{0, 1}, {1, 2}, {2, 3}}, 9), (Ranges{{0, 3}}));
+  EXPECT_EQ(merged(nodes, {{0, 3}}, 9), (Ranges{{0, 3}}));
+}
+
+TEST(ShortSegments, AreFilledFromTrackedFramesOnly) {
+  const Trajectory nodes = through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  Trajectory frames;
+  for (const double t : {0.5, 1.3, 1.6, 2.5}) frames.push_back({t, {}});
+  const Filled out = filled(nodes, {{0, 1}, {1, 3}}, frames, 3);
+  EXPECT_EQ(stamps(out.nodes), (std::vector{0.0, 0.5, 1.0, 2.0, 3.0}));
+  EXPECT_EQ(out.runs, (Ranges{{0, 2}, {2, 4}}));
+  EXPECT_EQ(out.inserted, 1u);
+  EXPECT_EQ(filled(nodes, {{0, 1}, {1, 3}}, {}, 3).runs, (Ranges{{0, 1}, {1, 3}}));
+}
+
+TEST(Scheme, SlidingWindowsOfOddSizeStandAroundTheirFirstNode) {
+  EXPECT_EQ(windows({2, 6}, 3, 9, Scheme::sliding_blend),
+            (Windows{{{2, 4}, {2, 3}}, {{2, 4}, {3, 4}}, {{3, 5}, {4, 5}}, {{4, 6}, {5, 6}}}));
+}
+
+TEST(Scheme, SlidingWindowsOfEvenSizeStandAroundTheirEdge) {
+  EXPECT_EQ(windows({0, 5}, 4, 6, Scheme::sliding_blend),
+            (Windows{{{0, 3}, {0, 1}},
+                     {{0, 3}, {1, 2}},
+                     {{1, 4}, {2, 3}},
+                     {{2, 5}, {3, 4}},
+                     {{2, 5}, {4, 5}}}));
+}
+
+TEST(Scheme, OnePerSegmentSpreadsItsNodesEvenly) {
+  const auto one = windows({10, 20}, 4, 30, Scheme::one_per_segment);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].owned, (NodeRange{10, 20}));
+  EXPECT_EQ(picked(one[0]), (std::vector<std::size_t>{10, 13, 17, 20}));
+  EXPECT_EQ(picked({{3, 6}, {3, 6}}), (std::vector<std::size_t>{3, 4, 5, 6}));
+}
+
+TEST(Scheme, FirstNSpeakForAll) {
+  EXPECT_EQ(windows({10, 20}, 4, 30, Scheme::first_n), (Windows{{{10, 13}, {10, 20}}}));
+}
+
+TEST(Scheme, EverySchemeOwnsEveryEdgeOnce) {
+  for (const auto& [name, scheme] : choices(Scheme{})) {
+    for (std::size_t size = 3; size <= 8; ++size) {
+      for (std::size_t last = 1; last < 20; ++last) {
+        std::size_t edge = 0;
+        for (const Window& window : windows({0, last}, size, last + 1, scheme)) {
+          EXPECT_EQ(window.owned.first, edge) << name;
+          EXPECT_LE(window.fitted.last, last) << name;
+          edge = window.owned.last;
+        }
+        EXPECT_EQ(edge, last) << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace loopbench::manifold
