@@ -64,7 +64,7 @@ int reproduce(const ReproduceArguments& arguments) {
 void add_reproduce(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ReproduceArguments>();
   CLI::App* command = app.add_subcommand(
-      "reproduce", "The article's tables, claims and figures from configs/paper_tables.yaml");
+      "reproduce", "The article's tables, claims and figures from configs/paper_tables_*.yaml");
   command->add_option("configs", arguments->configs, "YAML files whose labels it understands")
       ->required();
   command->add_option("--data", arguments->data, "Folder with real data")

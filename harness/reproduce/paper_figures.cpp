@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kRed = "#d62728";
 constexpr const char* kBlue = "#1f4fd6";
 constexpr const char* kGreen = "#2ca02c";
-constexpr std::size_t kMostPoints = 1500;  // a curve: beyond that a page only grows
+constexpr std::size_t kMostPoints = 600;  // a curve: beyond that a page only grows
 
 struct Span {
   double begin = -std::numeric_limits<double>::infinity();
