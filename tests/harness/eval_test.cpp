@@ -1,67 +1,22 @@
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 
-#include "datasets/core/error.hpp"
-#include "datasets/core/params.hpp"
-#include "harness/commands/commands.hpp"
 #include "harness/commands/judgement.hpp"
+#include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 namespace {
 
-using Json = nlohmann::json;
-
-std::string golden(const std::string& name) {
-  return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
-}
-
-/// What `loopbench eval ARGS` prints.
-std::string eval(std::vector<std::string> arguments) {
-  CLI::App app;
-  int exit_code = -1;
-  add_eval(app, exit_code);
-  arguments.insert(arguments.begin(), "eval");
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 wants them so
-  testing::internal::CaptureStdout();
-  try {
-    app.parse(arguments);
-  } catch (...) {
-    testing::internal::GetCapturedStdout();
-    throw;
-  }
-  EXPECT_EQ(exit_code, kExitOk);
-  return testing::internal::GetCapturedStdout();
-}
-
-Json eval_json(std::vector<std::string> arguments) {
-  arguments.push_back("--json");
-  return Json::parse(eval(std::move(arguments)));
-}
-
-template <class Error>
-std::string refusal(const std::vector<std::string>& arguments) {
-  try {
-    eval(arguments);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing thrown";
-  return "";
-}
-
-Json find(const Json& judged, const std::string& metric, const std::string& relation) {
-  for (const Json& row : judged["metrics"]) {
-    if (row["metric"] == metric && row["relation"] == relation && row["axis"] == "3d") return row;
-  }
-  ADD_FAILURE() << "no " << metric << " " << relation;
-  return {};
-}
+using test::eval;
+using test::eval_json;
+using test::find;
+using test::golden;
+using test::Json;
+using test::refusal;
 
 // Values of golden.json, evo APE translation_part at max_diff 0.01.
 TEST(Eval, EqualsEvoUnderEvosAssociation) {
@@ -204,132 +159,6 @@ TEST(Eval, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 3 poses is 1.0 s before another");
   EXPECT_NE(eval({file, file}).find("rpe 1 m       undefined: rpe: none of 3"), std::string::npos);
 }
-
-double rmse(const std::vector<std::string>& options, const std::string& metric) {
-  std::vector<std::string> arguments{golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo"};
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  const Json judged = eval_json(arguments);
-  for (const Json& row : judged["metrics"]) {
-    if (row["metric"] == metric && row["axis"] == "3d") return row["rmse"];
-  }
-  ADD_FAILURE() << "no " << metric;
-  return 0.0;
-}
-
-// Values of golden.json.
-TEST(Eval, KnowsEvosHabits) {
-  EXPECT_NEAR(rmse({}, "ate"), 12.6565235225568, 1e-10);
-  EXPECT_NEAR(rmse({"-a"}, "ate"), 0.676208260682124, 1e-12);
-  EXPECT_NEAR(rmse({"-as"}, "ate"), 0.660473127811482, 1e-12);
-  EXPECT_NEAR(rmse({"--align", "--correct_scale"}, "ate"), 0.660473127811482, 1e-12);
-  EXPECT_NEAR(rmse({"--align", "sim3"}, "ate"), 0.660473127811482, 1e-12);
-  EXPECT_NEAR(rmse({"--align"}, "ate"), 0.676208260682124, 1e-12);
-  EXPECT_NEAR(rmse({"-a", "--n_to_align=100"}, "ate"), 1.69629979000945, 1e-11);
-  EXPECT_NEAR(
-      rmse({"-a", "--t_max_diff=0.003", "--t_offset=-0.004"}, "ate"), 0.676336104623048, 1e-12);
-  EXPECT_NEAR(rmse({"-r", "full"}, "ape"), 12.783012299976825, 1e-10);
-  EXPECT_NEAR(rmse({"-r", "trans_part", "-d", "1", "-u", "m"}, "rpe"), 0.0772624810704977, 1e-12);
-  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs"}, "rpe"), 0.064717408609261, 1e-12);
-  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs", "--pairs_from_reference"}, "rpe"),
-              0.0680704819728785,
-              1e-12);
-  EXPECT_NEAR(rmse({"-d", "10", "-u", "d", "--all_pairs"}, "rpe"), 1.66822987421266, 1e-11);
-}
-
-TEST(Eval, TellsTheProtocolInFull) {
-  const Json judged = eval_json({golden("gt.txt"),
-                                 golden("est_drift.txt"),
-                                 "--protocol=evo",
-                                 "--align=origin",
-                                 "--set=ddof=1"});
-  const Json& protocol = judged["protocol"];
-  EXPECT_EQ(protocol["name"], "evo");
-  EXPECT_EQ(protocol["version"], "26d0953");
-  EXPECT_EQ(protocol["changes"], (Json{{"align", "origin"}, {"ddof", 1}}));
-  EXPECT_EQ(protocol["rules"]["association"], "evo");
-  EXPECT_EQ(judged["alignment"]["type"], "origin");
-}
-
-TEST(Eval, SeveralProtocolsAndEstimatesAreATable) {
-  const std::string got = eval({golden("gt.txt"),
-                                golden("est_drift.txt"),
-                                golden("est_corrected.txt"),
-                                "--protocol=tum,rpg"});
-  EXPECT_NE(got.find("tum [evo 26d0953, test/tum_benchmark_tools], rmse against "),
-            std::string::npos);
-  EXPECT_NE(got.find("rpg [8c8ceec], rmse against "), std::string::npos);
-  EXPECT_NE(got.find("ate translation [m]"), std::string::npos);
-  EXPECT_NE(got.find("est_corrected.txt"), std::string::npos);
-  EXPECT_EQ(eval_json({golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,rpg"}).size(),
-            2u);
-}
-
-TEST(Eval, CsvHoldsALinePerScoreInFull) {
-  const std::string got =
-      eval({golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo", "-a", "--csv"});
-  EXPECT_NE(got.find("evo (align=se3),26d0953,ate,,translation,3d,m,635,0.6762082606821"),
-            std::string::npos)
-      << got;
-}
-
-TEST(Eval, WritesTheErrorOfEveryPose) {
-  const TemporaryFolder folder;
-  const std::string file = (folder.path() / "poses.csv").string();
-  eval({golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo", "--per-pose=" + file});
-  std::ifstream in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 636u);
-  EXPECT_EQ(lines[0].find("reference,estimate,protocol,protocol_version,stamp,x_m,"), 0u);
-}
-
-TEST(Eval, ReadsRpgsFolder) {
-  const TemporaryFolder folder;
-  std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
-  EXPECT_THROW(eval({folder.path().string()}), InputError);
-  for (const char* run : {"1", "0"}) {
-    std::filesystem::copy_file(
-        golden("est_drift.txt"),
-        folder.path() / (std::string("stamped_traj_estimate") + run + ".txt"));
-  }
-  const Json judged = eval_json({folder.path().string(), "--protocol=rpg"});
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_NE(judged[0]["estimate"].get<std::string>().find("estimate0"), std::string::npos);
-  EXPECT_NEAR(find(judged[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
-}
-
-TEST(Eval, ReadsOvEvalsFolders) {
-  const TemporaryFolder folder;
-  const auto truths = folder.path() / "truths";
-  const auto runs = folder.path() / "algorithms/mine/eight";
-  std::filesystem::create_directories(truths);
-  std::filesystem::create_directories(runs);
-  const std::string algorithms = (folder.path() / "algorithms").string();
-  EXPECT_THROW(eval({truths.string(), algorithms}), InputError);
-  std::filesystem::copy_file(golden("gt.txt"), truths / "eight.txt");
-  std::filesystem::copy_file(golden("est_drift.txt"), runs / "00.txt");
-  std::filesystem::copy_file(golden("est_corrected.txt"), runs / "01.txt");
-  const Json judged = eval_json({truths.string(), algorithms, "--protocol=ov_eval"});
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[1]["estimate"], (runs / "01.txt").string());
-  EXPECT_EQ(judged[1]["alignment"]["type"], "posyaw");
-}
-
-TEST(Eval, RefusesProtocolsThatCannotBe) {
-  const std::string tum = golden("gt.txt");
-  EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evoo"}),
-            "no protocol is named 'evoo'; did you mean 'evo'?");
-  EXPECT_EQ(refusal<InputError>({tum, tum, "--set=ddof"}),
-            "--set: 'ddof' is not FIELD=VALUE, for example ddof=1");
-  EXPECT_THROW(eval({tum, tum, "--set=dof=1"}), OptionError);
-  EXPECT_THROW(eval({tum, tum, "-r", "fulll"}), OptionError);
-  EXPECT_THROW(eval({tum, tum, "-u", "feet"}), OptionError);
-  EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=origin", "-s"}),
-            "align = origin: has no form with scale; use se3 or none");
-  EXPECT_EQ(refusal<OptionError>({tum, tum, "--protocol=evo", "--n_to_align=9"}),
-            "align_first = 9: only least squares look at several pairs, not origin or none");
-}
-
 TEST(Eval, RefusesWhatItCannotJudge) {
   const std::string kitti = golden("kitti_gt.txt");
   const std::string tum = golden("gt.txt");

@@ -1,0 +1,66 @@
+/// `loopbench eval` called in the test's own process.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/params.hpp"
+#include "harness/commands/commands.hpp"
+
+namespace loopbench::test {
+
+using Json = nlohmann::json;
+
+inline std::string golden(const std::string& name) {
+  return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
+}
+
+/// What `loopbench eval ARGS` prints.
+inline std::string eval(std::vector<std::string> arguments) {
+  CLI::App app;
+  int exit_code = -1;
+  add_eval(app, exit_code);
+  arguments.insert(arguments.begin(), "eval");
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 wants them so
+  testing::internal::CaptureStdout();
+  try {
+    app.parse(arguments);
+  } catch (...) {
+    testing::internal::GetCapturedStdout();
+    throw;
+  }
+  EXPECT_EQ(exit_code, kExitOk);
+  return testing::internal::GetCapturedStdout();
+}
+
+inline Json eval_json(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  return Json::parse(eval(std::move(arguments)));
+}
+
+template <class Error>
+std::string refusal(const std::vector<std::string>& arguments) {
+  try {
+    eval(arguments);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
+inline Json find(const Json& judged, const std::string& metric, const std::string& relation) {
+  for (const Json& row : judged["metrics"]) {
+    if (row["metric"] == metric && row["relation"] == relation && row["axis"] == "3d") return row;
+  }
+  ADD_FAILURE() << "no " << metric << " " << relation;
+  return {};
+}
+
+}  // namespace loopbench::test
