@@ -174,7 +174,8 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
     EXPECT_LT(worst(reference, moved(found, estimate)), 1e-12);
   }
   // What is turned about x stays so, and the z axis stays up.
-  const Trajectory tilted = moved_by({exp_so3(Vector3(0.3, 0.0, 0.0)), {}}, 1.0, reference);
+  const Trajectory tilted =
+      moved_by({exp_so3(Vector3(0.3, 0.0, 0.0)), Vector3::Zero()}, 1.0, reference);
   const Alignment found = align(reference, tilted, Align::posyaw);
   EXPECT_NEAR((found.reference_from_estimate.rotation * Vector3::UnitZ()).z(), 1.0, 1e-15);
 }
