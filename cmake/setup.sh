@@ -1,10 +1,11 @@
 # Sourced by run.sh and test.sh: installs what is missing, says so, and is silent otherwise.
-# Needs Debian 12 (or a relative with the same package names).
+# Needs Debian 12 (or a relative with the same package names). Who sources it may name more_packages.
 
 packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libceres-dev
   libgtest-dev libbenchmark-dev gnuplot-nox
+  "${more_packages[@]}"
 )
 
 missing=()
