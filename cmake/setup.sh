@@ -4,7 +4,7 @@
 packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libceres-dev
-  libgtest-dev libbenchmark-dev gnuplot-nox
+  libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox
   "${more_packages[@]}"
 )
 
