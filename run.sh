@@ -10,7 +10,7 @@ if [[ ! -f $build/build.ninja ]]; then
   (cd "$here" && cmake --preset release >&2)
 fi
 if [[ ! -x $build/loopbench ]]; then
-  echo "loopbench: building; the first time takes a minute or two" >&2
+  echo "loopbench: building; the first time takes a few minutes" >&2
   cmake --build "$build" --target loopbench >&2
 else
   # Quiet when there is nothing to do or all goes well; everything when it does not.
