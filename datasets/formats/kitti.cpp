@@ -66,7 +66,7 @@ std::vector<double> read_times(const std::filesystem::path& path) {
   TextFile file(path);
   first_line(file);
   std::vector<double> out;
-  InOrder order(file, Repeats::refuse);
+  InOrder order(file, Repeats::refuse, "");
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     out.push_back(columns.number("time"));
