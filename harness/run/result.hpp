@@ -15,7 +15,7 @@ namespace loopbench {
 enum class Status {
   ok,
   declined,    ///< not for this method, or a number that means nothing here: not an error
-  failed,      ///< the method or a metric threw
+  failed,      ///< the method or a metric threw anything but Undefined
   incomplete,  ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
 };
 inline auto choices(Status) {

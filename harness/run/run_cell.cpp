@@ -1,11 +1,9 @@
 #include "harness/run/run_cell.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
 #include <exception>
 
+#include "harness/run/incomplete.hpp"
 #include "methods/pipeline.hpp"
 
 namespace loopbench {
@@ -13,11 +11,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs `work`; an exception of any kind becomes a failed status with its text.
+/// Runs `work`; an exception of any kind becomes a status with its text: failed, or declined for a
+/// metric that says it means nothing here.
 template <class Result, class Work>
 void fenced(Result& result, Work work) {
   try {
     work();
+  } catch (const Undefined& reason) {
+    result.status = Status::declined;
+    result.why = reason.what();
   } catch (const std::exception& error) {
     result.status = Status::failed;
     result.why = error.what();
@@ -25,16 +27,6 @@ void fenced(Result& result, Work work) {
     result.status = Status::failed;
     result.why = "threw something that is not a std::exception";
   }
-}
-
-/// Why so little was judged that the numbers do not stand beside others; empty when enough was.
-std::string why_incomplete(const Coverage& coverage, double min_coverage) {
-  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
-  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
-                     coverage.pairs,
-                     coverage.possible,
-                     100.0 * coverage.span,
-                     100.0 * min_coverage);
 }
 
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
@@ -57,7 +49,8 @@ void score(CellResult& result,
       added.score = std::move(score);
     }
   });
-  if (row.status == Status::failed) result.scores.push_back(row);
+  const bool has_thrown = row.status == Status::failed || row.status == Status::declined;
+  if (has_thrown) result.scores.push_back(row);
 }
 
 /// Every metric under one protocol at one choice of times, which `row` names.
