@@ -1,5 +1,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/elch.hpp"
+#include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/raw.hpp"
 #include "methods/correctors/two_pass.hpp"
@@ -48,6 +49,23 @@ std::vector<MethodEntry> methods() {
                       {.rotation_weights = StepWeights::rotation,
                        .translation_weights = StepWeights::distance}),
       method<Dual>("dual", "maximum likelihood on the chain, through the loop multipliers"),
+      method<MotionDrift>("motion_drift_const",
+                          "dual, variances fitted to the loops: the same in every edge",
+                          {.model = MotionDrift::Model::constant}),
+      method<MotionDrift>("motion_drift_time",
+                          "dual, fitted variances that grow with time",
+                          {.model = MotionDrift::Model::time}),
+      method<MotionDrift>("motion_drift_distance",
+                          "dual, fitted variances that grow with time and distance",
+                          {.model = MotionDrift::Model::distance}),
+      method<MotionDrift>("motion_drift_rotation",
+                          "dual, fitted variances that grow with time, distance and turning",
+                          {.model = MotionDrift::Model::rotation}),
+      method<MotionDrift>("motion_drift_speed",
+                          "motion_drift_rotation, and with speed",
+                          {.model = MotionDrift::Model::speed}),
+      method<MotionDrift>("motion_drift",
+                          "motion_drift_rotation with steady drift, all fitted to the loops"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)"),
       method<PoseGraphOptimizer>(
