@@ -6,9 +6,15 @@
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/method.hpp"
+#include "methods/smoothers/b_spline.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
+#include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/polyline.hpp"
+#include "methods/smoothers/savitzky_golay.hpp"
+#include "methods/smoothers/screw.hpp"
+#include "methods/smoothers/smoothing_spline.hpp"
+#include "methods/smoothers/trend_filter.hpp"
 
 namespace loopbench {
 namespace {
@@ -87,6 +93,16 @@ std::vector<MethodEntry> methods() {
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),
+      method<BSplineThrough>("b_spline", "B-spline of order k in time through the keyframes"),
+      method<Screw>("screw", "one screw motion from keyframe to keyframe"),
+      method<SavitzkyGolay>("savitzky_golay", "local polynomials in time"),
+      method<SmoothingSpline>("smoothing_spline",
+                              "penalised cubic spline, stiffness by REML or GCV"),
+      method<TrendFilter>("trend_filter", "piecewise straight motion by L1 trend filtering"),
+      method<GaussianProcess>("gp_wnoa", "Gaussian process on SE(3), white noise on acceleration"),
+      method<GaussianProcess>("gp_wnoj",
+                              "Gaussian process on SE(3), white noise on jerk",
+                              {.prior = GaussianProcess::Prior::acceleration}),
       method<Dm>("dm", "the paper's manifold smoother, read robustly; N = 4"),
       method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
       method<Dm>("dm_n4", "dm: cubic through 4 nodes", {.planar = 4}),
