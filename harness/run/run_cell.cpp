@@ -1,9 +1,12 @@
 #include "harness/run/run_cell.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
 
 #include "harness/run/incomplete.hpp"
+#include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 
 namespace loopbench {
@@ -20,6 +23,9 @@ void fenced(Result& result, Work work) {
   } catch (const Undefined& reason) {
     result.status = Status::declined;
     result.why = reason.what();
+  } catch (const std::bad_alloc&) {
+    result.status = Status::out_of_memory;
+    result.why = "asked for more memory than there is";
   } catch (const std::exception& error) {
     result.status = Status::failed;
     result.why = error.what();
@@ -27,6 +33,32 @@ void fenced(Result& result, Work work) {
     result.status = Status::failed;
     result.why = "threw something that is not a std::exception";
   }
+}
+
+/// The method's verb, run and measured; memory is looked at outside the clock.
+std::unique_ptr<const Curve> timed(CellResult& result,
+                                   const Method& method,
+                                   const Problem& problem,
+                                   int runs) {
+  const std::optional<std::int64_t> before =
+      forget_peak_memory() ? resident_memory() : std::nullopt;
+  std::unique_ptr<const Curve> curve;
+  for (int run = 0; run < runs; ++run) {
+    curve.reset();  // or its end would be in the next one's time
+    Report report;
+    const double cpu_begin = process_cpu_seconds();
+    const auto begin = Clock::now();
+    curve = method.estimate(problem, report);
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    result.seconds.push_back(took.count());
+    result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
+    result.report = std::move(report);
+  }
+  if (before) {
+    result.peak_memory = peak_memory();
+    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
+  }
+  return curve;
 }
 
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
@@ -49,7 +81,7 @@ void score(CellResult& result,
       added.score = std::move(score);
     }
   });
-  const bool has_thrown = row.status == Status::failed || row.status == Status::declined;
+  const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
   if (has_thrown) result.scores.push_back(row);
 }
 
@@ -78,6 +110,11 @@ void judge(CellResult& result,
     }
     for (const MetricChoice& choice : sweep.metrics) {
       score(result, choice, usual, evaluation, catalogue);
+    }
+    const bool densest =
+        row.times == Times::dense || std::ranges::count(sweep.times, Times::dense) == 0;
+    if (sweep.traces && row.protocol == 0 && densest) {
+      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
   });
   if (none.status == Status::ok) return;
@@ -110,8 +147,6 @@ CellResult run_cell(const Cell& cell,
                     const Catalogue& catalogue) {
   CellResult result;
   result.cell = cell;
-  result.closures = sequence.provenance.closures;
-  result.oracle_closures = sequence.provenance.oracle_closures;
   fenced(result, [&] {
     const auto method = make_method(sweep.methods[cell.method], catalogue);
     if (auto why = method->declines(sequence.problem)) {
@@ -119,15 +154,8 @@ CellResult run_cell(const Cell& cell,
       result.why = std::move(*why);
       return;
     }
-    std::unique_ptr<const Curve> curve;
-    for (int run = 0; run < sweep.timing; ++run) {
-      Report report;
-      const auto begin = Clock::now();
-      curve = method->estimate(sequence.problem, report);
-      const std::chrono::duration<double> took = Clock::now() - begin;
-      result.seconds.push_back(took.count());
-      result.report = std::move(report);
-    }
+    const std::unique_ptr<const Curve> curve =
+        timed(result, *method, sequence.problem, sweep.timing);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
       return;
