@@ -46,6 +46,7 @@ struct CellResult {
   std::vector<ScoreResult> scores;
   std::string closures;          ///< where the loop closures came from
   bool oracle_closures = false;  ///< they were measured in the reference
+  bool oracle_method = false;    ///< the method was shown the reference
 };
 
 }  // namespace loopbench

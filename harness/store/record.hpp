@@ -17,6 +17,7 @@ struct Record {
   std::string method;
   std::string closures;
   bool oracle_closures = false;
+  bool oracle_method = false;
   double milliseconds = 0.0;  ///< median wall time of the method's verb
   std::string protocol;       ///< label; empty when it does not apply, so the next two
   std::string protocol_version;

@@ -3,7 +3,7 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -17,6 +17,7 @@ inline constexpr const char* kSchema = R"sql(
     method_options TEXT NOT NULL,
     closures TEXT NOT NULL,            -- where the loop closures were taken from
     oracle_closures INTEGER NOT NULL,  -- 1: they were measured in the reference
+    oracle_method INTEGER NOT NULL,    -- 1: the method was shown the reference
     runs INTEGER NOT NULL,             -- timed runs of the method's verb
     seconds_median REAL NOT NULL,
     seconds_min REAL NOT NULL,

@@ -102,7 +102,7 @@ void Store::write(const Sweep& sweep, const CellResult& result) {
   const bool timed = !result.seconds.empty();
 
   database_.execute("BEGIN");
-  database_.prepare("INSERT INTO cell VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+  database_.prepare("INSERT INTO cell VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(id)
       .bind(dataset.label)
       .bind(std::int64_t{result.cell.repeat})
@@ -111,6 +111,7 @@ void Store::write(const Sweep& sweep, const CellResult& result) {
       .bind(option_text(method.stages))
       .bind(result.closures)
       .bind(std::int64_t{result.oracle_closures})
+      .bind(std::int64_t{result.oracle_method})
       .bind(static_cast<std::int64_t>(result.seconds.size()))
       .bind(median(result.seconds))
       .bind(timed ? *low : 0.0)
@@ -159,7 +160,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   Database database = open_store(file);
   // A declined or failed cell has no score: the left join keeps it, with empty score columns.
   Statement rows = database.prepare(R"sql(
-    SELECT c.id, c.sequence, c.repeat, c.method, c.closures, c.oracle_closures,
+    SELECT c.id, c.sequence, c.repeat, c.method, c.closures, c.oracle_closures, c.oracle_method,
            c.seconds_median * 1000, s.protocol, s.protocol_version, s.times, s.metric, s.relation, s.axis, s.unit,
            s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.pairs, s.possible,
            -- An incomplete cell may be complete at other times: its scores know.
@@ -177,6 +178,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     r.method = rows.text();
     r.closures = rows.text();
     r.oracle_closures = rows.integer() != 0;
+    r.oracle_method = rows.integer() != 0;
     r.milliseconds = rows.real();
     r.protocol = rows.text();
     r.protocol_version = rows.text();
