@@ -54,7 +54,11 @@ struct Builder {
 };
 
 void add(Builder& table, const Record& record, const TableSpec& spec) {
-  const std::string name = joined(record, spec.rows, ", ");
+  std::string name = joined(record, spec.rows, ", ");
+  if (record.oracle) {
+    name += " (oracle)";
+    table.note("oracle: the method was shown the reference");
+  }
   const std::size_t row = table.rows.index(name);
   if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
   if (record.status != "ok") {

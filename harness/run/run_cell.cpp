@@ -126,11 +126,15 @@ void judge(CellResult& result,
 
 }  // namespace
 
-std::unique_ptr<const Method> make_method(const MethodChoice& choice, const Catalogue& catalogue) {
+std::unique_ptr<const Method> make_method(const MethodChoice& choice,
+                                          const Catalogue& catalogue,
+                                          const Trajectory& reference) {
   std::unique_ptr<const Corrector> corrector;
   std::unique_ptr<const Smoother> smoother;
   for (const Choice& part : choice.stages) {
-    Stage stage = find_method(catalogue, part.name).make(part.options);
+    const OracleEntry* oracle = find_oracle(catalogue, part.name);
+    Stage stage = oracle ? oracle->make(part.options, reference)
+                         : find_method(catalogue, part.name).make(part.options);
     if (auto* whole = std::get_if<std::unique_ptr<const Method>>(&stage)) return std::move(*whole);
     if (auto* first = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
       corrector = std::move(*first);
@@ -147,8 +151,12 @@ CellResult run_cell(const Cell& cell,
                     const Catalogue& catalogue) {
   CellResult result;
   result.cell = cell;
+  const MethodChoice& choice = sweep.methods[cell.method];
+  result.oracle_method = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+    return find_oracle(catalogue, stage.name) != nullptr;
+  });
   fenced(result, [&] {
-    const auto method = make_method(sweep.methods[cell.method], catalogue);
+    const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
       result.why = std::move(*why);
