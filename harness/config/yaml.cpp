@@ -80,9 +80,33 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
   return out;
 }
 
+/// Refuses bytes that are no UTF-8: yaml-cpp 0.7 reads some of them without end.
+void expect_utf8(const std::string& text, const std::string& file) {
+  std::size_t line = 1;
+  int more = 0;  // bytes that the character begun still needs
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_rest = (byte & 0xC0U) == 0x80U;
+    const bool is_start = byte < 0x80U || (byte >= 0xC2U && byte < 0xF5U);
+    if (more > 0 ? !is_rest : !is_start) {
+      throw input_error(file, line, "is not UTF-8 text, expected YAML");
+    }
+    if (more > 0) {
+      --more;
+    } else if (byte >= 0xC2U) {
+      more = byte < 0xE0U ? 1 : (byte < 0xF0U ? 2 : 3);
+    }
+    line += c == '\n' ? 1 : 0;
+  }
+  if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
+}
+
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
+  expect_utf8(text, file);
+  // yaml-cpp 0.7 finds documents without end behind a comma that nothing stands before.
+  if (text.starts_with(',')) throw input_error(file, 1, "not valid YAML: begins with a comma");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty()) throw InputError(file + ": is empty, expected a map of settings");
