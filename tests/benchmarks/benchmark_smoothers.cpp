@@ -1,44 +1,97 @@
-// What turning keyframes into a curve costs, and asking it ten times a keyframe.
+// What a smoother costs: a curve through a thousand keyframes to a million, and a curve of 200
+// keyframes asked at a thousand times to a million.
 #include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
 
 #include "methods/method.hpp"
 #include "tests/benchmarks/markdown.hpp"
-#include "tests/support/problems.hpp"
 
 namespace loopbench {
 namespace {
 
-/// A hand-held path, its keyframes shaken by about a centimetre.
-Problem shaken(std::size_t size) {
-  Problem out;
-  out.keyframes = test::hand_held_truth(size);
+struct Timed {
+  const char* name = "";
+  std::int64_t most = 1'000'000;  ///< keyframes; fewer where a curve takes many passes to make
+};
+constexpr Timed kSmoothers[] = {{"polyline"},
+                                {"cubic_spline"},
+                                {"b_spline"},
+                                {"screw"},
+                                {"savitzky_golay"},
+                                {"smoothing_spline"},
+                                {"trend_filter", 10'000},
+                                {"gp_wnoa", 10'000},
+                                {"gp_wnoj", 10'000},
+                                {"spline_regression", 10'000},
+                                {"dm_n3"},
+                                {"dm_n4"},
+                                {"dm_n5"},
+                                {"dm_m7"},
+                                {"dm_n4_m7"},
+                                {"dm_robust"}};
+constexpr std::size_t kKeyframes = 200;  // of the curve that is asked
+
+/// A hand-held walk, three keyframes a second, that never comes to a rest.
+const Problem& walk(std::size_t size) {
+  static std::map<std::size_t, Problem> kept;
+  if (kept.contains(size)) return kept[size];
+  kept.clear();  // one size at a time is large enough
+  Problem& out = kept[size];
   for (std::size_t i = 0; i < size; ++i) {
-    const auto k = static_cast<double>(i);
-    const Vector3 noise(std::sin(12.9 * k * k), std::sin(78.2 * k * k), std::sin(37.7 * k * k));
-    Pose& pose = out.keyframes[i].world_from_body;
-    pose.translation += 0.01 * noise;
-    pose.rotation = (pose.rotation * exp_so3(0.003 * noise)).normalized();
+    const double t = 0.3 * static_cast<double>(i);
+    out.keyframes.push_back(
+        {t,
+         {exp_so3({0.1 * std::sin(0.9 * t), 0.1 * std::cos(0.7 * t), 0.4 * t}),
+          Vector3(2.0 * std::sin(0.17 * t), 1.5 * std::sin(0.23 * t), 0.2 * std::sin(0.4 * t))}});
   }
   return out;
 }
 
-void make_and_ask(benchmark::State& state, const MethodEntry& entry) {
-  const auto size = static_cast<std::size_t>(state.range(0));
-  const Problem problem = shaken(size);
-  const double start = problem.keyframes.front().stamp, end = problem.keyframes.back().stamp;
-  std::vector<double> times(10 * size);
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    times[k] = start + (end - start) * static_cast<double>(k) / static_cast<double>(times.size());
+std::unique_ptr<const Smoother> made(const MethodEntry& entry) {
+  return std::get<std::unique_ptr<const Smoother>>(entry.make({}));
+}
+
+void smooth(const MethodEntry& entry, benchmark::State& state) {
+  const Problem& problem = walk(static_cast<std::size_t>(state.range(0)));
+  const auto smoother = made(entry);
+  for (auto _ : state) {
+    Report report;
+    benchmark::DoNotOptimize(smoother->smooth(problem, report));
   }
-  std::vector<Pose> poses(times.size());
-  const Stage stage = entry.make({});
-  const auto& smoother = std::get<std::unique_ptr<const Smoother>>(stage);
+}
+
+void smooth_and_ask(const MethodEntry& entry, benchmark::State& state) {
+  const Problem& problem = walk(kKeyframes);
+  const auto smoother = made(entry);
+  const auto count = static_cast<std::size_t>(state.range(0));
+  std::vector<double> times(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(count);
+    times[k] = u * problem.keyframes.back().stamp;
+  }
+  std::vector<Pose> poses(count);
   for (auto _ : state) {
     Report report;
     smoother->smooth(problem, report)->sample(times, poses);
     benchmark::DoNotOptimize(poses.data());
   }
-  state.SetComplexityN(state.range(0));
+}
+
+using Work = void (*)(const MethodEntry&, benchmark::State&);
+
+void add(const std::string& name, const MethodEntry& entry, std::int64_t most, Work work) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [entry, work](benchmark::State& state) {
+                                 work(entry, state);
+                                 state.SetComplexityN(state.range(0));
+                               })
+      ->RangeMultiplier(10)
+      ->Range(1'000, most)
+      ->MeasureProcessCPUTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Complexity();
 }
 
 }  // namespace
@@ -46,18 +99,17 @@ void make_and_ask(benchmark::State& state, const MethodEntry& entry) {
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  for (const MethodEntry& entry : methods()) {
-    if (entry.kind != Kind::smoother || entry.name.starts_with("dm_") ||
-        entry.name.starts_with("paper_")) {
-      continue;  // dm's variants differ in nothing that costs
+  const std::vector<MethodEntry> known = methods();
+  for (const auto& [name, most] : kSmoothers) {
+    for (const MethodEntry& entry : known) {
+      if (entry.name == name) add("smooth " + entry.name, entry, most, smooth);
     }
-    benchmark::RegisterBenchmark(entry.name.c_str(),
-                                 [entry](benchmark::State& state) { make_and_ask(state, entry); })
-        ->RangeMultiplier(10)
-        ->Range(100, 10'000)
-        ->MeasureProcessCPUTime()
-        ->Unit(benchmark::kMillisecond)
-        ->Complexity();
+  }
+  for (const Timed& timed : kSmoothers) {
+    for (const MethodEntry& entry : known) {
+      if (entry.name != timed.name) continue;
+      add("200 keyframes asked " + entry.name, entry, Timed{}.most, smooth_and_ask);
+    }
   }
   return test::run_benchmarks(argc, argv);
 }
