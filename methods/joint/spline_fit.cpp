@@ -37,6 +37,7 @@ std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report&
   report.count("iterations", summary.iterations);
   report.count("cost_before", summary.cost_before);
   report.count("cost", summary.cost);
+  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 

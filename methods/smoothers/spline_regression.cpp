@@ -29,6 +29,7 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);
   report.count("cost", summary.cost);
+  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 

@@ -127,7 +127,10 @@ SplineSummary fit_controls(const SplineBasis& basis,
   ceres::Solve(options, &least_squares, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("spline fit: " + summary.message);
   for (std::size_t j = 0; j < blocks.size(); ++j) controls[j] = read(blocks[j].data());
-  return {static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};
+  return {static_cast<int>(summary.iterations.size()),
+          summary.initial_cost,
+          summary.final_cost,
+          summary.termination_type == ceres::CONVERGENCE};
 }
 
 }  // namespace loopbench

@@ -24,6 +24,7 @@ struct SplineSummary {
   int iterations = 0;
   double cost_before = 0.0;
   double cost = 0.0;
+  bool converged = false;  ///< false: the iterations ran out first
 };
 
 /// Moves the controls, one for each function of the basis, to a minimum. Levenberg-Marquardt,
