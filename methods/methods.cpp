@@ -5,6 +5,7 @@
 #include "methods/correctors/raw.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
+#include "methods/joint/spline_fit.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/b_spline.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
@@ -14,6 +15,7 @@
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
+#include "methods/smoothers/spline_regression.hpp"
 #include "methods/smoothers/trend_filter.hpp"
 
 namespace loopbench {
@@ -113,6 +115,8 @@ std::vector<MethodEntry> methods() {
       method<GaussianProcess>("gp_wnoj",
                               "Gaussian process on SE(3), white noise on jerk",
                               {.prior = GaussianProcess::Prior::acceleration}),
+      method<SplineRegression>("spline_regression",
+                               "cumulative B-spline with fewer knots than keyframes"),
       method<Dm>("dm", "the paper's manifold smoother, read robustly; N = 4"),
       method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
       method<Dm>("dm_n4", "dm: cubic through 4 nodes", {.planar = 4}),
@@ -137,6 +141,10 @@ std::vector<MethodEntry> methods() {
       method<Dm>("paper_literal_fr3",
                  "the article's letter with its thresholds for fr3_office: world axes, no guard",
                  paper_literal({.speed_band = 0.25, .turn_max = 0.42})),
+
+      // Both at once.
+      method<SplineFit>("spline_fit",
+                        "cumulative B-spline fitted to odometry and closures (Ceres)"),
   };
 }
 
