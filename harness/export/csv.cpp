@@ -51,7 +51,7 @@ std::string csv(const std::vector<Record>& records) {
                        quoted(r.method),
                        quoted(r.closures),
                        r.oracle_closures,
-                       r.oracle_method,
+                       r.oracle,
                        quoted(r.protocol),
                        quoted(r.protocol_version),
                        r.times,
