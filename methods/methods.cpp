@@ -34,14 +34,17 @@ Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
           .joint = {.meet = manifold::Meet::none}};
 }
 
-/// What came out best on sequences that are not the article's: results/paper/training.md. Turning
-/// ends no segment (no turn exceeds pi), and where nodes are no graph the spline stands.
+/// What came out best on sequences that are not the article's: results/paper/training.md. Curves
+/// where the speed is steady for a while, straight lines elsewhere. Turning ends no segment (no
+/// turn exceeds pi), and where nodes are no graph the spline stands.
 Dm::Options robust() {
-  return {.planar = 3,
-          .segment = {.speed_band = 0.4, .turn_max = 10.0, .speed = manifold::SpeedRule::adjacent},
-          .gap = {.time_max = 0.4},
+  return {.planar = 5,
+          .segment = {.speed_band = 0.1, .turn_max = 10.0},
+          .gap = {.time_max = 0.3},
           .fallback = manifold::Fallback::spline,
-          .scheme = manifold::Scheme::sliding_blend};
+          .scheme = manifold::Scheme::sliding_blend,
+          .short_policy = manifold::Short::polyline,
+          .min_nodes = 9};
 }
 
 }  // namespace
