@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add_table(app, exit_code);
   add_eval(app, exit_code);
   add_reproduce(app, exit_code);
+  add_calibrate(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -21,5 +21,6 @@ void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench

@@ -43,7 +43,7 @@ class MotionDrift final : public Corrector {
     int fit_closures = 40;
     int fit_rounds = 4;
     int max_iterations = 20;
-    double tolerance = 1e-10;
+    double tolerance = 1e-14;
     int max_closures = 300;
     std::array<Values, 2> noise{};                    ///< by Half; variances
     std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates
