@@ -5,9 +5,9 @@
 namespace loopbench {
 namespace {
 
-const OptionInfo* seed_option(const DatasetEntry& entry) {
-  const auto found = std::ranges::find(entry.options, "seed", &OptionInfo::name);
-  return found == entry.options.end() ? nullptr : &*found;
+/// `seed`, and those of a part (`false_closures.seed`).
+bool is_seed(const OptionInfo& option) {
+  return option.name == "seed" || option.name.ends_with(".seed");
 }
 
 }  // namespace
@@ -15,7 +15,8 @@ const OptionInfo* seed_option(const DatasetEntry& entry) {
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue) {
   std::vector<bool> out;
   for (const DatasetChoice& choice : sweep.datasets) {
-    out.push_back(seed_option(find_dataset(catalogue, choice.dataset.name)) != nullptr);
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    out.push_back(std::ranges::any_of(entry.options, is_seed));
   }
   return out;
 }
@@ -45,9 +46,10 @@ std::shared_ptr<const Sequence> Sequences::load(const Cell& cell) const {
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
   Params options = choice.dataset.options;
-  if (const OptionInfo* seed = seed_option(entry)) {
-    const Param base = options.contains("seed") ? options.at("seed") : seed->value;
-    options["seed"] = derived_seed(std::get<std::int64_t>(base), cell.repeat);
+  for (const OptionInfo& option : entry.options) {
+    if (!is_seed(option)) continue;
+    const Param base = options.contains(option.name) ? options.at(option.name) : option.value;
+    options[option.name] = derived_seed(std::get<std::int64_t>(base), cell.repeat);
   }
   auto sequence = std::make_shared<Sequence>(entry.load(options, root_));
   check(sequence->problem, choice.label);
