@@ -18,6 +18,7 @@ double gnc_weight(Gnc kind, double squared, double c2, double mu) {
 GncResult graduate(Gnc kind,
                    double c2,
                    std::vector<double> squared,
+                   std::optional<double> begin,
                    const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
   GncResult out;
   out.weights.assign(squared.size(), 1.0);
@@ -25,7 +26,7 @@ GncResult graduate(Gnc kind,
   if (worst <= c2) return out;
   const bool is_tls = kind == Gnc::tls;
   // Truncated least squares sharpens as mu grows, Geman-McClure as it shrinks to 1.
-  double mu = is_tls ? c2 / (2.0 * worst - c2) : 2.0 * worst / c2;
+  double mu = begin.value_or(is_tls ? c2 / (2.0 * worst - c2) : 2.0 * worst / c2);
   constexpr int kMostRounds = 100;
   for (bool settled = false; !settled && out.rounds < kMostRounds; ++out.rounds) {
     for (std::size_t k = 0; k < squared.size(); ++k) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,12 +24,14 @@ struct GncResult {
   int rounds = 0;
 };
 
-/// Starts from squared errors `squared` at the solution that believes everything. `solve` takes
+/// Starts from squared errors `squared` at the solution that believes everything, or, when `mu` is
+/// given, at one that can be trusted more: then from that convexity on. `solve` takes
 /// weights and gives the squared errors at their solution. Truncated least squares sharpens until
 /// every weight is 0 or 1, Geman-McClure until mu is 1; 100 rounds at most.
 GncResult graduate(Gnc kind,
                    double c2,
                    std::vector<double> squared,
+                   std::optional<double> mu,
                    const std::function<std::vector<double>(const std::vector<double>&)>& solve);
 
 }  // namespace loopbench

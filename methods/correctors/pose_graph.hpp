@@ -12,9 +12,12 @@ namespace loopbench {
 /// (the same minimum at a fraction of the cost), in Sim(3) when an edge changes the unit of length,
 /// else in SE(3); `group` overrules that. The result's poses are rigid, in the unit of the first.
 ///
-/// Closures may be false: then either one solve with a bounded `loss`, or graduated non-convexity
-/// (`gnc`), which starts from all closures and lets go of those that stay above `inlier_chi2`; or
-/// a pre-check of the closures (ClosureCheck). Odometry is trusted.
+/// Closures may be false: then either one solve with a bounded `loss`; or graduated non-convexity
+/// (`gnc`), which lets go of closures that stay above `inlier_chi2`; or only closures that agree
+/// (Checked). Odometry is trusted. GNC starts from all closures, or where odometry is a whole chain
+/// from the largest set that agrees (`gnc_start: consistent`): a closure's own information says
+/// nothing of how far odometry may have drifted in between, so that starting from all it drops true
+/// closures wherever drift is large; the check does know. All closures are judged either way.
 ///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,
@@ -24,6 +27,7 @@ class PoseGraphOptimizer final : public Corrector {
  public:
   enum class Poses { automatic, se2, se3, sim3 };
   enum class Start { keyframes, odometry, chordal };
+  enum class GncStart { all, consistent };
 
   struct Options {
     Poses group = Poses::automatic;
@@ -31,6 +35,7 @@ class PoseGraphOptimizer final : public Corrector {
     Loss loss = Loss::none;
     double loss_width = 1.0;
     Gnc gnc = Gnc::off;
+    GncStart gnc_start = GncStart::consistent;
     std::optional<double> inlier_chi2 = std::nullopt;
     double scale_sigma = 0.01;
     int max_iterations = 1000;
@@ -61,6 +66,10 @@ inline auto choices(PoseGraphOptimizer::Start) {
                     std::pair{"odometry", PoseGraphOptimizer::Start::odometry},
                     std::pair{"chordal", PoseGraphOptimizer::Start::chordal}};
 }
+inline auto choices(PoseGraphOptimizer::GncStart) {
+  return std::array{std::pair{"all", PoseGraphOptimizer::GncStart::all},
+                    std::pair{"consistent", PoseGraphOptimizer::GncStart::consistent}};
+}
 
 template <class Visit>
 void fields(PoseGraphOptimizer::Options& o, Visit visit) {
@@ -71,6 +80,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("loss", o.loss, "what a closure's squared error costs; dcs and switchable bound it");
   visit("loss_width", o.loss_width, "squared error where the loss bends [-]", Above{0.0});
   visit("gnc", o.gnc, "graduated non-convexity: off, truncated least squares, Geman-McClure");
+  visit("gnc_start", o.gnc_start, "closures believed first; consistent: those that agree, if any");
   visit("inlier_chi2",
         o.inlier_chi2,
         "squared error a true closure stays below [-]; none: the group's 99 % quantile",
