@@ -1,3 +1,4 @@
+#include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
@@ -88,7 +89,8 @@ std::vector<MethodEntry> methods() {
       method<MotionDrift>("motion_drift",
                           "motion_drift_rotation with steady drift, all fitted to the loops"),
       method<PoseGraphOptimizer>("pose_graph",
-                                 "maximum likelihood by sparse least squares (Ceres)"),
+                                 "maximum likelihood by sparse least squares (Ceres)",
+                                 {.start = PoseGraphOptimizer::Start::chordal}),
       method<PoseGraphOptimizer>(
           "pose_graph_huber", "pose_graph, closures under a Huber loss", {.loss = Loss::huber}),
       method<PoseGraphOptimizer>(
@@ -100,10 +102,14 @@ std::vector<MethodEntry> methods() {
           "pose_graph_dcs", "pose_graph with dynamic covariance scaling", {.loss = Loss::dcs}),
       method<PoseGraphOptimizer>("pose_graph_gnc_tls",
                                  "pose_graph, graduated to truncated least squares",
-                                 {.gnc = PoseGraphOptimizer::Gnc::tls}),
-      method<PoseGraphOptimizer>("pose_graph_gnc_gm",
-                                 "pose_graph, graduated to Geman-McClure",
-                                 {.gnc = PoseGraphOptimizer::Gnc::gm}),
+                                 {.gnc = Gnc::tls}),
+      method<PoseGraphOptimizer>(
+          "pose_graph_gnc_gm", "pose_graph, graduated to Geman-McClure", {.gnc = Gnc::gm}),
+      method<Checked<TwoPass>>("two_pass_pcm",
+                               "two_pass on the largest set of closures that agree"),
+      method<Checked<Dual>>("dual_pcm", "dual on the largest set of closures that agree"),
+      method<Checked<PoseGraphOptimizer>>("pose_graph_pcm",
+                                          "pose_graph on the largest set of closures that agree"),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
