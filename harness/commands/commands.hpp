@@ -21,5 +21,8 @@ void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
+void add_profile(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench
