@@ -34,6 +34,7 @@ int print_profile(const ProfileArguments& arguments) {
   bool first = true;
   for (const Listing& listing :
        {costs(cells),
+        reported(cells),
         scaling(cells),
         pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
     if (!first) fmt::print("\n");

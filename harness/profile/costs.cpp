@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "harness/profile/grouping.hpp"
@@ -31,26 +33,37 @@ std::string largest_megabytes(const std::vector<const CellRecord*>& cells, Get g
   return out ? fmt::format("{:.1f}", static_cast<double>(*out) / kMegabyte) : "-";
 }
 
-/// "correct 0.12, smooth 0.03": medians of what the method reported, in its order.
-template <class Items, class Value, class Text>
-std::string reported(const std::vector<const CellRecord*>& cells,
-                     Items items,
-                     Value value,
-                     Text text) {
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<double>> values;
-  for (const CellRecord* cell : cells) {
-    for (const auto& item : items(*cell)) {
-      if (!values.contains(item.name)) names.push_back(item.name);
-      values[item.name].push_back(value(item));
+std::optional<double> iterations(const CellRecord& cell) {
+  const auto found = std::ranges::find(cell.counts, "iterations", &Count::name);
+  return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
+}
+
+std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& cells) {
+  std::vector<const CellRecord*> out;
+  std::ranges::copy_if(cells, std::back_inserter(out), [](const auto* c) { return is_timed(*c); });
+  return out;
+}
+
+std::string plain(double value) { return fmt::format("{:.6g}", value); }
+
+/// Medians by name, names in the order in which they first come.
+class ByName {
+ public:
+  void add(const std::string& name, double value) {
+    if (!values_.contains(name)) names_.push_back(name);
+    values_[name].push_back(value);
+  }
+  template <class Text>
+  void add_rows(Listing& out, const std::string& method, const std::string& what, Text text) const {
+    for (const std::string& name : names_) {
+      out.rows.push_back({method, what, name, text(median_of(values_.at(name)))});
     }
   }
-  std::string out;
-  for (const std::string& name : names) {
-    out += (out.empty() ? "" : ", ") + name + " " + text(median_of(values[name]));
-  }
-  return out.empty() ? "-" : out;
-}
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<double>> values_;
+};
 
 }  // namespace
 
@@ -64,21 +77,18 @@ Listing costs(const std::vector<CellRecord>& cells) {
                "peak memory [MB]",
                "added [MB]",
                "allocations",
-               "counts",
-               "phases [ms]"},
+               "iterations"},
               {},
               {}};
   bool shared = false;
   bool alone = false;
   for (const auto& [method, all] : by_method(cells)) {
-    std::vector<const CellRecord*> timed;
+    const std::vector<const CellRecord*> timed = timed_of(all);
     std::size_t failed = 0;
     for (const CellRecord* cell : all) {
-      if (is_timed(*cell)) timed.push_back(cell);
       if (!is_timed(*cell) && cell->status != "declined") ++failed;
       (cell->worker.find("serial") == std::string::npos ? shared : alone) = true;
     }
-    const auto plain = [](double value) { return fmt::format("{:.6g}", value); };
     out.rows.push_back(
         {method,
          std::to_string(all.size()),
@@ -91,16 +101,7 @@ Listing costs(const std::vector<CellRecord>& cells) {
          largest_megabytes(timed, [](const auto& c) { return c.added_memory; }),
          median_text(
              timed, [](const auto& c) { return c.allocations; }, plain),
-         reported(
-             timed,
-             [](const auto& c) { return c.counts; },
-             [](const Count& count) { return count.value; },
-             plain),
-         reported(
-             timed,
-             [](const auto& c) { return c.phases; },
-             [](const Phase& phase) { return phase.seconds; },
-             milliseconds)});
+         median_text(timed, iterations, plain)});
   }
   out.notes.push_back(
       "medians over cells; memory: the largest of the whole process while the "
@@ -109,6 +110,21 @@ Listing costs(const std::vector<CellRecord>& cells) {
   if (shared) {
     out.notes.push_back(std::string(alone ? "some" : "all") +
                         " cells ran beside others: `timing: true` in the config runs them alone");
+  }
+  return out;
+}
+
+Listing reported(const std::vector<CellRecord>& cells) {
+  Listing out{"what methods report of themselves", {"method", "what", "name", "median"}, {}, {}};
+  for (const auto& [method, all] : by_method(cells)) {
+    ByName phases;
+    ByName counts;
+    for (const CellRecord* cell : timed_of(all)) {
+      for (const Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
+      for (const Count& count : cell->counts) counts.add(count.name, count.value);
+    }
+    phases.add_rows(out, method, "phase [ms]", milliseconds);
+    counts.add_rows(out, method, "count", plain);
   }
   return out;
 }

@@ -25,9 +25,12 @@ std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vecto
 /// O(n log n).
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A row per method: wall and CPU time, memory, allocations, counts and phases of its own. Medians
-/// over its cells that ran to their end, largest value for memory.
+/// A row per method: wall and CPU time, memory, allocations, iterations. Medians over its cells
+/// that ran to their end, largest value for memory.
 Listing costs(const std::vector<CellRecord>& cells);
+
+/// A row per phase and count that a method reports of itself: medians over its cells.
+Listing reported(const std::vector<CellRecord>& cells);
 
 /// A row per method with cells of three sizes or more: exponent of its time in keyframes. One point
 /// per size: the median over the cells of that size.
