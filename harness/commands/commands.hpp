@@ -22,5 +22,8 @@ void add_table(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
+void add_profile(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench
