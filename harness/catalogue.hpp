@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "datasets/dataset.hpp"
@@ -14,6 +16,7 @@ struct Catalogue {
   std::vector<DatasetEntry> datasets;
   std::vector<MethodEntry> methods;
   std::vector<MetricEntry> metrics;
+  std::map<std::string, std::string> versions = {};  ///< of plugins' methods: their file's hash
 };
 
 /// Built-ins, then each plugin's methods. Throws InputError for a plugin that may not be used or

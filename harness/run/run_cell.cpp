@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
 
+#include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 
 namespace loopbench {
@@ -18,6 +20,9 @@ template <class Result, class Work>
 void fenced(Result& result, Work work) {
   try {
     work();
+  } catch (const std::bad_alloc&) {
+    result.status = Status::out_of_memory;
+    result.why = "asked for more memory than there is";
   } catch (const std::exception& error) {
     result.status = Status::failed;
     result.why = error.what();
@@ -25,6 +30,32 @@ void fenced(Result& result, Work work) {
     result.status = Status::failed;
     result.why = "threw something that is not a std::exception";
   }
+}
+
+/// The method's verb, run and measured; memory is looked at outside the clock.
+std::unique_ptr<const Curve> timed(CellResult& result,
+                                   const Method& method,
+                                   const Problem& problem,
+                                   int runs) {
+  const std::optional<std::int64_t> before =
+      forget_peak_memory() ? resident_memory() : std::nullopt;
+  std::unique_ptr<const Curve> curve;
+  for (int run = 0; run < runs; ++run) {
+    curve.reset();  // or its end would be in the next one's time
+    Report report;
+    const double cpu_begin = process_cpu_seconds();
+    const auto begin = Clock::now();
+    curve = method.estimate(problem, report);
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    result.seconds.push_back(took.count());
+    result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
+    result.report = std::move(report);
+  }
+  if (before) {
+    result.peak_memory = peak_memory();
+    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
+  }
+  return curve;
 }
 
 /// Why so little was judged that the numbers do not stand beside others; empty when enough was.
@@ -57,7 +88,7 @@ void score(CellResult& result,
       added.score = std::move(score);
     }
   });
-  if (row.status == Status::failed) result.scores.push_back(row);
+  if (is_failure(row.status)) result.scores.push_back(row);
 }
 
 /// Every metric under one protocol at one choice of times, which `row` names.
@@ -85,6 +116,11 @@ void judge(CellResult& result,
     }
     for (const MetricChoice& choice : sweep.metrics) {
       score(result, choice, usual, evaluation, catalogue);
+    }
+    const bool densest =
+        row.times == Times::dense || std::ranges::count(sweep.times, Times::dense) == 0;
+    if (sweep.traces && row.protocol == 0 && densest) {
+      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
   });
   if (none.status == Status::ok) return;
@@ -117,8 +153,6 @@ CellResult run_cell(const Cell& cell,
                     const Catalogue& catalogue) {
   CellResult result;
   result.cell = cell;
-  result.closures = sequence.provenance.closures;
-  result.oracle_closures = sequence.provenance.oracle_closures;
   fenced(result, [&] {
     const auto method = make_method(sweep.methods[cell.method], catalogue);
     if (auto why = method->declines(sequence.problem)) {
@@ -126,15 +160,8 @@ CellResult run_cell(const Cell& cell,
       result.why = std::move(*why);
       return;
     }
-    std::unique_ptr<const Curve> curve;
-    for (int run = 0; run < sweep.timing; ++run) {
-      Report report;
-      const auto begin = Clock::now();
-      curve = method->estimate(sequence.problem, report);
-      const std::chrono::duration<double> took = Clock::now() - begin;
-      result.seconds.push_back(took.count());
-      result.report = std::move(report);
-    }
+    const std::unique_ptr<const Curve> curve =
+        timed(result, *method, sequence.problem, sweep.timing);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
       return;

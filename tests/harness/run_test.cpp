@@ -34,10 +34,13 @@ class RunSweep : public testing::Test {
     const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
     Sequences sequences(sweep_, known_, {}, planned);
     std::atomic<bool> stop = false;
-    Store store(file, sweep_);
-    run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
-      store.write(sweep_, result);
-    });
+    CellKeys keys(sweep_, known_, {}, "build");
+    {
+      Store store(file, keys, {}, true);
+      run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
+        store.write(result);
+      });
+    }
     return read_records(file);
   }
 
