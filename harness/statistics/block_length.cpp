@@ -49,7 +49,9 @@ std::size_t block_length(std::span<const double> values) {
     curvature += 2.0 * weight * static_cast<double>(lag) * r;
   }
   const double longest = std::fmin(3.0 * std::sqrt(n), n / 3.0);
-  const double best = std::cbrt(1.5 * std::pow(curvature / spectrum, 2) * n);
+  // On a drift whose autocorrelation turns negative the sums cancel: never below what correlates.
+  const double best =
+      std::fmax(static_cast<double>(last), std::cbrt(1.5 * std::pow(curvature / spectrum, 2) * n));
   return static_cast<std::size_t>(std::lround(std::fmax(1.0, std::fmin(best, longest))));
 }
 

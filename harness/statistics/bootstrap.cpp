@@ -33,25 +33,6 @@ double of_all(std::size_t n, const Resampled& statistic) {
   return statistic(all);
 }
 
-/// Sorted. Blocks of one are independent draws.
-std::vector<double> resampled(std::size_t n,
-                              std::size_t block,
-                              const Resampled& statistic,
-                              const BootstrapOptions& options) {
-  std::mt19937_64 bits(options.seed);
-  Indices indices(n);
-  std::vector<double> out(options.resamples);
-  for (double& value : out) {
-    for (std::size_t i = 0; i < n;) {
-      const std::size_t begin = draw(bits, n - block + 1);
-      for (std::size_t j = 0; j < block && i < n; ++j, ++i) indices[i] = begin + j;
-    }
-    value = statistic(indices);
-  }
-  std::ranges::sort(out);
-  return out;
-}
-
 /// Skewness of the statistic's influence values, over 6 sqrt n.
 double acceleration(std::size_t n, const Resampled& statistic) {
   std::vector<double> left_out(n);
@@ -71,7 +52,36 @@ double acceleration(std::size_t n, const Resampled& statistic) {
   return squares > 0.0 ? cubes / (6.0 * std::pow(squares, 1.5)) : 0.0;
 }
 
+std::vector<double> sorted_values(std::size_t n,
+                                  std::size_t block,
+                                  const Resampled& statistic,
+                                  const BootstrapOptions& options) {
+  std::vector<double> out = block_values(n, block, statistic, options);
+  std::ranges::sort(out);
+  return out;
+}
+
 }  // namespace
+
+std::vector<double> block_values(std::size_t n,
+                                 std::size_t block,
+                                 const Resampled& statistic,
+                                 const BootstrapOptions& options) {
+  check(n, options);
+  if (block == 0) throw std::invalid_argument("a block has at least one observation");
+  block = std::min(block, n);
+  std::mt19937_64 bits(options.seed);
+  Indices indices(n);
+  std::vector<double> out(options.resamples);
+  for (double& value : out) {
+    for (std::size_t i = 0; i < n;) {
+      const std::size_t begin = draw(bits, n - block + 1);
+      for (std::size_t j = 0; j < block && i < n; ++j, ++i) indices[i] = begin + j;
+    }
+    value = statistic(indices);
+  }
+  return out;
+}
 
 Interval percentile_interval(std::size_t n,
                              const Resampled& statistic,
@@ -83,9 +93,7 @@ Interval block_interval(std::size_t n,
                         std::size_t block,
                         const Resampled& statistic,
                         const BootstrapOptions& options) {
-  check(n, options);
-  if (block == 0) throw std::invalid_argument("a block has at least one observation");
-  const std::vector<double> sorted = resampled(n, std::min(block, n), statistic, options);
+  const std::vector<double> sorted = sorted_values(n, block, statistic, options);
   const double tail = 0.5 * (1.0 - options.level);
   return {of_all(n, statistic), quantile(sorted, tail), quantile(sorted, 1.0 - tail)};
 }
@@ -94,7 +102,7 @@ Interval bca_interval(std::size_t n, const Resampled& statistic, const Bootstrap
   check(n, options);
   if (n == 1) throw std::invalid_argument("one observation says nothing about its spread");
   const double estimate = of_all(n, statistic);
-  const std::vector<double> sorted = resampled(n, 1, statistic, options);
+  const std::vector<double> sorted = sorted_values(n, 1, statistic, options);
   const auto [first, last] = std::ranges::equal_range(sorted, estimate);
   const double below = static_cast<double>(first - sorted.begin());
   const double not_above = static_cast<double>(last - sorted.begin());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace loopbench {
 
@@ -22,6 +23,14 @@ struct Interval {
   double low = 0.0;
   double high = 0.0;
 };
+
+/// The statistic on each resample, in the order drawn: of blocks of `block` neighbours, cut off at
+/// n. Blocks of one are independent draws. Throws std::invalid_argument on n = 0, block = 0 and
+/// options out of range. O(resamples * n).
+std::vector<double> block_values(std::size_t n,
+                                 std::size_t block,
+                                 const Resampled& statistic,
+                                 const BootstrapOptions& options = {});
 
 /// Quantiles of the statistic over resamples of n independent observations (Efron 1979). Throws
 /// std::invalid_argument on n = 0 and options out of range. O(resamples * n).

@@ -308,6 +308,10 @@ TEST(BlockLength, IsNearItsClosedFormForAutoregression) {
   // circular block is (1.5 (2 rho / (1 - rho^2))^2 n)^(1/3): 49.1 for rho 0.8, n 4000.
   EXPECT_NEAR(static_cast<double>(block_length(autoregressive(0.8, 4000))), 49.1, 0.35 * 49.1);
   EXPECT_LE(block_length(autoregressive(0.0, 4000)), 6u);
+  // A half wave: the lags' sums cancel, but a third of the wave still goes together.
+  Numbers wave;
+  for (int i = 0; i < 90; ++i) wave.push_back(std::cos(i * 3.141592653589793 / 90.0));
+  EXPECT_GE(block_length(wave), 20u);
   EXPECT_EQ(block_length(Numbers(10, 3.0)), 1u);
   EXPECT_EQ(block_length(Numbers{1.0}), 1u);
 }
