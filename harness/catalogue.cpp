@@ -23,7 +23,8 @@ const Entry& find(const std::vector<Entry>& entries,
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
-  Catalogue out{datasets(), methods(), metrics(), {}};
+  Catalogue out{datasets(), methods(), metrics(), oracles(), {}};
+  for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const std::filesystem::path& plugin : plugins) {
     std::string version;
     for (MethodEntry& entry : load_plugin(plugin)) {
@@ -44,6 +45,11 @@ const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& 
 }
 const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.methods, "method", name);
+}
+const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name) {
+  const auto found = std::ranges::find(
+      catalogue.oracles, name, [](const OracleEntry& entry) { return entry.listed.name; });
+  return found == catalogue.oracles.end() ? nullptr : &*found;
 }
 const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.metrics, "metric", name);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
+#include "harness/oracle/oracle.hpp"
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 
@@ -16,6 +17,7 @@ struct Catalogue {
   std::vector<DatasetEntry> datasets;
   std::vector<MethodEntry> methods;
   std::vector<MetricEntry> metrics;
+  std::vector<OracleEntry> oracles = {};  ///< those of `methods` that are shown the reference
   std::map<std::string, std::string> versions = {};  ///< of plugins' methods: their file's hash
 };
 
@@ -26,6 +28,8 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 /// The entry of that name. Throws InputError with a suggestion.
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);
 const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
+/// The oracle of that name, or null.
+const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name);
 const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
 
 }  // namespace loopbench

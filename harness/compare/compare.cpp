@@ -192,7 +192,13 @@ Comparison compare_one(const Observations& all, const CompareOptions& options, b
 }  // namespace
 
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options) {
-  const std::vector<Observations> all = observations(records, options.value);
+  std::vector<Record> fair = records;
+  std::set<std::string> oracles;
+  for (const Record& r : records) {
+    if (r.oracle) oracles.insert(r.method);
+  }
+  std::erase_if(fair, [&](const Record& r) { return oracles.contains(r.method); });
+  const std::vector<Observations> all = observations(fair, options.value);
   if (all.empty()) throw InputError("no score is left to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {
     throw InputError("baseline: " + unknown_name("method", options.baseline, all[0].methods));
@@ -202,6 +208,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
     const Better way = better(table.kind);
     if (way == Better::neither) continue;
     out.push_back(compare_one(table, options, way == Better::higher));
+    out.back().oracles.assign(oracles.begin(), oracles.end());
   }
   if (out.empty()) {
     throw InputError("'" + all[0].kind.metric +

@@ -68,6 +68,7 @@ struct Comparison {
   std::size_t longest_block = 0;       ///< intervals are along runs, blocks up to this [poses]
   std::vector<MethodVerdict> methods;  ///< by average rank, best first
   std::vector<Gap> gaps;
+  std::vector<std::string> oracles;  ///< methods left out: they were shown the reference
   double friedman_p = 1.0;
   double critical_difference = 0.0;
   double least_p = 1.0;       ///< that one test can reach with so many observations

@@ -119,6 +119,9 @@ std::vector<std::string> remarks(const Comparison& c) {
                   "{} lacks {} of {} {}: {}", gap.method, gap.missing, c.possible, what, gap.why)
             : fmt::format("{} is not ranked, it has no value: {}", gap.method, gap.why));
   }
+  if (!c.oracles.empty()) {
+    out.push_back("not ranked, shown the reference: " + joined(c.oracles));
+  }
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
       "ratio: geometric mean of value / {}, {:g} % {} interval; p: Wilcoxon signed-rank "

@@ -41,7 +41,7 @@ void walk(Archive& a, T& facts) {
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, CellResult>
 void walk(Archive& a, T& r) {
-  a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.seconds)(r.cpu_seconds);
+  a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
   a(r.peak_memory)(r.added_memory)(r.allocations);
   a(r.report.phases)(r.report.counts)(r.report.notes);
   a(r.scores)(r.trace.times)(r.trace.samples);

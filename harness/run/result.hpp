@@ -19,7 +19,7 @@ namespace loopbench {
 enum class Status {
   ok,
   declined,       ///< not for this method, or a number that means nothing here: not an error
-  failed,         ///< the method or a metric threw
+  failed,         ///< the method or a metric threw anything but Undefined
   incomplete,     ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
   crashed,        ///< its worker process died of a signal
   timeout,        ///< it ran longer than the sweep's limit
@@ -73,6 +73,7 @@ struct CellResult {
   std::optional<std::int64_t> allocations;   ///< calls for memory in one run of the verb
   Report report;                             ///< of the last timed run
   std::vector<ScoreResult> scores;
+  bool oracle_method = false;  ///< it was shown the reference
   CellTrace trace;  ///< under the first protocol, dense if the sweep judges densely
   std::shared_ptr<const SequenceFacts> facts;  ///< null when its sequence never finished loading
 };

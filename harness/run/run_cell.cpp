@@ -1,12 +1,11 @@
 #include "harness/run/run_cell.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <new>
 
+#include "harness/run/incomplete.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 
@@ -15,11 +14,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs `work`; an exception of any kind becomes a failed status with its text.
+/// Runs `work`; an exception of any kind becomes a status with its text: failed, or declined for a
+/// metric that says it means nothing here.
 template <class Result, class Work>
 void fenced(Result& result, Work work) {
   try {
     work();
+  } catch (const Undefined& reason) {
+    result.status = Status::declined;
+    result.why = reason.what();
   } catch (const std::bad_alloc&) {
     result.status = Status::out_of_memory;
     result.why = "asked for more memory than there is";
@@ -58,16 +61,6 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return curve;
 }
 
-/// Why so little was judged that the numbers do not stand beside others; empty when enough was.
-std::string why_incomplete(const Coverage& coverage, double min_coverage) {
-  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
-  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
-                     coverage.pairs,
-                     coverage.possible,
-                     100.0 * coverage.span,
-                     100.0 * min_coverage);
-}
-
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
@@ -88,7 +81,8 @@ void score(CellResult& result,
       added.score = std::move(score);
     }
   });
-  if (is_failure(row.status)) result.scores.push_back(row);
+  const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
+  if (has_thrown) result.scores.push_back(row);
 }
 
 /// Every metric under one protocol at one choice of times, which `row` names.
@@ -132,11 +126,15 @@ void judge(CellResult& result,
 
 }  // namespace
 
-std::unique_ptr<const Method> make_method(const MethodChoice& choice, const Catalogue& catalogue) {
+std::unique_ptr<const Method> make_method(const MethodChoice& choice,
+                                          const Catalogue& catalogue,
+                                          const Trajectory& reference) {
   std::unique_ptr<const Corrector> corrector;
   std::unique_ptr<const Smoother> smoother;
   for (const Choice& part : choice.stages) {
-    Stage stage = find_method(catalogue, part.name).make(part.options);
+    const OracleEntry* oracle = find_oracle(catalogue, part.name);
+    Stage stage = oracle ? oracle->make(part.options, reference)
+                         : find_method(catalogue, part.name).make(part.options);
     if (auto* whole = std::get_if<std::unique_ptr<const Method>>(&stage)) return std::move(*whole);
     if (auto* first = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
       corrector = std::move(*first);
@@ -153,8 +151,12 @@ CellResult run_cell(const Cell& cell,
                     const Catalogue& catalogue) {
   CellResult result;
   result.cell = cell;
+  const MethodChoice& choice = sweep.methods[cell.method];
+  result.oracle_method = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+    return find_oracle(catalogue, stage.name) != nullptr;
+  });
   fenced(result, [&] {
-    const auto method = make_method(sweep.methods[cell.method], catalogue);
+    const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
       result.why = std::move(*why);

@@ -98,7 +98,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(option_text(method.stages))
       .bind(facts.closures)
       .bind(std::int64_t{facts.oracle_closures})
-      .bind(std::int64_t{facts.oracle_closures})  // no method is given the reference
+      .bind(std::int64_t{result.oracle_method})
       .bind(text_of(result.worker))
       .bind(static_cast<std::int64_t>(result.seconds.size()))
       .bind(median(result.seconds))

@@ -19,7 +19,7 @@ struct Record {
   std::string method;
   std::string closures;
   bool oracle_closures = false;
-  bool oracle = false;        ///< the closures or the method used the reference
+  bool oracle = false;        ///< the method was shown the reference
   double milliseconds = 0.0;  ///< median wall time of the method's verb
   std::string protocol;       ///< label; empty when it does not apply, so the next two
   std::string protocol_version;

@@ -31,7 +31,7 @@ inline constexpr const char* kSchema = R"sql(
     method_options TEXT NOT NULL,
     closures TEXT NOT NULL,            -- where the loop closures were taken from
     oracle_closures INTEGER NOT NULL,  -- 1: they were measured in the reference
-    oracle INTEGER NOT NULL,           -- 1: the closures or the method used the reference
+    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference
     worker TEXT NOT NULL,              -- isolated | in process, then serial, pinned where it was
     runs INTEGER NOT NULL,             -- timed runs of the method's verb
     seconds_median REAL NOT NULL,      -- wall time of one

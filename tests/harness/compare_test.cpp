@@ -179,6 +179,16 @@ TEST(Compare, RanksOnlyRunsThatAllMethodsHaveAndSaysSo) {
   EXPECT_TRUE(has("broken is not ranked, it has no value: failed 1, not run 8"));
 }
 
+TEST(Compare, LeavesOutWhoWasShownTheReference) {
+  std::vector<Record> records = sweep();
+  for (Record& r : records) r.oracle = r.method == "dual";
+  const Comparison c = compared(records);
+  EXPECT_EQ(c.methods.size(), 3u);
+  EXPECT_EQ(c.methods[0].method, "uniform");
+  const std::vector<std::string> notes = remarks(c);
+  EXPECT_EQ(std::ranges::count(notes, "not ranked, shown the reference: dual"), 1);
+}
+
 TEST(Compare, WithoutACommonRunComparesNothing) {
   const Comparison c = compared({score("a", 0, "uniform", 1.0), score("b", 0, "dual", 0.5)});
   EXPECT_TRUE(c.methods.empty());

@@ -124,6 +124,19 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   }
 }
 
+TEST_F(RunSweep, AMetricThatMeansNothingHereIsDeclinedNotFailed) {
+  known_.metrics[0].score = [](const Evaluation&, const Params&) -> std::vector<Score> {
+    throw Undefined("no closures");
+  };
+  int declined = 0;
+  for (const Record& r : run(1)) {
+    if (r.why != "no closures") continue;
+    EXPECT_EQ(r.status, "declined");
+    ++declined;
+  }
+  EXPECT_EQ(declined, 36);
+}
+
 TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
   known_.metrics[0].score = [](const Evaluation& evaluation, const Params&) {
     EXPECT_NE(evaluation.context.problem, nullptr);

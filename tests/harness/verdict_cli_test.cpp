@@ -143,7 +143,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
   EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline is of another sequence"));
   folder_->file("evo.yaml", std::string(kConfig) + "protocol: evo\n");
   EXPECT_EQ(run("run evo.yaml --out e --only 'room / raw'").exit_code, 0);
-  EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench [1]'"));
+  EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench ["));
   folder_->file("broken.json", "{\n\"loopbench_baseline\": 1,\n");
   EXPECT_TRUE(has(refusal("r --baseline broken.json"), "broken.json:3: is not JSON: "));
   EXPECT_TRUE(has(refusal("r --baseline nowhere.json"), "nowhere.json: cannot be read"));
