@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "datasets/rgbd/rgbd_datasets.hpp"
 #include "harness/plugins.hpp"
 #include "harness/suggest.hpp"
 
@@ -23,6 +24,7 @@ const Entry& find(const std::vector<Entry>& entries,
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   Catalogue out{datasets(), methods(), metrics()};
+  for (DatasetEntry& entry : rgbd_datasets()) out.datasets.push_back(std::move(entry));
   for (const std::filesystem::path& plugin : plugins) {
     for (MethodEntry& entry : load_plugin(plugin)) {
       if (std::ranges::find(out.methods, entry.name, &MethodEntry::name) != out.methods.end()) {

@@ -6,6 +6,7 @@
 
 #include "datasets/core/curve.hpp"
 #include "datasets/core/problem.hpp"
+#include "datasets/core/sequence.hpp"
 #include "metrics/protocol.hpp"
 
 namespace loopbench {
@@ -18,7 +19,8 @@ struct Context {
   const Problem* problem = nullptr;       ///< what the method was given
   const Curve* curve = nullptr;           ///< the estimate in time, before alignment
   Times times = Times::keyframes;         ///< how the pairs were made, with `protocol`
-  Protocol protocol;
+  Protocol protocol = {};
+  const std::vector<LoopCandidate>* loop_candidates = nullptr;  ///< of a place recogniser
 };
 
 /// The view, or a std::runtime_error "METRIC: needs WHAT; files have none".

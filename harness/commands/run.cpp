@@ -64,7 +64,7 @@ std::string protocol_names(const Sweep& sweep) {
 int run(const RunArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
-  const DataRoot root = data_root(sweep, arguments.data);
+  DataRoot root = data_root(sweep, arguments.data);
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
   if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
   if (arguments.dry_run) {
@@ -78,9 +78,14 @@ int run(const RunArguments& arguments) {
   std::size_t failed = 0;
   std::size_t incomplete = 0;
   {
-    Sequences sequences(sweep, known, root, planned);
     std::optional<Store> store;  // opened by the first result: a wrong path leaves no empty store
     Progress progress(planned.size());
+    root.progress = [&](const std::string& stage, std::size_t step, std::size_t of) {
+      progress.loading(stage, step, of);
+    };
+    root.note = [&](const std::string& text) { progress.note(text); };
+    root.cache = out / "cache";
+    Sequences sequences(sweep, known, root, planned);
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
     run_sweep(

@@ -74,8 +74,13 @@ void judge(CellResult& result,
   fenced(none, [&] {
     Evaluation evaluation =
         evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
-    evaluation.context = {
-        &sequence.reference, &at_keyframes, &sequence.problem, &curve, row.times, protocol};
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          row.times,
+                          protocol,
+                          &sequence.loop_candidates};
     ScoreResult usual = row;
     usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
     if (!usual.why.empty()) {

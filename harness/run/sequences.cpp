@@ -50,6 +50,11 @@ std::shared_ptr<const Sequence> Sequences::load(const Cell& cell) const {
     options["seed"] = derived_seed(std::get<std::int64_t>(base), cell.repeat);
   }
   auto sequence = std::make_shared<Sequence>(entry.load(options, root_));
+  if (root_.note) {
+    for (const std::string& note : sequence->provenance.notes) {
+      root_.note(choice.label + ": " + note);
+    }
+  }
   check(sequence->problem, choice.label);
   check(sequence->reference, choice.label + ": reference");
   return sequence;
