@@ -11,16 +11,9 @@
 
 namespace loopbench {
 
-/// What a loader is given beside its options: where relative paths are looked for, in order (config
-/// folder, --data DIR), and what slow loaders use.
+/// Where relative paths in options are looked for, in order (config folder, --data DIR).
 struct DataRoot {
   std::vector<std::filesystem::path> folders;
-  /// Called by slow loaders as they go, from one thread at a time: stage, done, of how many.
-  std::function<void(const std::string&, std::size_t, std::size_t)> progress = {};
-  /// Called with each of a loaded sequence's notes (Provenance).
-  std::function<void(const std::string&)> note = {};
-  /// Where slow loaders keep what they have worked out; empty: nowhere.
-  std::filesystem::path cache = {};
 
   /// The first existing file. Throws DataMissing naming every place tried.
   std::filesystem::path find(const std::string& path) const;

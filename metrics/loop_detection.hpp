@@ -1,37 +1,42 @@
 /// A place recogniser judged as a detector: precision, recall, and the curve between them.
 #pragma once
 
-#include "metrics/metric.hpp"
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "datasets/core/sequence.hpp"
 
 namespace loopbench {
 
-struct LoopDetectionOptions {
-  double radius = 1.0;
-  double angle = 35.0;
-  double min_gap = 5.0;
-  double wrong_metres = 0.25;
-  double wrong_degrees = 10.0;
+/// What counts as the same place, and as a false closure.
+struct DetectionRule {
+  double radius = 1.0;          ///< farthest that two views of a place lie apart [m]
+  double angle = 35.0;          ///< most that they look apart [deg]
+  double min_gap = 5.0;         ///< neighbours in time are no revisits [s]
+  double wrong_metres = 0.25;   ///< a closure off by more is false [m]
+  double wrong_degrees = 10.0;  ///< a closure off by more is false [deg]
 };
 
-template <class Visit>
-void fields(LoopDetectionOptions& o, Visit visit) {
-  visit("radius", o.radius, "farthest that two views of a place lie apart [m]", Above{0});
-  visit("angle", o.angle, "most that they look apart [deg]", Between{0, 180});
-  visit("min_gap", o.min_gap, "neighbours in time are no revisits [s]", Between{0});
-  visit("wrong_metres", o.wrong_metres, "a closure off by more is false [m]", Above{0});
-  visit("wrong_degrees", o.wrong_degrees, "a closure off by more is false [deg]", Above{0});
-}
+struct Detection {
+  std::size_t revisits = 0;    ///< keyframes that see a place again
+  std::size_t accepted = 0;    ///< candidates that became closures
+  std::size_t wrong_pose = 0;  ///< closures whose measured pose is false
+  double precision = 1.0;      ///< of the accepted; 1 when none was
+  double recall = 0.0;         ///< of the accepted
+  double average_precision = 0.0;
+  double full_precision_recall = 0.0;        ///< recall before the first wrong candidate
+  std::array<double, 10> precision_at = {};  ///< best precision at recall 0.1 .. 1.0 or more
+};
 
 /// A keyframe is a revisit when an older one by min_gap lies within radius and angle of it in the
-/// reference; a candidate is right when its pair does. Candidates are taken from the highest score
-/// down. Single values in 0..1: `average_precision` (sum of precision times gain in recall, no
-/// interpolation), `full_precision_recall` (recall before the first wrong candidate), `precision`
-/// and `recall` of what was accepted, `precision_at` with axis `recall 0.1` .. `recall 1.0` (the
-/// best precision at that recall or more: the curve; 0 where it is not reached); and counts:
-/// `revisits`, `accepted`, and `false_closures`, closures whose measured pose is off the
-/// reference's by more than wrong_metres or wrong_degrees. Keyframes outside the reference's time
-/// are left out. Throws std::runtime_error without candidates or without revisits. O(keyframes^2).
-std::vector<Score> loop_detection(const Evaluation& evaluation,
-                                  const LoopDetectionOptions& options);
+/// reference (read between its poses); a candidate is right when its pair does. Candidates are
+/// taken from the highest score down, equal scores together; average precision is the sum of
+/// precision times gain in recall, without interpolation. Keyframes outside the reference's time
+/// are left out. Throws std::runtime_error without a reference. O(keyframes^2).
+Detection judge_detection(const Sequence& sequence, const DetectionRule& rule);
+
+/// One line of it.
+std::string to_text(const Detection& detection);
 
 }  // namespace loopbench

@@ -13,7 +13,6 @@
 #include "metrics/jerk.hpp"
 #include "metrics/jumps.hpp"
 #include "metrics/local_shape.hpp"
-#include "metrics/loop_detection.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/path_length.hpp"
 #include "metrics/rpe.hpp"
@@ -55,8 +54,6 @@ std::vector<MetricEntry> metrics() {
       metric<SmoothingHeadroomOptions>("smoothing_headroom",
                                        "what taking all fast error away would gain at most",
                                        smoothing_headroom),
-      metric<LoopDetectionOptions>(
-          "loop_detection", "how well places seen before were recognised", loop_detection),
       metric<CoverageOptions>("coverage", "how much of the trajectory was judged", coverage),
       metric<DiagnosticsOptions>("diagnostics", "can the numbers be trusted at all", diagnostics),
   };

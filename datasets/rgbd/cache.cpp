@@ -1,6 +1,8 @@
 #include "datasets/rgbd/cache.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -44,6 +46,17 @@ void store_cached(const std::filesystem::path& file, const std::string& bytes) {
   }
   if (!error) std::filesystem::rename(beside, file, error);
   if (error) std::filesystem::remove(beside, error);
+}
+
+CacheLock::CacheLock(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  handle_ = open((file.string() + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  if (handle_ >= 0) flock(handle_, LOCK_EX);
+}
+
+CacheLock::~CacheLock() {
+  if (handle_ >= 0) close(handle_);
 }
 
 std::filesystem::path cached_path(const std::filesystem::path& folder,

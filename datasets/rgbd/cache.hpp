@@ -86,6 +86,19 @@ std::optional<std::string> load_cached(const std::filesystem::path& file);
 /// written (a full or read-only disk) is not kept, and that is all.
 void store_cached(const std::filesystem::path& file, const std::string& bytes);
 
+/// Whoever holds it is the only one at work on `file`, on this machine; others wait. What cannot be
+/// locked is not: then the same may be worked out twice, to the same bits.
+class CacheLock {
+ public:
+  explicit CacheLock(const std::filesystem::path& file);
+  ~CacheLock();
+  CacheLock(const CacheLock&) = delete;
+  CacheLock& operator=(const CacheLock&) = delete;
+
+ private:
+  int handle_;
+};
+
 /// `folder / stage-KEY`, KEY in hexadecimal.
 std::filesystem::path cached_path(const std::filesystem::path& folder,
                                   const std::string& stage,

@@ -54,7 +54,7 @@ class Skipped {
 
 Tracked track(const RgbdSource& source,
               const FrontendOptions& options,
-              const DataRoot& root,
+              const FrontendHooks& hooks,
               const StageCache& cache,
               Seconds& seconds) {
   const Camera camera = source.camera();
@@ -82,7 +82,7 @@ Tracked track(const RgbdSource& source,
         seconds.read += timed.read;
         seconds.features += timed.find;
         seconds.frames_read += timed.fresh ? 1 : 0;
-        if (root.progress) root.progress("tracking", i + 1, source.size());
+        if (hooks.progress) hooks.progress("tracking", i + 1, source.size());
         if (!timed.frame.features) return skipped.add(timed.frame.why);
         const double begin = cpu_seconds();
         tracker.add(i, source.stamp(i), std::move(*timed.frame.features));
@@ -114,7 +114,7 @@ std::string told(const Seconds& s) {
 DetectedLoops find_loops(const Tracked& tracked,
                          const RgbdSource& source,
                          const FrontendOptions& options,
-                         const DataRoot& root,
+                         const FrontendHooks& hooks,
                          const StageCache& cache,
                          Seconds& seconds) {
   const auto make = [&] {
@@ -124,7 +124,7 @@ DetectedLoops find_loops(const Tracked& tracked,
                                      options.track,
                                      options.loops,
                                      [&](std::size_t done, std::size_t all) {
-                                       if (root.progress) root.progress("loops", done, all);
+                                       if (hooks.progress) hooks.progress("loops", done, all);
                                      });
     seconds.loops = out.seconds;
     return out;
@@ -138,12 +138,14 @@ DetectedLoops find_loops(const Tracked& tracked,
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
-                      const DataRoot& root) {
+                      const FrontendHooks& hooks) {
   // Frames are spread over the cores already.
   cv::setNumThreads(1);
-  const StageCache cache(root.cache, source, options);
+  const StageCache cache(hooks.cache, source, options);
+  std::optional<CacheLock> alone;  // workers of one sweep ask for the same sequence at once
+  if (!hooks.cache.empty()) alone.emplace(cache.tracked());
   Seconds seconds;
-  const auto make = [&] { return track(source, options, root, cache, seconds); };
+  const auto make = [&] { return track(source, options, hooks, cache, seconds); };
   const auto pack = [](const Tracked& tracked) { return packed(tracked); };
   Tracked tracked = cache.get(cache.tracked(), unpacked_tracked, make, pack);
   const double unread = static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
@@ -162,7 +164,7 @@ Sequence run_frontend(const RgbdSource& source,
         name,
         source.size()));
   }
-  DetectedLoops loops = find_loops(tracked, source, options, root, cache, seconds);
+  DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
 
   Sequence out;
   out.name = name;

@@ -40,12 +40,14 @@ void fields(RgbdOptions& o, Visit visit) {
 }
 
 /// Images of a room that does not exist, tracked. Throws InputError when nothing can be tracked.
-Sequence load_rendered_room(const RenderedRoomOptions& options, const DataRoot& root = {});
+Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks = {});
 
 /// A recording on disk, tracked. Throws InputError: see open_rgbd_folder() and run_frontend().
-Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root);
+Sequence load_rgbd(const RgbdOptions& options,
+                   const DataRoot& root,
+                   const FrontendHooks& hooks = {});
 
 /// Both, for the catalogue.
-std::vector<DatasetEntry> rgbd_datasets();
+std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks);
 
 }  // namespace loopbench

@@ -23,53 +23,16 @@ Progress::~Progress() {
   if (visible_) fmt::print(stderr, "\r\033[K");
 }
 
-bool Progress::due(bool last) {
+void Progress::step(const std::string& label) {
+  ++done_;
   const auto now = Clock::now();
-  if (!visible_ || (!last && now - drawn_ < std::chrono::milliseconds(100))) return false;
+  if (!visible_ || (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100))) return;
   drawn_ = now;
-  return true;
-}
-
-void Progress::draw(const std::string& line) {
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  // One column short: writing the last one makes some terminals wrap.
+  const std::string line = progress_line(done_, total_, seconds, label, terminal_width() - 1);
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);
-}
-
-void Progress::step(const std::string& label) {
-  const std::lock_guard lock(mutex_);
-  ++done_;
-  if (!due(done_ == total_)) return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  // One column short: writing the last one makes some terminals wrap.
-  draw(progress_line(done_, total_, seconds, label, terminal_width() - 1));
-}
-
-void Progress::loading(const std::string& stage, std::size_t done, std::size_t total) {
-  const std::lock_guard lock(mutex_);
-  if (due(done == total)) draw(loading_line(done, total, stage, terminal_width() - 1));
-}
-
-void Progress::note(const std::string& text) {
-  const std::lock_guard lock(mutex_);
-  fmt::print(stderr, "{}{}\n", visible_ ? "\r\033[K" : "", text);
-}
-
-namespace {
-
-constexpr std::size_t kBar = 20;  // [columns]
-
-std::string bar(std::size_t done, std::size_t total) {
-  const std::size_t filled = total == 0 ? kBar : kBar * done / total;
-  return fmt::format("[{:#<{}}{:.<{}}] {}/{}", "", filled, "", kBar - filled, done, total);
-}
-
-}  // namespace
-
-std::string loading_line(std::size_t done,
-                         std::size_t total,
-                         const std::string& stage,
-                         std::size_t width) {
-  return fmt::format("{}  {}", bar(done, total), stage).substr(0, width);
 }
 
 std::string progress_line(std::size_t done,
@@ -77,10 +40,20 @@ std::string progress_line(std::size_t done,
                           double seconds,
                           const std::string& label,
                           std::size_t width) {
+  constexpr std::size_t kBar = 20;  // [columns]
+  const std::size_t filled = total == 0 ? kBar : kBar * done / total;
   const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
   const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
-  const std::string line =
-      fmt::format("{}  {:.1f} cells/s  {:.0f} s left  {}", bar(done, total), rate, left, label);
+  const std::string line = fmt::format("[{:#<{}}{:.<{}}] {}/{}  {:.1f} cells/s  {:.0f} s left  {}",
+                                       "",
+                                       filled,
+                                       "",
+                                       kBar - filled,
+                                       done,
+                                       total,
+                                       rate,
+                                       left,
+                                       label);
   return line.substr(0, width);
 }
 

@@ -112,7 +112,7 @@ void expect_same(const Sequence& a, const Sequence& b) {
 TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
   const OutAndBack source(0, 0);
   const TemporaryFolder folder;
-  DataRoot cached;
+  FrontendHooks cached;
   cached.cache = folder.path() / "cache";
   const Sequence first = run_frontend(source, "room", quick(), {});
   const Sequence second = run_frontend(source, "room", quick(), cached);
