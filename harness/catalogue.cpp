@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "datasets/rgbd/rgbd_datasets.hpp"
 #include "harness/plugins.hpp"
 #include "harness/provenance/hash.hpp"
+#include "harness/run/loading.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -24,6 +26,9 @@ const Entry& find(const std::vector<Entry>& entries,
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   Catalogue out{datasets(), methods(), metrics(), oracles(), {}};
+  for (DatasetEntry& entry : rgbd_datasets(loading_hooks())) {
+    out.datasets.push_back(std::move(entry));
+  }
   for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const std::filesystem::path& plugin : plugins) {
     std::string version;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/run/loading.hpp"
+
 namespace loopbench {
 namespace {
 
@@ -91,6 +93,7 @@ Sequence load_sequence(const Cell& cell,
     if (is_seed(option)) options[option.name] = full.at(option.name);
   }
   Sequence sequence = entry.load(options, root);
+  tell(choice.label, sequence);
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference");
   return sequence;

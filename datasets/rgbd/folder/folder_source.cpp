@@ -7,6 +7,7 @@
 
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
+#include "datasets/rgbd/folder/register_depth.hpp"
 #include "datasets/rgbd/hash.hpp"
 
 namespace loopbench {
@@ -24,7 +25,15 @@ std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
 
 class FolderSource final : public RgbdSource {
  public:
-  explicit FolderSource(Recording recording) : recording_(std::move(recording)) {}
+  FolderSource(Recording recording, bool registered)
+      : recording_(std::move(recording)), registered_(registered) {
+    if (registered_) return;
+    recording_.camera = kinect_.colour;
+    const Pose depth_from_colour = kinect_.colour_from_depth.inverse();
+    for (StampedPose& pose : recording_.reference) {
+      pose.world_from_body = normalized(pose.world_from_body * depth_from_colour);
+    }
+  }
 
   Camera camera() const override { return recording_.camera; }
   std::size_t size() const override { return recording_.frames.size(); }
@@ -39,7 +48,7 @@ class FolderSource final : public RgbdSource {
       require_size(out.grey.width, out.grey.height, pair.grey);
       const Image<std::uint16_t> raw = read_depth(pair.depth);
       require_size(raw.width, raw.height, pair.depth);
-      out.depth = metres(raw);
+      out.depth = registered_ ? metres(raw) : register_depth(metres(raw), kinect_);
       return out;
     } catch (const InputError& error) {
       why = error.what();
@@ -48,7 +57,7 @@ class FolderSource final : public RgbdSource {
   }
 
   std::uint64_t content() const override {
-    std::uint64_t out = mixed(1, "rgbd_folder");
+    std::uint64_t out = mixed(registered_ ? 1 : 2, "rgbd_folder");
     for (const fs::path& list : recording_.lists) out = hashed(list, out);
     for (const ImagePair& pair : recording_.frames) {
       out = hashed(pair.depth, hashed(pair.grey, mixed(out, pair.grey.filename().string())));
@@ -104,6 +113,8 @@ class FolderSource final : public RgbdSource {
   }
 
   Recording recording_;
+  bool registered_;
+  CameraPair kinect_ = unregistered_kinect();
 };
 
 std::vector<ImagePair> chosen(const std::vector<ImagePair>& all, const FolderOptions& o) {
@@ -129,6 +140,8 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
   }
   Recording recording =
       tum ? read_tum_layout(folder, options) : read_seven_scenes_layout(folder, options);
+  const bool registered =
+      options.depth == DepthGeometry::automatic ? tum : options.depth == DepthGeometry::registered;
   const std::size_t all = recording.frames.size();
   recording.frames = chosen(recording.frames, options);
   if (recording.frames.empty()) {
@@ -136,7 +149,7 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
         "first",
         fmt::format("first = {} breaks first < {}, the number of frames", options.first, all));
   }
-  return std::make_unique<FolderSource>(std::move(recording));
+  return std::make_unique<FolderSource>(std::move(recording), registered);
 }
 
 }  // namespace loopbench

@@ -21,7 +21,18 @@ inline auto choices(CameraChoice) {
                     std::pair{"fr3", CameraChoice::fr3}};
 }
 
+/// Whether depth pixels already are colour pixels. `automatic`: yes in TUM layout, no in 7-Scenes.
+/// `kinect`: no; they are brought there by unregistered_kinect(), whose intrinsics replace the
+/// folder's, and the reference, which is the depth camera's, is moved to the colour camera.
+enum class DepthGeometry { automatic, registered, kinect };
+inline auto choices(DepthGeometry) {
+  return std::array{std::pair{"auto", DepthGeometry::automatic},
+                    std::pair{"registered", DepthGeometry::registered},
+                    std::pair{"kinect", DepthGeometry::kinect}};
+}
+
 struct FolderOptions {
+  DepthGeometry depth = DepthGeometry::automatic;
   CameraChoice camera = CameraChoice::automatic;
   double pair_gap = 0.02;  ///< [s]
   double rate = 30.0;      ///< [Hz]
@@ -33,6 +44,7 @@ struct FolderOptions {
 template <class Visit>
 void fields(FolderOptions& o, Visit visit) {
   visit("camera", o.camera, "intrinsics: camera.yaml, or those published for TUM's cameras");
+  visit("depth", o.depth, "whether depth pixels are colour pixels, or how they become so");
   visit("pair_gap", o.pair_gap, "farthest that depth and colour lie apart [s]", Between{0, 1});
   visit("rate", o.rate, "of a 7-Scenes folder, which has no stamps [Hz]", Above{0});
   visit("every", o.every, "take each so many-th frame", Between{1});

@@ -4,6 +4,7 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/text_file.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
+#include "datasets/rgbd/folder/register_depth.hpp"
 
 namespace loopbench {
 namespace {
@@ -12,15 +13,6 @@ namespace fs = std::filesystem;
 
 fs::path part(const fs::path& folder, std::size_t index, const char* what) {
   return folder / fmt::format("frame-{:06}.{}", index, what);
-}
-
-Camera kinect() {
-  Camera out;
-  out.fx = out.fy = 585.0;
-  out.cx = 320.0;
-  out.cy = 240.0;
-  out.depth_scale = 1000.0;
-  return out;
 }
 
 /// A 4 x 4 matrix, camera to world.
@@ -47,7 +39,7 @@ bool is_seven_scenes(const fs::path& folder) { return fs::exists(part(folder, 0,
 
 Recording read_seven_scenes_layout(const fs::path& folder, const FolderOptions& options) {
   Recording out;
-  out.camera = kinect();
+  out.camera = unregistered_kinect().depth;
   const fs::path camera = folder / "camera.yaml";
   if (fs::exists(camera)) {
     out.camera = read_camera(camera);

@@ -65,6 +65,10 @@ void fields(DmOptions& o, Visit visit) {
         o.gap.rotation_max,
         "so do gaps with more rotation, where no view is shared [rad]; none: never",
         Above{0.0});
+  visit("gap_common_min",
+        o.gap.common_min,
+        "so do keyframes with fewer landmarks in common, where that is known; none: never",
+        Above{0.0});
   visit("speed_rule", o.segment.speed, "when a speed fits a segment");
   visit("speed_band",
         o.segment.speed_band,

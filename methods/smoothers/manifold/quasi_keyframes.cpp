@@ -17,6 +17,11 @@ double parts_wanted(const StampedPose& a, const StampedPose& b, const GapRule& r
   return std::max(parts(b.stamp - a.stamp, rule.time_max), parts(angle, rule.rotation_max));
 }
 
+bool shares_too_little(const Problem& problem, std::size_t i, const GapRule& rule) {
+  if (problem.common_view.empty() || !rule.common_min) return false;
+  return static_cast<double>(problem.common_view[i]) < *rule.common_min;
+}
+
 // The nearer of the two frames around `time`, among those in begin..end (not empty).
 Trajectory::const_iterator nearest(Trajectory::const_iterator begin,
                                    Trajectory::const_iterator end,
@@ -57,7 +62,8 @@ Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
     out.nodes.push_back(here);
     if (i + 1 == problem.keyframes.size()) break;
     const StampedPose& next = problem.keyframes[i + 1];
-    const double parts = parts_wanted(here, next, rule);
+    double parts = parts_wanted(here, next, rule);
+    if (shares_too_little(problem, i, rule)) parts = std::max(parts, 2.0);
     if (parts < 2.0) continue;
     // No gap holds more frames than there are: a rule near zero asks for no end of parts.
     const auto wanted =

@@ -10,6 +10,7 @@ namespace loopbench::manifold {
 struct GapRule {
   std::optional<double> time_max = 1.0;       ///< longest gap left alone [s]; none: any
   std::optional<double> rotation_max = 1.09;  ///< most rotation left alone [rad]; none: any
+  std::optional<double> common_min = 1.0;     ///< fewest landmarks in common left alone; none: any
 };
 
 struct Densified {
@@ -27,8 +28,9 @@ std::size_t insert_frames(const StampedPose& here,
                           Trajectory& out);
 
 /// A gap is cut into equal parts that obey the rule and the tracked frame nearest to each cut is
-/// taken; never an interpolated pose. Source: paper section 3.3, where the choice is by hand.
-/// O(keyframes log frames).
+/// taken; never an interpolated pose. Keyframes that share fewer landmarks than the rule asks,
+/// where that is known (problem.common_view), are parted in two at least. Source: paper
+/// section 3.3, where the choice is by hand. O(keyframes log frames).
 Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule);
 
 }  // namespace loopbench::manifold

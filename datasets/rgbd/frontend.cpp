@@ -1,0 +1,195 @@
+#include "datasets/rgbd/frontend.hpp"
+
+#include <fmt/format.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include "datasets/rgbd/cpu_clock.hpp"
+#include "datasets/rgbd/ordered_pipeline.hpp"
+#include "datasets/rgbd/pack_stages.hpp"
+#include "datasets/rgbd/stage_cache.hpp"
+
+namespace loopbench {
+namespace {
+
+double since(double begin) { return cpu_seconds() - begin; }
+
+struct Seconds {
+  double read = 0.0;
+  double features = 0.0;
+  double track = 0.0;
+  double loops = 0.0;
+  std::size_t frames_read = 0;  ///< the rest came from the cache
+  std::size_t frames_tracked = 0;
+  std::size_t keyframes_searched = 0;
+};
+
+struct Timed {
+  FrameFeatures frame = {};
+  double read = 0.0;  ///< [s]
+  double find = 0.0;  ///< [s]
+  bool fresh = false;
+};
+
+/// The frames that could not be read, said in a line or four.
+class Skipped {
+ public:
+  void add(const std::string& why) {
+    ++count_;
+    if (count_ <= kShown) notes_.push_back("skipped: " + why);
+  }
+  std::size_t count() const { return count_; }
+  std::vector<std::string> notes(std::size_t frames) const {
+    std::vector<std::string> out = notes_;
+    if (count_ > kShown) out.push_back(fmt::format("skipped: {} more", count_ - kShown));
+    if (count_ > 0) out.push_back(fmt::format("{} of {} frames skipped", count_, frames));
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t kShown = 3;
+  std::size_t count_ = 0;
+  std::vector<std::string> notes_;
+};
+
+Tracked track(const RgbdSource& source,
+              const FrontendOptions& options,
+              const FrontendHooks& hooks,
+              const StageCache& cache,
+              Seconds& seconds) {
+  const Camera camera = source.camera();
+  Tracker tracker(camera, source.size(), options.track);
+  Skipped skipped;
+  const auto make = [&](std::size_t i) {
+    Timed out;
+    const auto describe_frame = [&] {
+      FrameFeatures made;
+      out.fresh = true;
+      const double begin = cpu_seconds();
+      const std::optional<RgbdFrame> images = source.read(i, made.why);
+      const double middle = cpu_seconds();
+      out.read = middle - begin;
+      if (images) made.features = find_features(*images, camera, options.features);
+      out.find = since(middle);
+      return made;
+    };
+    const auto pack = [](const FrameFeatures& frame) { return packed(frame); };
+    out.frame = cache.get(cache.frame(i), unpacked_frame, describe_frame, pack);
+    return out;
+  };
+  ordered_pipeline<Timed>(
+      source.size(), cores(), 4 * cores(), make, [&](std::size_t i, Timed timed) {
+        seconds.read += timed.read;
+        seconds.features += timed.find;
+        seconds.frames_read += timed.fresh ? 1 : 0;
+        if (hooks.progress) hooks.progress("tracking", i + 1, source.size());
+        if (!timed.frame.features) return skipped.add(timed.frame.why);
+        const double begin = cpu_seconds();
+        tracker.add(i, source.stamp(i), std::move(*timed.frame.features));
+        seconds.track += since(begin);
+      });
+  seconds.frames_tracked = source.size();
+  Tracked out = tracker.finish();
+  const std::vector<std::string> notes = skipped.notes(source.size());
+  out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
+  out.skipped = skipped.count();
+  return out;
+}
+
+std::string told(const Seconds& s) {
+  std::string out;
+  const auto rate = [&](std::size_t count, double seconds, const char* what) {
+    if (count == 0) return;
+    const double a_second = static_cast<double>(count) / std::max(seconds, 1e-9);
+    out += fmt::format("{}{:.1f} {}", out.empty() ? "" : ", ", a_second, what);
+  };
+  rate(s.frames_read, s.read, "frames read or rendered");
+  rate(s.frames_read, s.features, "described");
+  rate(s.frames_tracked, s.track, "tracked");
+  rate(s.keyframes_searched, s.loops, "keyframes searched for loops");
+  if (out.empty()) return "everything from the cache";
+  return fmt::format("in a second of one core: {}; {} threads", out, cores());
+}
+
+DetectedLoops find_loops(const Tracked& tracked,
+                         const RgbdSource& source,
+                         const FrontendOptions& options,
+                         const FrontendHooks& hooks,
+                         const StageCache& cache,
+                         Seconds& seconds) {
+  const auto make = [&] {
+    seconds.keyframes_searched = options.loops.enabled ? tracked.keyframes.size() : 0;
+    DetectedLoops out = detect_loops(tracked,
+                                     source.camera(),
+                                     options.track,
+                                     options.loops,
+                                     [&](std::size_t done, std::size_t all) {
+                                       if (hooks.progress) hooks.progress("loops", done, all);
+                                     });
+    seconds.loops = out.seconds;
+    return out;
+  };
+  const auto pack = [](const DetectedLoops& loops) { return packed(loops); };
+  return cache.get(cache.loops(), unpacked_loops, make, pack);
+}
+
+}  // namespace
+
+Sequence run_frontend(const RgbdSource& source,
+                      const std::string& name,
+                      const FrontendOptions& options,
+                      const FrontendHooks& hooks) {
+  // Frames are spread over the cores already.
+  cv::setNumThreads(1);
+  const StageCache cache(hooks.cache, source, options);
+  std::optional<CacheLock> alone;  // workers of one sweep ask for the same sequence at once
+  if (!hooks.cache.empty()) alone.emplace(cache.tracked());
+  Seconds seconds;
+  const auto make = [&] { return track(source, options, hooks, cache, seconds); };
+  const auto pack = [](const Tracked& tracked) { return packed(tracked); };
+  Tracked tracked = cache.get(cache.tracked(), unpacked_tracked, make, pack);
+  const double unread = static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
+  if (unread > options.skipped_max) {
+    throw InputError(
+        fmt::format("{}: {} of {} frames cannot be read, more than skipped_max = {}; {}",
+                    name,
+                    tracked.skipped,
+                    source.size(),
+                    options.skipped_max,
+                    tracked.notes.front()));
+  }
+  if (tracked.keyframes.size() < 2) {
+    throw InputError(fmt::format(
+        "{}: nothing could be tracked in {} frames: do camera and depth_scale fit the images?",
+        name,
+        source.size()));
+  }
+  DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
+
+  Sequence out;
+  out.name = name;
+  out.provenance = source.provenance();
+  std::vector<std::string>& notes = out.provenance.notes;
+  notes.insert(notes.end(), tracked.notes.begin(), tracked.notes.end());
+  notes.push_back(fmt::format("{} of {} frames tracked, {} lost; {} keyframes, {} loop closures",
+                              tracked.keyframes.size() + tracked.frames.size(),
+                              source.size(),
+                              tracked.lost,
+                              tracked.keyframes.size(),
+                              loops.closures.size()));
+  notes.push_back(told(seconds));
+  for (const Keyframe& keyframe : tracked.keyframes) {
+    out.problem.keyframes.push_back({keyframe.stamp, keyframe.world_from_camera});
+  }
+  out.problem.odometry = std::move(tracked.odometry);
+  out.problem.common_view = std::move(tracked.common_view);
+  out.problem.frames = std::move(tracked.frames);
+  out.problem.closures = std::move(loops.closures);
+  out.reference = source.reference();
+  out.loop_candidates = std::move(loops.candidates);
+  out.provenance.closures =
+      out.problem.closures.empty() ? "none" : "images: bag of words and geometry";
+  return out;
+}
+
+}  // namespace loopbench

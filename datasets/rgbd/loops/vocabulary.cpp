@@ -1,0 +1,123 @@
+#include "datasets/rgbd/loops/vocabulary.hpp"
+
+#include <algorithm>
+
+#include "datasets/rgbd/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr int kRounds = 6;
+
+Features alike(const Features& features) {
+  Features out;
+  out.bytes = features.bytes;
+  out.binary = features.binary;
+  return out;
+}
+
+void append(Features& out, const std::uint8_t* row) {
+  out.points.emplace_back();
+  out.descriptors.insert(out.descriptors.end(), row, row + out.bytes);
+}
+
+std::size_t nearest(const Features& middles,
+                    std::size_t first,
+                    std::size_t count,
+                    const Features& all,
+                    std::size_t i) {
+  std::size_t best = first;
+  float least = 2.0f;
+  for (std::size_t k = first; k < first + count; ++k) {
+    const float distance = descriptor_distance(middles, k, all, i);
+    if (distance < least) least = distance, best = k;
+  }
+  return best - first;
+}
+
+/// Majority of bits or mean of bytes; the old middle when there are no members.
+void recentre(Features& middles,
+              std::size_t k,
+              const Features& all,
+              const std::vector<std::size_t>& members) {
+  if (members.empty()) return;
+  const auto bytes = static_cast<std::size_t>(all.bytes);
+  const std::size_t bits = all.binary ? 8 : 1;
+  std::vector<std::size_t> sums(bytes * bits, 0);
+  for (const std::size_t i : members) {
+    const std::uint8_t* row = all.descriptor(i);
+    for (std::size_t at = 0; at < sums.size(); ++at) {
+      sums[at] += all.binary ? (row[at / 8] >> (at % 8)) & 1u : row[at];
+    }
+  }
+  std::uint8_t* middle = middles.descriptors.data() + k * bytes;
+  std::fill_n(middle, bytes, std::uint8_t{0});
+  for (std::size_t at = 0; at < sums.size(); ++at) {
+    if (!all.binary) middle[at] = static_cast<std::uint8_t>(sums[at] / members.size());
+    if (all.binary && 2 * sums[at] > members.size()) {
+      middle[at / 8] = static_cast<std::uint8_t>(middle[at / 8] | (1u << (at % 8)));
+    }
+  }
+}
+
+}  // namespace
+
+Vocabulary::Vocabulary(const Features& descriptors,
+                       std::size_t branches,
+                       std::size_t levels,
+                       std::uint64_t seed)
+    : branches_(branches), seed_(seed), nodes_(1), middles_(alike(descriptors)) {
+  const std::vector<std::uint8_t> unused(static_cast<std::size_t>(descriptors.bytes), 0);
+  append(middles_, unused.data());  // the root has no middle
+  std::vector<std::size_t> members(descriptors.size());
+  for (std::size_t i = 0; i < members.size(); ++i) members[i] = i;
+  grow(0, descriptors, members, levels);
+}
+
+void Vocabulary::grow(std::size_t node,
+                      const Features& all,
+                      const std::vector<std::size_t>& members,
+                      std::size_t levels) {
+  if (levels == 0 || members.size() <= branches_) {
+    nodes_[node].word = words_++;
+    return;
+  }
+  Features middles = alike(all);
+  for (std::size_t k = 0; k < branches_; ++k) {
+    const std::size_t pick =
+        mixed(mixed(seed_, std::uint64_t{node}), std::uint64_t{k}) % members.size();
+    append(middles, all.descriptor(members[pick]));
+  }
+  std::vector<std::vector<std::size_t>> groups;
+  for (int round = 0; round < kRounds; ++round) {
+    groups.assign(branches_, {});
+    for (const std::size_t i : members) groups[nearest(middles, 0, branches_, all, i)].push_back(i);
+    for (std::size_t k = 0; k < branches_; ++k) recentre(middles, k, all, groups[k]);
+  }
+  const std::size_t first = nodes_.size();
+  std::vector<std::vector<std::size_t>> kept;
+  for (std::size_t k = 0; k < branches_; ++k) {
+    if (groups[k].empty() || groups[k].size() == members.size()) continue;
+    nodes_.emplace_back();
+    append(middles_, middles.descriptor(k));
+    kept.push_back(std::move(groups[k]));
+  }
+  if (kept.empty()) {  // all alike
+    nodes_[node].word = words_++;
+    return;
+  }
+  nodes_[node].first_child = first;
+  nodes_[node].children = kept.size();
+  for (std::size_t k = 0; k < kept.size(); ++k) grow(first + k, all, kept[k], levels - 1);
+}
+
+std::size_t Vocabulary::word(const Features& features, std::size_t i) const {
+  std::size_t node = 0;
+  while (nodes_[node].children > 0) {
+    const Node& here = nodes_[node];
+    node = here.first_child + nearest(middles_, here.first_child, here.children, features, i);
+  }
+  return nodes_[node].word;
+}
+
+}  // namespace loopbench

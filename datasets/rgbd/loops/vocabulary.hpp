@@ -1,0 +1,46 @@
+/// Descriptors sorted into words, by a tree trained on what is at hand.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datasets/rgbd/features/features.hpp"
+
+namespace loopbench {
+
+/// A vocabulary tree (Nister and Stewenius 2006) over k-medians: the middle of binary descriptors
+/// is the majority of each bit (Galvez-Lopez and Tardos 2012), of others the mean of each byte.
+class Vocabulary {
+ public:
+  /// `levels` of `branches` each, fewer where descriptors run out. Same input and seed, same tree.
+  /// O(descriptors * branches * levels).
+  Vocabulary(const Features& descriptors,
+             std::size_t branches,
+             std::size_t levels,
+             std::uint64_t seed);
+
+  std::size_t words() const { return words_; }
+
+  /// Word of row i. O(branches * levels).
+  std::size_t word(const Features& features, std::size_t i) const;
+
+ private:
+  struct Node {
+    std::size_t first_child = 0;
+    std::size_t children = 0;  ///< 0: a word
+    std::size_t word = 0;
+  };
+
+  void grow(std::size_t node,
+            const Features& all,
+            const std::vector<std::size_t>& members,
+            std::size_t levels);
+
+  std::size_t branches_;
+  std::uint64_t seed_;
+  std::vector<Node> nodes_;
+  Features middles_;  ///< row k: of nodes_[k]
+  std::size_t words_ = 0;
+};
+
+}  // namespace loopbench

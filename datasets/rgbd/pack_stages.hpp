@@ -1,0 +1,26 @@
+/// What the stages make, as bytes and back.
+#pragma once
+
+#include <string>
+
+#include "datasets/rgbd/features/features.hpp"
+#include "datasets/rgbd/loops/detector.hpp"
+#include "datasets/rgbd/tracking/tracker.hpp"
+
+namespace loopbench {
+
+/// A frame's features, or why there are none.
+struct FrameFeatures {
+  std::optional<Features> features = std::nullopt;
+  std::string why = {};
+};
+
+/// Each throws std::runtime_error for bytes that it did not write.
+std::string packed(const FrameFeatures& frame);
+FrameFeatures unpacked_frame(const std::string& bytes);
+std::string packed(const Tracked& tracked);
+Tracked unpacked_tracked(const std::string& bytes);
+std::string packed(const DetectedLoops& loops);
+DetectedLoops unpacked_loops(const std::string& bytes);
+
+}  // namespace loopbench

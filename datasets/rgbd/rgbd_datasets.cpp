@@ -1,0 +1,36 @@
+#include "datasets/rgbd/rgbd_datasets.hpp"
+
+#include "datasets/rgbd/render/rendered_room.hpp"
+
+namespace loopbench {
+
+Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks) {
+  return run_frontend(*rendered_room(options.render), "rendered_room", options.frontend, hooks);
+}
+
+Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root, const FrontendHooks& hooks) {
+  const std::filesystem::path folder = root.find(options.path);
+  const auto source = open_rgbd_folder(folder, options.folder);
+  std::string name = options.name;
+  if (name.empty()) name = std::filesystem::weakly_canonical(folder).filename().string();
+  Sequence out = run_frontend(*source, name, options.frontend, hooks);
+  out.provenance.licence = options.licence;
+  return out;
+}
+
+std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
+  return {
+      dataset<RenderedRoomOptions>("rendered_room",
+                                   "images of a room that does not exist, tracked",
+                                   [hooks](const RenderedRoomOptions& options, const DataRoot&) {
+                                     return load_rendered_room(options, hooks);
+                                   }),
+      dataset<RgbdOptions>("rgbd",
+                           "a folder of RGB-D images, tracked",
+                           [hooks](const RgbdOptions& options, const DataRoot& root) {
+                             return load_rgbd(options, root, hooks);
+                           }),
+  };
+}
+
+}  // namespace loopbench

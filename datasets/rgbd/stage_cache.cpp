@@ -1,0 +1,32 @@
+#include "datasets/rgbd/stage_cache.hpp"
+
+#include <fmt/format.h>
+
+#include "datasets/rgbd/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+// Raise with any change of what a stage computes from the same input.
+constexpr std::uint64_t kVersion = 1;
+
+}  // namespace
+
+StageCache::StageCache(const std::filesystem::path& folder,
+                       const RgbdSource& source,
+                       const FrontendOptions& options)
+    : folder_(folder) {
+  if (folder.empty()) return;
+  const std::uint64_t features =
+      mixed(mixed(source.content(), kVersion), to_text(echo(options.features)));
+  const std::uint64_t track = mixed(features, to_text(echo(options.track)));
+  frames_ = cached_path(folder, "features", features);
+  tracked_ = cached_path(folder, "track", track);
+  loops_ = cached_path(folder, "loops", mixed(track, to_text(echo(options.loops))));
+}
+
+std::filesystem::path StageCache::frame(std::size_t index) const {
+  return frames_ / fmt::format("{:06}", index);
+}
+
+}  // namespace loopbench

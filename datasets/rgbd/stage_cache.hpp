@@ -1,0 +1,46 @@
+/// Which file each stage's result is kept in.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "datasets/rgbd/cache.hpp"
+#include "datasets/rgbd/frontend.hpp"
+
+namespace loopbench {
+
+/// Keys follow what goes in: images and feature options; then tracking options too; then those of
+/// the loops. An empty folder keeps nothing.
+class StageCache {
+ public:
+  StageCache(const std::filesystem::path& folder,
+             const RgbdSource& source,
+             const FrontendOptions& options);
+
+  std::filesystem::path frame(std::size_t index) const;
+  const std::filesystem::path& tracked() const { return tracked_; }
+  const std::filesystem::path& loops() const { return loops_; }
+
+  /// What `file` holds, by `unpack`; otherwise what `make` gives, kept there by `pack`.
+  template <class Unpack, class Make, class Pack>
+  auto get(const std::filesystem::path& file, Unpack unpack, Make make, Pack pack) const {
+    if (folder_.empty()) return make();
+    if (const std::optional<std::string> bytes = load_cached(file)) {
+      try {
+        return unpack(*bytes);
+      } catch (const std::runtime_error&) {  // another build's layout: worked out again
+      }
+    }
+    auto out = make();
+    store_cached(file, pack(out));
+    return out;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path frames_;
+  std::filesystem::path tracked_;
+  std::filesystem::path loops_;
+};
+
+}  // namespace loopbench

@@ -1,0 +1,45 @@
+#include <opencv2/calib3d.hpp>
+
+#include "datasets/rgbd/tracking/camera_pose.hpp"
+
+namespace loopbench {
+
+std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
+                                   const Camera& camera,
+                                   const PoseOptions& options) {
+  if (observations.size() < 4) return std::nullopt;
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> pixels;
+  for (const Observation& o : observations) {
+    points.emplace_back(o.in_world.x(), o.in_world.y(), o.in_world.z());
+    pixels.emplace_back(o.u, o.v);
+  }
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  cv::theRNG().state = 1;
+  cv::Vec3d turn;
+  cv::Vec3d shift;
+  std::vector<int> inliers;
+  try {
+    const bool found = cv::solvePnPRansac(points,
+                                          pixels,
+                                          K,
+                                          cv::noArray(),
+                                          turn,
+                                          shift,
+                                          false,
+                                          static_cast<int>(options.ransac_iterations),
+                                          static_cast<float>(options.ransac_pixels),
+                                          0.999,
+                                          inliers,
+                                          cv::SOLVEPNP_AP3P);
+    if (!found || inliers.size() < 4) return std::nullopt;
+  } catch (const cv::Exception&) {  // degenerate points end in its linear algebra
+    return std::nullopt;
+  }
+  const Pose camera_from_world{exp_so3({turn[0], turn[1], turn[2]}),
+                               {shift[0], shift[1], shift[2]}};
+  if (!is_finite(camera_from_world)) return std::nullopt;
+  return normalized(camera_from_world.inverse());
+}
+
+}  // namespace loopbench

@@ -1,0 +1,207 @@
+// From images to a problem, whole.
+#include "datasets/rgbd/frontend.hpp"
+
+#include "datasets/rgbd/folder/folder_source.hpp"
+#include "datasets/rgbd/rgbd_datasets.hpp"
+#include "tests/rgbd/recording.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench {
+namespace {
+
+FrontendOptions quick() {
+  FrontendOptions out;
+  out.features.count = 300;
+  out.track.inliers_min = 15;
+  out.loops.inliers_min = 30;
+  out.loops.min_gap = 1.0;
+  return out;
+}
+
+/// A room walked out and back: frame i of `there`, then the same frames backwards, some unreadable,
+/// some black.
+class OutAndBack final : public RgbdSource {
+ public:
+  OutAndBack(std::size_t black_begin, std::size_t black_end)
+      : black_begin_(black_begin), black_end_(black_end) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      reference_.push_back({stamp(i), there_->reference()[4 * turned(i)].world_from_body});
+    }
+  }
+  Camera camera() const override { return there_->camera(); }
+  std::size_t size() const override { return 2 * there_->size() - 1; }
+  double stamp(std::size_t index) const override { return 0.125 * static_cast<double>(index); }
+  std::optional<RgbdFrame> read(std::size_t index, std::string& why) const override {
+    std::optional<RgbdFrame> out = there_->read(turned(index), why);
+    if (index >= black_begin_ && index < black_end_) {
+      std::ranges::fill(out->grey.pixels, std::uint8_t{0});
+    }
+    return out;
+  }
+  std::uint64_t content() const override {
+    return there_->content() + 1000 * black_begin_ + black_end_;
+  }
+  const Trajectory& reference() const override { return reference_; }
+  Provenance provenance() const override { return {}; }
+
+ private:
+  std::size_t turned(std::size_t i) const {
+    const std::size_t last = there_->size() - 1;
+    return i <= last ? i : 2 * last - i;
+  }
+  std::unique_ptr<const RgbdSource> there_ = rendered_room(small_room(0.04));
+  std::size_t black_begin_;
+  std::size_t black_end_;
+  Trajectory reference_;
+};
+
+double largest_error(const Sequence& sequence, const OutAndBack& source) {
+  double out = 0.0;
+  const Pose reference_from_world = source.reference().front().world_from_body *
+                                    sequence.problem.keyframes.front().world_from_body.inverse();
+  for (const StampedPose& keyframe : sequence.problem.keyframes) {
+    const auto index = static_cast<std::size_t>(keyframe.stamp / 0.125 + 0.5);
+    const Vector3 truth = source.reference()[index].world_from_body.translation;
+    const Pose placed = reference_from_world * keyframe.world_from_body;
+    out = std::max(out, (placed.translation - truth).norm());
+  }
+  return out;
+}
+
+TEST(Frontend, TracksAndClosesTheLoopOfARoomWalkedOutAndBack) {
+  const OutAndBack source(0, 0);
+  const Sequence sequence = run_frontend(source, "room", quick(), {});
+  check(sequence.problem, "room");
+  EXPECT_LT(largest_error(sequence, source), 0.05);
+  EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size(), source.size());
+  EXPECT_EQ(sequence.problem.odometry.size() + 1, sequence.problem.keyframes.size());
+  EXPECT_EQ(sequence.problem.common_view.size(), sequence.problem.odometry.size());
+  ASSERT_FALSE(sequence.problem.closures.empty());
+  for (const Edge& loop : sequence.problem.closures) {
+    const auto pose = [&](std::size_t k) {
+      const double stamp = sequence.problem.keyframes[k].stamp;
+      return source.reference()[static_cast<std::size_t>(stamp / 0.125 + 0.5)].world_from_body;
+    };
+    EXPECT_TRUE(is_close(loop.from_from_to, pose(loop.from).inverse() * pose(loop.to), 0.1, 0.1));
+  }
+}
+
+void expect_same(const Sequence& a, const Sequence& b) {
+  ASSERT_EQ(a.problem.keyframes.size(), b.problem.keyframes.size());
+  for (std::size_t i = 0; i < a.problem.keyframes.size(); ++i) {
+    const Pose& p = a.problem.keyframes[i].world_from_body;
+    const Pose& q = b.problem.keyframes[i].world_from_body;
+    EXPECT_EQ(p.translation, q.translation);
+    EXPECT_EQ(p.rotation.coeffs(), q.rotation.coeffs());
+  }
+  ASSERT_EQ(a.problem.closures.size(), b.problem.closures.size());
+  for (std::size_t i = 0; i < a.problem.closures.size(); ++i) {
+    EXPECT_EQ(a.problem.closures[i].information, b.problem.closures[i].information);
+    EXPECT_EQ(a.problem.closures[i].from_from_to.translation,
+              b.problem.closures[i].from_from_to.translation);
+  }
+  ASSERT_EQ(a.problem.odometry.size(), b.problem.odometry.size());
+  for (std::size_t i = 0; i < a.problem.odometry.size(); ++i) {
+    EXPECT_EQ(a.problem.odometry[i].information, b.problem.odometry[i].information);
+  }
+  EXPECT_EQ(a.problem.common_view, b.problem.common_view);
+  EXPECT_EQ(a.problem.frames.size(), b.problem.frames.size());
+  EXPECT_EQ(a.loop_candidates.size(), b.loop_candidates.size());
+}
+
+TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
+  const OutAndBack source(0, 0);
+  const TemporaryFolder folder;
+  FrontendHooks cached;
+  cached.cache = folder.path() / "cache";
+  const Sequence first = run_frontend(source, "room", quick(), {});
+  const Sequence second = run_frontend(source, "room", quick(), cached);
+  expect_same(first, second);
+  const Sequence third = run_frontend(source, "room", quick(), cached);
+  expect_same(first, third);
+  FrontendOptions other = quick();  // features are taken from the cache, tracks are not
+  other.track.keyframes.angle_max = 5.0;
+  const Sequence denser = run_frontend(source, "room", other, cached);
+  EXPECT_GT(denser.problem.keyframes.size(), first.problem.keyframes.size());
+  // A file that was cut off is worked out again.
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(cached.cache)) {
+    if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), entry.file_size() / 2);
+  }
+  expect_same(first, run_frontend(source, "room", quick(), cached));
+}
+
+TEST(Frontend, SaysWhereTrackingWasLostAndRecovered) {
+  const OutAndBack source(6, 9);
+  const Sequence sequence = run_frontend(source, "room", quick(), {});
+  std::string told;
+  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
+  EXPECT_NE(told.find("tracking lost at 0.750 s, recovered at 1.125 s: 3 frames have no pose"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size() + 3, source.size());
+  EXPECT_LT(largest_error(sequence, source), 0.05);
+}
+
+TEST(Frontend, BeginsAnewWhenLostForLongAndSaysSo) {
+  FrontendOptions options = quick();
+  options.track.restart_after = 0.3;
+  const OutAndBack source(6, 12);
+  const Sequence sequence = run_frontend(source, "room", options, {});
+  check(sequence.problem, "room");
+  std::string told;
+  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
+  EXPECT_NE(told.find("the step between is a guess"), std::string::npos) << told;
+}
+
+TEST(Frontend, AsksForAboutSoManyKeyframes) {
+  const OutAndBack source(0, 0);
+  for (const std::int64_t target : {6, 20}) {
+    FrontendOptions options = quick();
+    options.loops.enabled = false;
+    options.track.keyframes.target = target;
+    const Sequence sequence = run_frontend(source, "room", options, {});
+    EXPECT_NEAR(static_cast<double>(sequence.problem.keyframes.size()),
+                static_cast<double>(target),
+                0.35 * static_cast<double>(target));
+    EXPECT_TRUE(sequence.problem.closures.empty());
+  }
+}
+
+TEST(Frontend, SkipsUnreadableFramesAndRefusesTooMany) {
+  const auto room = rendered_room(small_room(0.02));
+  TemporaryFolder folder;
+  write_recording(folder, *room);
+  std::filesystem::remove(folder.path() / "depth/0003.png");
+  const auto source = open_rgbd_folder(folder.path(), {});
+  const Sequence sequence = run_frontend(*source, "folder", quick(), {});
+  ASSERT_GE(sequence.provenance.notes.size(), 2u);
+  EXPECT_NE(sequence.provenance.notes[0].find("depth/0003.png: no such image"), std::string::npos);
+  EXPECT_EQ(sequence.provenance.notes[1], fmt::format("1 of {} frames skipped", room->size()));
+  std::filesystem::remove_all(folder.path() / "rgb");
+  EXPECT_NE(refusal_of([&] {
+              run_frontend(*source, "folder", quick(), {});
+            }).find("cannot be read, more than skipped_max = 0.5"),
+            std::string::npos);
+}
+
+TEST(Frontend, RefusesWhatCannotBeTracked) {
+  const OutAndBack source(0, 1000);  // black throughout
+  EXPECT_NE(refusal_of([&] {
+              run_frontend(source, "night", quick(), {});
+            }).find("night: nothing could be tracked"),
+            std::string::npos);
+}
+
+TEST(Frontend, OtherFeaturesTrackToo) {
+  const OutAndBack source(0, 0);
+  for (const FeatureKind kind : {FeatureKind::akaze, FeatureKind::sift}) {
+    FrontendOptions options = quick();
+    options.features.kind = kind;
+    options.loops.enabled = false;
+    const Sequence sequence = run_frontend(source, "room", options, {});
+    EXPECT_LT(largest_error(sequence, source), 0.1) << to_text(kind);
+  }
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,213 @@
+// The parts of tracking and loop detection, worked by hand or by law.
+#include <cmath>
+#include <numbers>
+
+#include "datasets/random.hpp"
+#include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/loops/place_index.hpp"
+#include "datasets/rgbd/loops/vocabulary.hpp"
+#include "datasets/rgbd/ordered_pipeline.hpp"
+#include "datasets/rgbd/tracking/camera_pose.hpp"
+#include "datasets/rgbd/tracking/keyframe_rule.hpp"
+#include "datasets/rgbd/tracking/local_map.hpp"
+
+namespace loopbench {
+namespace {
+
+const Pose kTruth{exp_so3({0.1, -0.2, 0.3}), {0.2, -0.1, 0.4}};
+
+/// Points before the camera at kTruth, seen without error, every `wrong`-th elsewhere.
+std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
+  Random random(5, Purpose::odometry);
+  const Camera camera;
+  std::vector<Observation> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double u = 640.0 * random.uniform();
+    const double v = 480.0 * random.uniform();
+    const double z = 1.0 + 3.0 * random.uniform();
+    Observation o{kTruth * camera.back_project(u, v, z), u, v, 1.0 / z, 1.0};
+    if (wrong > 0 && i % wrong == 0) o.u = 640.0 * random.uniform();
+    out.push_back(o);
+  }
+  return out;
+}
+
+TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
+  const std::vector<Observation> all = seen(90, 3);
+  const std::optional<Pose> found = pose_by_ransac(all, {}, {});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
+  const RefinedPose refined = refine_pose(all, {}, *found, {});
+  EXPECT_TRUE(is_close(refined.world_from_camera, kTruth, 1e-9, 1e-9));
+  EXPECT_GE(refined.inliers, 60u);
+  EXPECT_LE(refined.inliers, 63u);
+  EXPECT_FALSE(refined.inlier[0]);
+}
+
+TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
+  const std::vector<Observation> all = seen(60, 4);
+  EXPECT_EQ(pose_by_ransac(all, {}, {})->translation, pose_by_ransac(all, {}, {})->translation);
+}
+
+TEST(CameraPose, IsNotFoundFromThreePoints) {
+  EXPECT_FALSE(pose_by_ransac(seen(3, 0), {}, {}));
+  EXPECT_EQ(refine_pose(seen(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
+}
+
+TEST(CameraPose, InformationTellsTheScatterOfThePose) {
+  // Measured again and again with the noise that the options state, e' information e has mean 6.
+  PoseOptions options;
+  options.information_scale = 1.0;
+  Random random(9, Purpose::odometry);
+  double sum = 0.0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<Observation> noisy = seen(60, 0);
+    for (Observation& o : noisy) {
+      const Vector3 noise = random.normal3();
+      o.u += noise.x();
+      o.v += noise.y();
+      o.inverse_depth += options.inverse_depth_sigma * noise.z();
+    }
+    const RefinedPose pose = refine_pose(noisy, {}, kTruth, options);
+    const Twist e = log_se3(pose.world_from_camera.inverse() * kTruth);
+    sum += e.dot(pose.information * e);
+  }
+  EXPECT_NEAR(sum / kRuns, 6.0, 1.5);
+}
+
+TEST(KeyframeRule, IsDueAtEachThresholdAlone) {
+  KeyframeOptions o;
+  const View same{
+      .points = 300, .common = 300, .way = 0.0, .depth = 2.0, .angle = 0.0, .time = 0.0};
+  EXPECT_LT(novelty(same, o), 1.0);
+  View view = same;
+  view.common = 60;  // of 300: the share is at its threshold of 0.2, and so is the count of 60
+  EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
+  view = same;
+  view.way = 0.15 * 2.0;
+  EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
+  view = same;
+  view.angle = 30.0 * std::numbers::pi / 180.0;
+  EXPECT_NEAR(novelty(view, o), 2.0, 1e-12);
+  view = same;
+  view.time = 3.0;
+  EXPECT_NEAR(novelty(view, o), 1.5, 1e-12);
+}
+
+TEST(KeyframeRule, ATargetMovesTheThresholdBothWays) {
+  KeyframeOptions o;
+  EXPECT_EQ(novelty_due(o, 7, 3, 10), 1.0);
+  o.target = 10;
+  EXPECT_NEAR(novelty_due(o, 1, 0, 101), 1.0, 1e-12);
+  EXPECT_NEAR(novelty_due(o, 10, 100, 101), 1.0, 1e-12);
+  EXPECT_GT(novelty_due(o, 9, 50, 101), 2.0);
+  EXPECT_LT(novelty_due(o, 2, 50, 101), 0.5);
+}
+
+Features two_groups() {
+  Features out;
+  for (int i = 0; i < 40; ++i) {
+    out.points.push_back({});
+    for (int byte = 0; byte < 32; ++byte) {
+      out.descriptors.push_back(static_cast<std::uint8_t>(i < 20 ? 0x00 : 0xff));
+    }
+    out.descriptors.back() = static_cast<std::uint8_t>(i % 4);  // a little of its own
+  }
+  return out;
+}
+
+TEST(Descriptors, DistanceIsTheShareOfBits) {
+  const Features f = two_groups();
+  EXPECT_FLOAT_EQ(descriptor_distance(f, 0, f, 4), 0.0f);
+  EXPECT_FLOAT_EQ(descriptor_distance(f, 0, f, 1), 1.0f / 256.0f);
+  EXPECT_FLOAT_EQ(descriptor_distance(f, 0, f, 20), 248.0f / 256.0f);
+}
+
+TEST(Vocabulary, PutsTheAlikeIntoOneWord) {
+  const Features f = two_groups();
+  const Vocabulary vocabulary(f, 2, 1, 3);
+  EXPECT_EQ(vocabulary.words(), 2u);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(vocabulary.word(f, i), vocabulary.word(f, 0));
+    EXPECT_NE(vocabulary.word(f, i + 20), vocabulary.word(f, 0));
+  }
+}
+
+TEST(Bags, AreAlikeByTheRareWordsTheyShare) {
+  // Word 0 is everywhere and says nothing; 1 and 2 weigh log(3 / 2) and log 3.
+  const std::vector<Bag> all = bags({{0, 1}, {0, 1, 2}, {0}}, 3);
+  ASSERT_EQ(all[0].size(), 1u);
+  EXPECT_DOUBLE_EQ(all[0][0].second, 1.0);
+  const double rare = std::log(1.5) / (std::log(1.5) + std::log(3.0));
+  EXPECT_NEAR(similarity(all[0], all[1]), rare, 1e-12);
+  EXPECT_EQ(similarity(all[0], all[2]), 0.0);
+  EXPECT_NEAR(similarity(all[1], all[1]), 1.0, 1e-12);
+}
+
+TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
+  const Features all = two_groups();
+  Features here;  // one feature of each group in the middle of the image
+  const Camera camera;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{20}}) {
+    here.points.push_back({static_cast<float>(camera.cx), static_cast<float>(camera.cy), 2.0f});
+    here.descriptors.insert(
+        here.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
+  }
+  const std::vector<Seen> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
+  const std::vector<Match> matches = match_near(points, all, here, camera, {}, 10.0, {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].a, 1u);  // row 0 is its very look, row 1 is a bit off
+  EXPECT_EQ(matches[0].b, 0u);
+  EXPECT_TRUE(
+      match_near(points, all, here, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
+}
+
+TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {
+  Features f = two_groups();
+  for (Feature& point : f.points) point.depth = 2.0f;
+  LocalMap map;
+  map.add(0, 2, f, {}, {}, {});
+  EXPECT_EQ(map.points().size(), 40u);
+  Features one = f;
+  one.points.resize(1);
+  one.descriptors.resize(32);
+  map.add(1, 2, one, {{7, 0, 0.0f}}, {}, {});
+  EXPECT_EQ(map.points().size(), 40u);
+  map.add(2, 2, one, {{7, 0, 0.0f}}, {}, {});
+  ASSERT_EQ(map.points().size(), 1u);
+  EXPECT_EQ(map.last_seen(0), 2u);
+  EXPECT_EQ(map.points()[0].row, 0u);
+}
+
+TEST(OrderedPipeline, TakesInOrderWhateverTheThreads) {
+  std::vector<std::size_t> taken;
+  ordered_pipeline<std::size_t>(
+      50,
+      3,
+      4,
+      [](std::size_t i) { return i * i; },
+      [&](std::size_t i, std::size_t item) {
+        EXPECT_EQ(item, i * i);
+        taken.push_back(i);
+      });
+  EXPECT_EQ(taken.size(), 50u);
+}
+
+TEST(OrderedPipeline, PassesOnWhatEitherSideThrows) {
+  const auto nothing = [](std::size_t, int) {};
+  const auto fails = [](std::size_t i) {
+    if (i == 5) throw std::runtime_error("made badly");
+    return 0;
+  };
+  EXPECT_THROW(ordered_pipeline<int>(20, 2, 4, fails, nothing), std::runtime_error);
+  const auto refuses = [](std::size_t i, int) {
+    if (i == 5) throw std::runtime_error("not taken");
+  };
+  EXPECT_THROW(ordered_pipeline<int>(
+                   20, 2, 4, [](std::size_t) { return 0; }, refuses),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace loopbench
