@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/plugins.hpp"
+#include "harness/provenance/hash.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -22,13 +23,17 @@ const Entry& find(const std::vector<Entry>& entries,
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
-  Catalogue out{datasets(), methods(), metrics()};
+  Catalogue out{datasets(), methods(), metrics(), oracles(), {}};
+  for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const std::filesystem::path& plugin : plugins) {
+    std::string version;
     for (MethodEntry& entry : load_plugin(plugin)) {
       if (std::ranges::find(out.methods, entry.name, &MethodEntry::name) != out.methods.end()) {
         throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
                          "' is already in the catalogue");
       }
+      if (version.empty()) version = hex(hash_of_file(plugin));  // after loading: it is a file
+      out.versions.emplace(entry.name, version);
       out.methods.push_back(std::move(entry));
     }
   }
@@ -40,6 +45,11 @@ const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& 
 }
 const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.methods, "method", name);
+}
+const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name) {
+  const auto found = std::ranges::find(
+      catalogue.oracles, name, [](const OracleEntry& entry) { return entry.listed.name; });
+  return found == catalogue.oracles.end() ? nullptr : &*found;
 }
 const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.metrics, "metric", name);

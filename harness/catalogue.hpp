@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "datasets/dataset.hpp"
+#include "harness/oracle/oracle.hpp"
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 
@@ -14,6 +17,8 @@ struct Catalogue {
   std::vector<DatasetEntry> datasets;
   std::vector<MethodEntry> methods;
   std::vector<MetricEntry> metrics;
+  std::vector<OracleEntry> oracles = {};  ///< those of `methods` that are shown the reference
+  std::map<std::string, std::string> versions = {};  ///< of plugins' methods: their file's hash
 };
 
 /// Built-ins, then each plugin's methods. Throws InputError for a plugin that may not be used or
@@ -23,6 +28,8 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 /// The entry of that name. Throws InputError with a suggestion.
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);
 const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
+/// The oracle of that name, or null.
+const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name);
 const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
 
 }  // namespace loopbench

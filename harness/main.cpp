@@ -6,6 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/source_commit.hpp"
 #include "harness/version.hpp"
 
 using namespace loopbench;
@@ -18,7 +19,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 1 some cells failed, 2 unusable input, 3 internal error, "
       "130 interrupted.");
   int exit_code = kExitOk;
-  add_run(app, exit_code);
+  add_run(app, exit_code, {source_commit, source_state});
   add_list(app, exit_code);
   add_table(app, exit_code);
   add_eval(app, exit_code);

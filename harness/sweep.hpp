@@ -1,6 +1,7 @@
 /// What a config asks for, every grid already spread out: plain data, validated, ready to run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -46,6 +47,12 @@ struct TableSpec {
   std::vector<std::string> show;  ///< only these scores, by their short names; empty: all
 };
 
+/// What one cell may use before it is ended.
+struct Limits {
+  double seconds = 600.0;   ///< wall time, all timed runs and judging together [s]; 0: any
+  std::int64_t memory = 0;  ///< resident size of the process [bytes]; 0: any
+};
+
 struct Sweep {
   std::string name;              ///< stem of the config file
   std::filesystem::path config;  ///< as given
@@ -59,6 +66,9 @@ struct Sweep {
   double min_coverage = 0.0;  ///< share and span below this make numbers `incomplete`, 0..1
   int repeats = 1;            ///< instances of each seeded dataset
   int timing = 1;             ///< runs of each method's verb
+  bool serial = false;        ///< one cell at a time, on one core, for the sake of its times
+  bool traces = true;         ///< keep thinned trajectories of every cell for reports
+  Limits limits;
   std::vector<Exclusion> exclude;
   TableSpec table;
 };

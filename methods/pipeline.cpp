@@ -56,7 +56,12 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   const Trajectory& before = problem.keyframes;
   require_same_stamps(before, keyframes);
   // Field by field: copying the whole problem would copy keyframes that are thrown away.
-  Problem moved{std::move(keyframes), problem.odometry, problem.closures, {}, problem.planar};
+  Problem moved{std::move(keyframes),
+                problem.odometry,
+                problem.closures,
+                {},
+                problem.planar,
+                problem.common_view};
   moved.frames.reserve(problem.frames.size());
   const std::vector<double> knots = stamps(before);
   KnotSpan span(knots);

@@ -24,8 +24,8 @@ std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOpt
     while (known <= i) out[known++] = T;
   }
   if (known == 0) {
-    throw std::runtime_error("along_cross: the reference never moves faster than " +
-                             to_text(o.standing) + " m/s, so it has no direction of travel");
+    throw Undefined("along_cross: the reference never moves faster than " + to_text(o.standing) +
+                    " m/s, so it has no direction of travel");
   }
   return out;
 }

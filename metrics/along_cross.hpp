@@ -29,7 +29,7 @@ void fields(AlongCrossOptions& o, Visit visit) {
 /// is turned and their squares add up to the 3-D ones. `cross` and `vertical` split off_track:
 /// cross is horizontal (up x T), vertical is T x cross; poses where T points up or down have
 /// neither and their count is lower. (Frenet's normal and binormal are not used: undefined on
-/// straight parts and flipping at inflections.) Throws std::runtime_error when the reference never
+/// straight parts and flipping at inflections.) Throws Undefined when the reference never
 /// moves. O(n).
 std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOptions& options);
 

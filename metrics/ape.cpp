@@ -19,7 +19,7 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::translation_part;
   if (const std::string why = why_no_attitude(evaluation); !is_distance && !why.empty()) {
-    throw std::runtime_error("ape: " + why);
+    throw Undefined("ape: " + why);
   }
   const auto& [reference, estimate] = std::tie(evaluation.reference, evaluation.estimate);
   const std::size_t n = reference.size();

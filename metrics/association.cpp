@@ -131,9 +131,11 @@ Paired associate(const Trajectory& reference,
   }
   const bool is_tum = protocol.association == Association::tum;
   const Limit limit = is_tum ? Limit::strict : Limit::inclusive;
-  return gather(reference,
-                estimate,
-                match_one_to_one(stamps(reference), stamps(estimate), max_diff, limit, offset));
+  const Crossing crossing = is_tum ? Crossing::allowed : Crossing::refused;
+  return gather(
+      reference,
+      estimate,
+      match_one_to_one(stamps(reference), stamps(estimate), max_diff, limit, crossing, offset));
 }
 
 }  // namespace loopbench

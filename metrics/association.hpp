@@ -28,15 +28,21 @@ std::vector<IndexPair> match_evo(std::vector<double> reference,
 /// Is a difference of exactly max_diff still a pair?
 enum class Limit { strict, inclusive };
 
-/// TUM's associate.py (strict), and `nearest` (inclusive): one-to-one; of all pairs within
-/// max_diff the one first by (difference, reference, estimate) is taken, both poses leave, and so
-/// on. In the order of the reference; around a burst two pairs may cross in time. Strictly
-/// increasing stamps, also after the offset was added to the estimate. O((n + m) log(n + m))
-/// whatever max_diff is, in practice near O(n + m).
+/// May an earlier reference pose go with a later estimate pose than the next one does?
+enum class Crossing { allowed, refused };
+
+/// TUM's associate.py (strict, crossing allowed), and `nearest` (inclusive, crossing refused):
+/// one-to-one; of all pairs within max_diff the one first by (difference, reference, estimate) is
+/// taken, both poses leave, and so on, passing over pairs that cross a taken one when those are
+/// refused. Around a burst associate.py pairs what a taken pair left over across it, and the
+/// estimate runs backwards there. In the order of the reference. Strictly increasing stamps, also
+/// after the offset was added to the estimate. O((n + m) log(n + m)) whatever max_diff is, in
+/// practice near O(n + m).
 std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         std::vector<double> estimate,
                                         double max_diff,
                                         Limit limit,
+                                        Crossing crossing,
                                         double offset);
 
 /// ov_eval (AlignUtils.cpp, commit 6948812): estimate poses in order, a pointer into the reference

@@ -11,15 +11,15 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
   const Problem& problem = needed(evaluation.context.problem, "closure_residual", "loop closures");
   const Trajectory& poses = needed(evaluation.context.estimate, "closure_residual", "keyframes");
   if (problem.closures.empty()) {
-    throw std::runtime_error("closure_residual: needs loop closures; the sequence has none");
+    throw Undefined("closure_residual: needs loop closures; the sequence has none");
   }
   std::vector<double> metres;
   std::vector<double> degrees;
   std::vector<double> mahalanobis;
   for (const Edge& edge : problem.closures) {
     if (edge.scale != 1.0) {
-      throw std::runtime_error("closure_residual: a closure measures in another unit of length (" +
-                               to_text(edge.scale) + "), so its residual has no metres");
+      throw Undefined("closure_residual: a closure measures in another unit of length (" +
+                      to_text(edge.scale) + "), so its residual has no metres");
     }
     const Pose from_from_to =
         poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;

@@ -14,7 +14,7 @@ void fields(ClosureResidualOptions&, Visit) {}
 /// translation 3d [m] |trans(E)|, rotation 3d [deg] angle(E), and mahalanobis 3d [1]
 /// sqrt(e^T information e) with e = Log(E); 6 degrees of freedom, so about sqrt(6) rms when the
 /// information tells the truth. A small residual says that the closures were believed, not that
-/// they were right. Throws std::runtime_error without closures, and when a closure changes the
+/// they were right. Throws Undefined without closures, and when a closure changes the
 /// unit of length (Sim(3) chains). O(keyframes + closures).
 std::vector<Score> closure_residual(const Evaluation& evaluation,
                                     const ClosureResidualOptions& options);

@@ -1,14 +1,22 @@
 /// What lies behind the pairs of an evaluation, for metrics that look further.
 #pragma once
 
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "datasets/core/curve.hpp"
+#include "datasets/core/pose_matrix.hpp"
 #include "datasets/core/problem.hpp"
 #include "metrics/protocol.hpp"
+#include "metrics/undefined.hpp"
 
 namespace loopbench {
+
+/// Both lists with the digits of their files, in the files' order; set when both hold matrices.
+struct PrintedPoses {
+  std::vector<PoseMatrix> reference;
+  std::vector<PoseMatrix> estimate;
+};
 
 /// Null where there is none: two files have neither problem nor curve. Nothing is owned.
 struct Context {
@@ -19,12 +27,13 @@ struct Context {
   const Curve* curve = nullptr;           ///< the estimate in time, before alignment
   Times times = Times::keyframes;         ///< how the pairs were made, with `protocol`
   Protocol protocol;
+  const PrintedPoses* printed = nullptr;  ///< what rounded text became `reference` and `estimate`
 };
 
-/// The view, or a std::runtime_error "METRIC: needs WHAT; files have none".
+/// The view, or Undefined "METRIC: needs WHAT; files have none".
 template <class View>
 const View& needed(const View* view, const std::string& metric, const std::string& what) {
-  if (view == nullptr) throw std::runtime_error(metric + ": needs " + what + "; files have none");
+  if (view == nullptr) throw Undefined(metric + ": needs " + what + "; files have none");
   return *view;
 }
 

@@ -24,7 +24,7 @@ struct Diagnostics {
   std::size_t possible = 0;
   double largest_gap = 0.0;  ///< between neighbouring pairs [s]
   /// Pairs that use a pose again (association evo), and pairs that step back in time against the
-  /// one before (nearest and tum, around bursts). Doubled and unsorted stamps inside one file never
+  /// one before (association tum, around bursts). Doubled and unsorted stamps inside one file never
   /// come this far: readers refuse them, or keep one when told to.
   std::size_t repeated = 0;
   std::size_t crossing = 0;

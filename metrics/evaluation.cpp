@@ -59,7 +59,7 @@ Evaluation evaluate(const Trajectory& reference,
         to_text(protocol.association) + " wants " + limits(protocol));
   }
   Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
-  if (protocol.pairs == PairRule::tum) out.whole = {reference, estimate};
+  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, estimate};
   return out;
 }
 
@@ -87,9 +87,9 @@ Evaluation evaluate(const Trajectory& reference,
                              ", offset " + to_text(protocol.offset) + " s)");
   }
   paired.estimate = estimate.sample(wanted);
-  Trajectory whole = protocol.pairs == PairRule::tum ? paired.estimate : Trajectory();
+  Trajectory whole = is_of_whole_files(protocol.pairs) ? paired.estimate : Trajectory();
   Evaluation out = judge(std::move(paired), wanted.size(), reference, protocol);
-  if (protocol.pairs == PairRule::tum) out.whole = {reference, std::move(whole)};
+  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, std::move(whole)};
   return out;
 }
 

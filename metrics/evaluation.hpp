@@ -26,7 +26,7 @@ struct Coverage {
 
 /// reference[i] and estimate[i] belong together and share reference[i].stamp as their time; the
 /// estimate keeps its own stamps. With association `evo` a pose may serve twice, so stamps may
-/// repeat; around bursts `nearest` and `tum` may pair across each other.
+/// repeat; around bursts `tum` may pair across each other, and then the estimate's go back.
 struct Evaluation {
   Trajectory reference;
   Trajectory estimate;  ///< already moved onto the reference by `alignment`, both then flattened
@@ -34,8 +34,8 @@ struct Evaluation {
   Coverage coverage;
   Protocol protocol;
   double reference_length = 0.0;  ///< path of the whole reference, matched or not [m]
-  /// The whole lists as given, before pairing and alignment, when the protocol's pairs are `tum`:
-  /// that rule looks at every pose of the files. Empty otherwise.
+  /// The whole lists as given, before pairing and alignment, when the protocol's pairs are of
+  /// whole files. Empty otherwise.
   Paired whole;
   Context context;  ///< empty from evaluate(): whoever holds the problem and the curve fills it
 };

@@ -17,8 +17,8 @@ void fields(GainAlongOptions&, Visit) {}
 ///   first_third, middle_third, last_third 3d   over thirds of the reference's path
 ///   improved, worsened        share of poses whose 3-D error fell, rose
 /// (The derived `gain` compares `ate` with a baseline method instead; this one needs no baseline.)
-/// A gain on an error of exactly zero is undefined. Throws std::runtime_error without a problem,
-/// or when the raw keyframes cannot be judged. O(n log n).
+/// A gain on an error of exactly zero is undefined. Throws Undefined without a problem,
+/// std::runtime_error when the raw keyframes cannot be judged. O(n log n).
 std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptions& options);
 
 }  // namespace loopbench

@@ -80,7 +80,7 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
     judge(floor, nodes, reference, next);
   }
   if (!floor.has_between) {
-    throw std::runtime_error("interpolation_floor: the reference has no pose between keyframes");
+    throw Undefined("interpolation_floor: the reference has no pose between keyframes");
   }
   Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};
   if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp));

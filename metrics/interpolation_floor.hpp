@@ -19,7 +19,7 @@ void fields(InterpolationFloorOptions& o, Visit visit) {
 /// cubic spline in time, slerp 3d [deg] by great arcs. No method enters but its keyframe stamps, so
 /// this is the same in every row of a table; in files every pose is a keyframe. Keyframes outside
 /// the reference or in a gap of it are not exact: they end one stretch and begin the next.
-/// Throws std::runtime_error when no reference pose lies between two keyframes. O(n + m).
+/// Throws Undefined when no reference pose lies between two keyframes. O(n + m).
 std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                                        const InterpolationFloorOptions& options);
 

@@ -70,8 +70,8 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
     reference_jerk.push_back(jerk_of(&theirs[i]));
   }
   if (estimate_jerk.empty()) {
-    throw std::runtime_error("jerk: curve and reference share no four samples at " +
-                             to_text(options.rate) + " a second without a gap");
+    throw Undefined("jerk: curve and reference share no four samples at " + to_text(options.rate) +
+                    " a second without a gap");
   }
   Score estimate{"estimate", "3d", "m/s^3", statistics(std::move(estimate_jerk))};
   Score truth{"reference", "3d", "m/s^3", statistics(std::move(reference_jerk))};

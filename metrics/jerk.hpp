@@ -20,7 +20,7 @@ void fields(JerkOptions& o, Visit visit) {
 /// second; jerk = third divided difference times 6: estimate and reference 3d [m/s^3],
 /// their ratio of rmse [1]. Numbers of different rates do not compare: noise of size s reads about
 /// 4.5 s rate^3, and nothing is filtered before sampling. Stretches over a reference gap are left
-/// out. Estimate in the reference's unit of length. Throws std::runtime_error without a curve, or
+/// out. Estimate in the reference's unit of length. Throws Undefined without a curve, or
 /// with fewer than four samples in common. O(n + span * rate).
 std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options);
 

@@ -55,7 +55,7 @@ std::vector<double> times_beside(const Trajectory& keyframes, double reach) {
 std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& options) {
   const Curve& curve = needed(evaluation.context.curve, "jumps", "a curve");
   const Trajectory& keyframes = needed(evaluation.context.estimate, "jumps", "keyframes");
-  if (keyframes.size() < 3) throw std::runtime_error("jumps: needs three keyframes");
+  if (keyframes.size() < 3) throw Undefined("jumps: needs three keyframes");
   // One call: a curve may cost O(n) to ask at all.
   const Trajectory samples = curve.sample(times_beside(keyframes, options.reach));
   const double scale = evaluation.alignment.scale;

@@ -23,8 +23,8 @@ void fields(JumpsOptions& o, Visit visit) {
 /// O(h^4), O(h^3), O(h^2) otherwise (h = reach * interval). Rounding of positions of size p costs
 /// about p 1e-16 {15, 130/h, 640/h^2}: for p = 10 m, h = 0.05 s that is 1e-14, 3e-12, 3e-10.
 /// Pieces that meet between keyframes are not seen: a curve does not tell its joints. Throws
-/// std::runtime_error without a curve, for fewer than three keyframes, and where stamps are too
-/// coarse for four different times. O(keyframes).
+/// Undefined without a curve or for fewer than three keyframes, std::runtime_error where stamps are
+/// too coarse for four different times. O(keyframes).
 std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& options);
 
 }  // namespace loopbench

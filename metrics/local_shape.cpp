@@ -10,7 +10,7 @@ std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOpt
   const Trajectory& before =
       needed(evaluation.context.problem, "local_shape", "keyframes before correction").keyframes;
   const Trajectory& after = needed(evaluation.context.estimate, "local_shape", "keyframes");
-  if (before.size() < 2) throw std::runtime_error("local_shape: needs two keyframes");
+  if (before.size() < 2) throw Undefined("local_shape: needs two keyframes");
   std::vector<double> metres;
   std::vector<double> degrees;
   const auto step = [](const Trajectory& poses, std::size_t i) {

@@ -13,7 +13,7 @@ void fields(LocalShapeOptions&, Visit) {}
 /// E = (K_i^-1 K_{i+1})^-1 (X_i^-1 X_{i+1}), K the keyframes as given, X the estimate at them:
 /// translation 3d [m], rotation 3d [deg] by which each step changed. No reference enters. Zero for
 /// the raw trajectory wherever it is moved to; a bend the drift did not ask for shows as max far
-/// above median. Throws std::runtime_error without a problem or with fewer than two keyframes.
+/// above median. Throws Undefined without a problem or with fewer than two keyframes.
 /// O(keyframes).
 std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOptions& options);
 

@@ -8,6 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "metrics/evaluation.hpp"
 #include "metrics/statistics.hpp"
+#include "metrics/undefined.hpp"
 
 namespace loopbench {
 
@@ -28,7 +29,8 @@ struct MetricEntry {
   std::string summary;
   std::vector<OptionInfo> options;
   std::function<void(const Params&)> check;  ///< throws OptionError; judges nothing
-  /// Throws OptionError on bad options, std::runtime_error when the metric is undefined here.
+  /// Throws OptionError on bad options, Undefined when the sequence has nothing to measure,
+  /// std::runtime_error when the estimate cannot be measured.
   std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
   bool needs_reference = true;  ///< false: judges from the context alone, also without a reference
 };

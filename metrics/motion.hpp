@@ -24,11 +24,15 @@ inline Pose motion_error(
   return (Q_i.inverse() * Q_j).inverse() * (P_i.inverse() * P_j);
 }
 
+/// Of a rotation with this trace [rad], 0..pi.
+inline double trace_angle(double trace) {
+  return std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
+}
+
 /// [rad], 0..pi.
 inline double rotation_angle(AngleFormula formula, const Rotation& rotation) {
   if (formula == AngleFormula::rotation_vector) return log_so3(rotation).norm();
-  const double cosine = 0.5 * (rotation.toRotationMatrix().trace() - 1.0);
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
+  return trace_angle(rotation.toRotationMatrix().trace());
 }
 
 }  // namespace loopbench

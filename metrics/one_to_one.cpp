@@ -14,6 +14,7 @@ struct Node {
   double time;
   std::uint32_t index;
   bool is_reference;
+  bool is_past_a_pair = false;  ///< between it and the node before stood a pair
 };
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -46,7 +47,7 @@ IndexPair pair_of(const Node& a, const Node& b) {
 }
 
 /// Pairs nearer to each other than to anything else are in the greedy answer whatever else is;
-/// this takes most of them in one scan and returns the rest.
+/// this takes most of them in one scan and returns the rest, which remembers where they stood.
 template <class IsWithin>
 std::vector<Node> take_mutually_nearest(Merge merge,
                                         IsWithin is_within,
@@ -65,6 +66,7 @@ std::vector<Node> take_mutually_nearest(Merge merge,
       out.push_back(pair_of(a, b));
       before = after;
       a = c;
+      a.is_past_a_pair = true;
       b = merge.next();
     } else {
       kept.push_back(a);
@@ -78,10 +80,12 @@ std::vector<Node> take_mutually_nearest(Merge merge,
 }
 
 /// The greedy rule on a linked list in time: the closest remaining pair is always made of
-/// neighbours, for anything between them would be closer to one of the two.
+/// neighbours, for anything between them would be closer to one of the two. Two nodes between which
+/// stood a pair would cross it, whichever list they are of.
 template <class IsWithin>
 void take_closest_first(const std::vector<Node>& nodes,
                         IsWithin is_within,
+                        Crossing crossing,
                         std::vector<IndexPair>& out) {
   struct Candidate {
     double gap;
@@ -100,6 +104,7 @@ void take_closest_first(const std::vector<Node>& nodes,
   std::vector<bool> is_taken(n, false);
   const auto offer = [&](std::uint32_t left, std::uint32_t right) {
     if (left == kNone || right == kNone) return;
+    if (crossing == Crossing::refused && nodes[right].is_past_a_pair) return;
     const double gap = nodes[right].time - nodes[left].time;
     if (nodes[left].is_reference == nodes[right].is_reference || !is_within(gap)) return;
     queue.push({gap, pair_of(nodes[left], nodes[right]), left, right});
@@ -117,6 +122,7 @@ void take_closest_first(const std::vector<Node>& nodes,
     out.push_back(best.pair);
     const std::uint32_t before = previous[best.left];
     const std::uint32_t after = next[best.right];
+    if (crossing == Crossing::refused) continue;
     if (before != kNone) next[before] = after;
     if (after != kNone) previous[after] = before;
     offer(before, after);
@@ -129,6 +135,7 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         std::vector<double> estimate,
                                         double max_diff,
                                         Limit limit,
+                                        Crossing crossing,
                                         double offset) {
   for (double& stamp : estimate) stamp += offset;
   const auto is_within = [=](double gap) {
@@ -138,7 +145,7 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
   out.reserve(std::min(reference.size(), estimate.size()));
   const std::vector<Node> rest = take_mutually_nearest(Merge(reference, estimate), is_within, out);
   const auto found = static_cast<std::ptrdiff_t>(out.size());  // in order already
-  take_closest_first(rest, is_within, out);
+  take_closest_first(rest, is_within, crossing, out);
   const auto by_reference = [](const IndexPair& a, const IndexPair& b) {
     return a.reference < b.reference;
   };

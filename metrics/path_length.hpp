@@ -13,7 +13,7 @@ void fields(PathLengthOptions&, Visit) {}
 /// Sum of the straight steps between judged poses, after alignment: estimate [m], reference
 /// [m], ratio [1] = estimate over reference. Both are sampled at the same pairs,
 /// so neither gains by being denser; jitter still lengthens.
-/// sim3 alignment takes most of the ratio away. Throws std::runtime_error when the reference
+/// sim3 alignment takes most of the ratio away. Throws Undefined when the reference
 /// stands still. O(n).
 std::vector<Score> path_length_ratio(const Evaluation& evaluation,
                                      const PathLengthOptions& options);

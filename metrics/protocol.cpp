@@ -5,7 +5,9 @@
 namespace loopbench {
 namespace {
 
-[[noreturn]] void refuse(const std::string& field, const std::string& value, const char* why) {
+[[noreturn]] void refuse(const std::string& field,
+                         const std::string& value,
+                         const std::string& why) {
   throw OptionError(field, field + " = " + value + ": " + why);
 }
 
@@ -51,12 +53,13 @@ void check(const Protocol& p) {
   if (p.association == Association::index && p.offset != 0.0) {
     refuse("offset", to_text(p.offset), "association index does not look at stamps");
   }
-  if (p.pairs == PairRule::tum) {
+  if (is_of_whole_files(p.pairs)) {
+    const std::string rule = "pairs " + to_text(p.pairs);
     if (p.pairs_from != PairsFrom::estimate) {
-      refuse("pairs_from", to_text(p.pairs_from), "pairs tum are measured on the estimate");
+      refuse("pairs_from", to_text(p.pairs_from), rule + " are those of the estimate");
     }
     if (p.project != Plane::none) {
-      refuse("project", to_text(p.project), "pairs tum are taken from the files, not flattened");
+      refuse("project", to_text(p.project), rule + " are taken from the files, not flattened");
     }
   }
   if (p.segments.precision == Precision::float32) {

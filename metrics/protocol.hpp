@@ -9,7 +9,7 @@ namespace loopbench {
 
 /// How reference and estimate are paired in time.
 enum class Association {
-  nearest,      ///< one-to-one, closest differences first, |dt| <= max_diff
+  nearest,      ///< one-to-one in order, closest differences first, |dt| <= max_diff
   evo,          ///< evo 1.x: nearest for each pose of the shorter list; one may serve twice
   tum,          ///< TUM associate.py: one-to-one, greedy by difference, strict |dt| < max_diff
   ov_eval,      ///< one pass in time, each reference pose used once, strict |dt| < max_diff
@@ -67,12 +67,19 @@ inline auto choices(Plane) {
 enum class PairRule {
   all,          ///< every start, with the end nearest to `delta` within the tolerance
   consecutive,  ///< evo's: one stretch after the other
-  tum,  ///< evaluate_rpe.py: every estimate pose of the file, probing bisection, last left out
+  tum,  ///< evaluate_rpe.py --fixed_delta: every estimate pose of the file, probing bisection, last
+        ///< left out
+  tum_random,  ///< evaluate_rpe.py alone: 10000 pairs as Python draws them, whatever delta is
 };
 inline auto choices(PairRule) {
   return std::array{std::pair{"all", PairRule::all},
                     std::pair{"consecutive", PairRule::consecutive},
-                    std::pair{"tum", PairRule::tum}};
+                    std::pair{"tum", PairRule::tum},
+                    std::pair{"tum_random", PairRule::tum_random}};
+}
+/// These look at all poses of the files, matched or not.
+inline bool is_of_whole_files(PairRule rule) {
+  return rule == PairRule::tum || rule == PairRule::tum_random;
 }
 
 /// Whose path or turning measures a stretch.

@@ -104,22 +104,27 @@ std::vector<double> distances(const Motions& motions, Relation relation) {
     }
   });
   std::erase(out, kLeftOut);
-  if (out.empty()) throw std::runtime_error("rpe: the reference stands still in every pair");
+  if (out.empty()) throw Undefined("rpe: the reference stands still in every pair");
   return out;
 }
 
-std::vector<Score> scores(const Motions& motions, const RpeOptions& options, std::size_t poses) {
+/// Who is to blame when no two poses are that far apart.
+enum class Measured { reference, estimate };
+
+std::vector<Score> scores(const Motions& motions, const RpeOptions& options, Measured measured) {
   if (motions.pairs.empty()) {
-    throw std::runtime_error("rpe: none of " + std::to_string(poses) + " poses is " +
-                             to_text(options.delta) + " " + to_text(options.unit) +
-                             " before another");
+    const std::string why = "rpe: none of " + std::to_string(motions.estimate.size()) +
+                            " poses is " + to_text(options.delta) + " " + to_text(options.unit) +
+                            " before another";
+    if (measured == Measured::reference) throw Undefined(why);
+    throw std::runtime_error(why);
   }
   const Relation relation = options.relation;
   if (relation == Relation::usual) return usual(motions, options.frame);
   const std::string& why = motions.why_no_attitude;
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::point_distance_error_ratio;
-  if (!is_distance && !why.empty()) throw std::runtime_error("rpe: " + why);
+  if (!is_distance && !why.empty()) throw Undefined("rpe: " + why);
   if (relation == Relation::rpy) return rpy(motions, options.frame);
   std::vector<double> errors;
   if (is_distance) {
@@ -140,8 +145,19 @@ PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
   if (options.pairs == RpePairs::protocol) return protocol.pairs;
   if (options.pairs == RpePairs::all) return PairRule::all;
   if (options.pairs == RpePairs::consecutive) return PairRule::consecutive;
-  if (protocol.pairs == PairRule::tum) return PairRule::tum;
+  if (is_of_whole_files(protocol.pairs)) return PairRule::tum;
   throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+}
+
+TumMotions random_motions(const Paired& whole,
+                          double offset,
+                          const Alignment& alignment,
+                          const RpeOptions& options) {
+  if (options.delta != RpeOptions{}.delta || options.unit != RpeOptions{}.unit) {
+    throw Undefined("rpe: pairs tum_random have no stretch of " + to_text(options.delta) + " " +
+                    to_text(options.unit) + "; ask for rpe without delta and unit");
+  }
+  return tum_random_motions(whole, offset, alignment);
 }
 
 }  // namespace
@@ -151,24 +167,31 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
   const Stretch stretch{
       options.delta, options.unit, options.tolerance.value_or(protocol.tolerance)};
   const PairRule rule = rule_of(options, protocol);
-  if (rule == PairRule::tum) {
+  if (is_of_whole_files(rule)) {
+    const Paired& whole = evaluation.whole;
     const TumMotions tum =
-        tum_motions(evaluation.whole, protocol.offset, evaluation.alignment, stretch);
+        rule == PairRule::tum
+            ? tum_motions(whole, protocol.offset, evaluation.alignment, stretch)
+            : random_motions(whole, protocol.offset, evaluation.alignment, options);
     const auto& [reference, estimate] = tum.poses;
     return scores({reference, estimate, tum.pairs, protocol, why_no_attitude(evaluation)},
                   options,
-                  estimate.size());
+                  Measured::estimate);
   }
   const auto from = options.pairs_from != RpePairsFrom::protocol  ? options.pairs_from
                     : protocol.pairs_from == PairsFrom::reference ? RpePairsFrom::reference
                                                                   : RpePairsFrom::estimate;
-  const Trajectory& measured =
-      from == RpePairsFrom::reference ? evaluation.reference : evaluation.estimate;
-  const std::vector<FromTo> pairs = stretch_pairs(evaluation.reference, measured, rule, stretch);
+  const bool is_in_time = options.unit == DeltaUnit::s || options.unit == DeltaUnit::frames;
+  const bool is_of_reference = from == RpePairsFrom::reference;
+  const std::vector<FromTo> pairs =
+      stretch_pairs(evaluation.reference,
+                    is_of_reference ? evaluation.reference : evaluation.estimate,
+                    rule,
+                    stretch);
   return scores(
       {evaluation.reference, evaluation.estimate, pairs, protocol, why_no_attitude(evaluation)},
       options,
-      evaluation.reference.size());
+      is_in_time || is_of_reference ? Measured::reference : Measured::estimate);
 }
 
 }  // namespace loopbench

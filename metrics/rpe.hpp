@@ -60,9 +60,10 @@ void fields(RpeOptions& o, Visit visit) {
 /// others one score of that name; point_distance is ||q_j - q_i| - |p_j - p_i||, its ratio leaves
 /// out pairs where the reference stands still. For positions without attitude
 /// (position_only.hpp) only world axes and point distances are defined. Pairs from the reference
-/// are the same for every method. Throws OptionError when delta and unit do not fit, and for pairs
-/// `tum` where the protocol has another rule, std::runtime_error when no two poses are that far
-/// apart. O(n log n), but see angle_pairs.hpp.
+/// are the same for every method. Pairs `tum_random` have no delta: Undefined when one
+/// is given. Throws OptionError when delta and unit do not fit, and for pairs `tum` where the
+/// protocol has another rule, std::runtime_error when no two poses are that far apart, Undefined
+/// when that is the reference's doing. O(n log n), but see angle_pairs.hpp.
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options);
 
 }  // namespace loopbench

@@ -33,13 +33,13 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                                       const SmoothingHeadroomOptions& options) {
   Series errors = error_series(evaluation);
   if (errors.times.size() < 2) {
-    throw std::runtime_error("smoothing_headroom: needs two poses at different times");
+    throw Undefined("smoothing_headroom: needs two poses at different times");
   }
   const bool is_sharp = options.filter == Filter::sharp;
   if (is_sharp) errors = resampled(errors, std::bit_ceil(2 * errors.times.size()));
   const Statistics before = magnitudes(errors.values);
   if (before.rmse == 0.0) {
-    throw std::runtime_error("smoothing_headroom: there is no error to take away");
+    throw Undefined("smoothing_headroom: there is no error to take away");
   }
   const Statistics after = magnitudes(is_sharp ? without_fast(errors, options.window)
                                                : moving_average(errors, options.window));

@@ -32,7 +32,7 @@ void fields(SmoothingHeadroomOptions& o, Visit visit) {
 /// ate weighted by time; a hole counts as a straight line. `moving_average` is what a simple
 /// smoother of that width would do to the error: it also takes part of what is slower, so its gain
 /// is larger. A steady drift gains (nearly) nothing under either. Poses sparser than half a window
-/// hide the fast error: judge densely. Throws std::runtime_error when there is no error, or no
+/// hide the fast error: judge densely. Throws Undefined when there is no error, or no
 /// time passes. O(n log n).
 std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                                       const SmoothingHeadroomOptions& options);

@@ -30,6 +30,8 @@ struct Problem {
   std::vector<Edge> closures;  ///< from < to, sorted by (to, from)
   Trajectory frames;           ///< tracked frames between keyframes, same world; may be empty
   bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
+  /// Landmarks that keyframes k and k + 1 both see, one number a pair; empty when not known.
+  std::vector<std::size_t> common_view = {};
 };
 
 /// Throws InputError naming `name` and the rule when edges or trajectories break their promise.
@@ -37,6 +39,11 @@ struct Problem {
 inline void check(const Problem& problem, const std::string& name) {
   check(problem.keyframes, name + ": keyframes");
   check(problem.frames, name + ": frames");
+  if (!problem.common_view.empty() &&
+      problem.common_view.size() + 1 != problem.keyframes.size()) {
+    throw InputError(name + ": common_view has " + std::to_string(problem.common_view.size()) +
+                     " counts, expected one for each pair of consecutive keyframes");
+  }
   const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Edge& edge = edges[i];

@@ -15,6 +15,15 @@ struct Provenance {
   bool oracle_closures = false;               ///< the closures were measured in the reference
   std::string licence;                        ///< of the data; empty: unknown
   std::vector<std::filesystem::path> inputs;  ///< every file read
+  std::vector<std::string> notes = {};        ///< what a user should know: skipped images, lost tracking
+};
+
+/// What a place recogniser thought of one pair of keyframes, accepted or not.
+struct LoopCandidate {
+  std::size_t from = 0;  ///< the earlier keyframe
+  std::size_t to = 0;    ///< the one that asked
+  double score = 0.0;    ///< the higher, the surer; comparable within one sequence
+  bool accepted = false;
 };
 
 struct Sequence {
@@ -22,6 +31,9 @@ struct Sequence {
   Problem problem;
   Trajectory reference;  ///< may be empty: then nothing can be judged against it
   Provenance provenance;
+  /// Best candidate of every keyframe that found one, sorted by `to`; empty: nothing was detected
+  /// here. For judging the detector: no method sees it.
+  std::vector<LoopCandidate> loop_candidates = {};
 };
 
 }  // namespace loopbench

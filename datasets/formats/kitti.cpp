@@ -17,10 +17,11 @@ constexpr std::array kNames{
     "r11", "r12", "r13", "tx", "r21", "r22", "r23", "ty", "r31", "r32", "r33", "tz"};
 using Row = std::array<double, kNames.size()>;
 
-Rotation rotation_of(const TextFile& file, std::size_t line, const Row& v) {
+PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
   constexpr double kTolerance = 1e-3;
-  Matrix3 R;
-  R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
+  PoseMatrix out;
+  out.matrix() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
+  const Matrix3 R = out.linear();
   const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kTolerance)) {
     throw file.error(
@@ -29,13 +30,12 @@ Rotation rotation_of(const TextFile& file, std::size_t line, const Row& v) {
   if (R.determinant() < 0.0) {
     throw file.error(line, "rotation has determinant -1: a reflection, expected a rotation");
   }
-  return Rotation(R).normalized();
+  return out;
 }
 
-/// Without stamps.
-Trajectory read_part(TextFile& file) {
-  Trajectory out;
-  out.reserve(file.lines_like(first_line(file)));
+/// visit(matrix) of every line, in order.
+template <class Visit>
+void each_row(TextFile& file, Visit visit) {
   Row v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
@@ -46,9 +46,17 @@ Trajectory read_part(TextFile& file) {
     }
     if (!columns.done())
       throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
-    const Pose pose{rotation_of(file, line.number, v), {v[3], v[7], v[11]}};
-    out.push_back({0.0, pose});
+    visit(matrix_of(file, line.number, v));
   }
+}
+
+/// Without stamps.
+Trajectory read_part(TextFile& file) {
+  Trajectory out;
+  out.reserve(file.lines_like(first_line(file)));
+  each_row(file, [&](const PoseMatrix& m) {
+    out.push_back({0.0, {Rotation(Matrix3(m.linear())).normalized(), m.translation()}});
+  });
   return out;
 }
 
@@ -58,7 +66,7 @@ std::vector<double> read_times(const std::filesystem::path& path) {
   TextFile file(path);
   first_line(file);
   std::vector<double> out;
-  InOrder order(file, Repeats::refuse);
+  InOrder order(file, Repeats::refuse, "");
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     out.push_back(columns.number("time"));
@@ -83,6 +91,14 @@ Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
                          " times, expected as many");
   }
   for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = times[i];
+  return out;
+}
+
+std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
+  TextFile file(path);
+  first_line(file);
+  std::vector<PoseMatrix> out;
+  each_row(file, [&](const PoseMatrix& matrix) { out.push_back(matrix); });
   return out;
 }
 

@@ -32,8 +32,9 @@ void InOrder::refuse_or_drop(double stamp, std::size_t line) const {
                           before + ", expected increasing stamps");
   }
   if (repeats_ == Repeats::refuse) {
-    throw file_.error(
-        line, "stamp " + to_text(stamp) + " is already" + before + ", expected increasing stamps");
+    throw file_.error(line,
+                      "stamp " + to_text(stamp) + " is already" + before +
+                          ", expected increasing stamps" + hint_);
   }
 }
 

@@ -14,7 +14,9 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given);
 /// Keeps stamps in strictly increasing order of stamps, or says which two lines break that.
 class InOrder {
  public:
-  InOrder(const TextFile& file, Repeats repeats) : file_(file), repeats_(repeats) {}
+  /// `hint` ends the refusal of a repeat: what the reader may do about it.
+  InOrder(const TextFile& file, Repeats repeats, const char* hint = " (or repeats: keep_first)")
+      : file_(file), repeats_(repeats), hint_(hint) {}
 
   /// False when this stamp repeats the last one and repeats are dropped.
   bool accepts(double stamp, std::size_t line) {
@@ -32,6 +34,7 @@ class InOrder {
 
   const TextFile& file_;
   Repeats repeats_;
+  const char* hint_;
   double last_stamp_ = 0.0;
   std::size_t last_line_ = 0;
 };

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
+#include "datasets/formats/kitti.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_arguments.hpp"
 #include "harness/export/write_file.hpp"
@@ -9,27 +11,36 @@
 namespace loopbench {
 namespace {
 
+/// A file's poses, and its matrices as printed when it holds some and they are wanted.
+struct Loaded {
+  Trajectory poses;
+  std::vector<PoseMatrix> matrices;
+};
+
 /// The same reader for reference and estimate, differing in format only.
 struct Reader {
   const EvalArguments& arguments;
+  bool wants_matrices = false;
   bool has_used_times = false;
 
-  Trajectory read(const std::string& file, const std::string& format_word) {
+  Loaded read(const std::string& file, const std::string& format_word) {
     ReadOptions options;
     FieldType<Format>::assign("format", options.format, format_word);
     FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
     options.period = arguments.period;
     if (options.format == Format::automatic) options.format = recognise(file);
-    if (!arguments.times.empty() && options.format == Format::kitti) {
+    const bool is_kitti = options.format == Format::kitti;
+    if (!arguments.times.empty() && is_kitti) {
       options.times = arguments.times;
       has_used_times = true;
     }
-    Trajectory poses = read_trajectory(file, options);
-    if (poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
-    return poses;
+    Loaded out{read_trajectory(file, options), {}};
+    if (out.poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
+    if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
+    return out;
   }
 
-  Trajectory read_reference(const std::string& file) {
+  Loaded read_reference(const std::string& file) {
     const bool is_same = arguments.reference_format.empty();
     return read(file, is_same ? arguments.format : arguments.reference_format);
   }
@@ -38,19 +49,31 @@ struct Reader {
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
+  const bool is_devkit = std::ranges::any_of(
+      rules, [](const NamedProtocol& p) { return p.rules.form == ErrorForm::kitti; });
   const std::vector<FilePair> files = file_pairs(a);
-  Reader reader{a};
+  Reader reader{a, is_devkit};
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
+  PrintedPoses printed;
   for (const FilePair& pair : files) {
-    if (read_last != pair.reference) reference = reader.read_reference(pair.reference);
-    read_last = pair.reference;
-    const Trajectory estimate = reader.read(pair.estimate, a.format);
+    if (read_last != pair.reference) {
+      Loaded loaded = reader.read_reference(pair.reference);
+      reference = std::move(loaded.poses);
+      printed.reference = std::move(loaded.matrices);
+      read_last = pair.reference;
+    }
+    Loaded loaded = reader.read(pair.estimate, a.format);
+    printed.estimate = std::move(loaded.matrices);
+    const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const NamedProtocol& protocol : rules) {
+      const JudgeOptions options{questions(a, protocol.rules),
+                                 !a.per_pose.empty(),
+                                 a.min_coverage,
+                                 are_printed ? &printed : nullptr};
       try {
-        out.push_back(judge(
-            reference, estimate, protocol, questions(a, protocol.rules), !a.per_pose.empty()));
+        out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
         throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
       }

@@ -34,6 +34,7 @@ struct EvalArguments {
   std::optional<double> max_diff;
   std::optional<double> max_gap;
   std::optional<double> offset;
+  double min_coverage = 0.0;
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;

@@ -45,7 +45,8 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->expected(0, 1)
       ->default_str("se3")
       ->type_name("HOW");
-  command.add_flag_callback("-a", [&a] { a.align = "se3"; }, "As --align se3");
+  command.add_flag_callback(
+      "-a", [&a] { a.align = "se3"; }, "As --align se3");
   command.add_flag("-s,--correct_scale", a.correct_scale, "Align with scale; alone: scale only");
   command.add_option("--n_to_align", a.align_first, "Align with the first pairs only");
   const auto word = [&](const char* name, std::string& value, const std::string& help) {
@@ -58,6 +59,13 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   };
   seconds("--max-diff,--t_max_diff", a.max_diff, "Largest time difference of a pair");
   seconds("--max-gap", a.max_gap, "Largest reference gap to interpolate over");
+  command
+      .add_option("--min-coverage",
+                  a.min_coverage,
+                  "Share of poses and of the reference's time below which numbers are incomplete")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   seconds("--offset,--t_offset", a.offset, "Added to the estimates' stamps");
 }
 

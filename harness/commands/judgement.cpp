@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "harness/run/incomplete.hpp"
 #include "metrics/diagnostics.hpp"
 
 namespace loopbench {
@@ -9,7 +10,9 @@ namespace loopbench {
 std::vector<Asked> usual_questions(const Protocol& protocol) {
   std::vector<Asked> out;
   for (const MetricEntry& entry : metrics()) {
-    if (entry.name == "rpe") {
+    if (entry.name == "rpe" && protocol.pairs == PairRule::tum_random) {
+      out.push_back({entry.name, {}});
+    } else if (entry.name == "rpe") {
       for (const char* unit : {"frames", "s", "m"}) {
         out.push_back({entry.name, {{"delta", 1.0}, {"unit", std::string(unit)}}});
       }
@@ -25,20 +28,23 @@ std::vector<Asked> usual_questions(const Protocol& protocol) {
 Judgement judge(const Trajectory& reference,
                 const Trajectory& estimate,
                 const NamedProtocol& protocol,
-                const std::vector<Asked>& questions,
-                bool with_poses) {
+                const JudgeOptions& options) {
   Evaluation evaluation = evaluate(reference, estimate, protocol.rules);
-  evaluation.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol.rules};
+  evaluation.context = {.reference = &reference,
+                        .estimate = &estimate,
+                        .protocol = protocol.rules,
+                        .printed = options.printed};
   Judgement out;
   out.reference_poses = reference.size();
   out.estimate_poses = estimate.size();
   out.protocol = protocol;
   out.coverage = evaluation.coverage;
+  out.why_incomplete = why_incomplete(evaluation.coverage, options.min_coverage);
   out.alignment = evaluation.alignment;
   out.diagnosis = diagnostics(evaluation, {});
-  if (with_poses) out.poses = pose_errors(evaluation);
+  if (options.with_poses) out.poses = pose_errors(evaluation);
   const std::vector<MetricEntry> known = metrics();
-  for (const Asked& asked : questions) {
+  for (const Asked& asked : options.questions) {
     for (const MetricEntry& entry : known) {
       if (entry.name != asked.metric) continue;
       JudgedMetric& judged =

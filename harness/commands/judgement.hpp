@@ -16,10 +16,18 @@ struct Asked {
 };
 
 /// ate, axis_error and segments at their defaults (segments length by length where they are the
-/// protocol's own), rpe over 1 frame, 1 s and 1 m. Coverage and diagnostics stand above the table;
+/// protocol's own), rpe over 1 frame, 1 s and 1 m (once for random
+/// pairs). Coverage and diagnostics stand above the table;
 /// metrics that need more than two files, or a choice of options to mean something, are left to
 /// sweeps.
 std::vector<Asked> usual_questions(const Protocol& protocol);
+
+struct JudgeOptions {
+  std::vector<Asked> questions;
+  bool with_poses = false;
+  double min_coverage = 0.0;              ///< below it a judgement is incomplete, 0..1
+  const PrintedPoses* printed = nullptr;  ///< when both files are of matrices: their digits
+};
 
 struct JudgedMetric {
   std::string name;
@@ -35,19 +43,19 @@ struct Judgement {
   std::size_t estimate_poses = 0;
   NamedProtocol protocol;
   Coverage coverage;
+  std::string why_incomplete;  ///< set when coverage is below the limit; the numbers stand
   Alignment alignment;
   std::vector<Score> diagnosis;  ///< of `diagnostics` at its defaults
   std::vector<JudgedMetric> metrics;
   std::vector<PoseError> poses;  ///< only when asked for
 };
 
-/// A metric that is undefined here says why; throws std::runtime_error only when nothing can be
-/// judged.
+/// The limits of coverage are those of sweeps. A metric that is undefined here says why; throws
+/// std::runtime_error only when nothing can be judged.
 Judgement judge(const Trajectory& reference,
                 const Trajectory& estimate,
                 const NamedProtocol& protocol,
-                const std::vector<Asked>& questions,
-                bool with_poses = false);
+                const JudgeOptions& options);
 
 /// "rpe 1 s": a metric and its options, short enough for a column.
 std::string label(const JudgedMetric& metric);
@@ -60,8 +68,9 @@ std::string text(const Judgement& judgement);
 std::string comparison(const std::vector<Judgement>& judgements);
 
 /// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
-/// estimate, protocol {name, version, changes, rules}, pairs, possible, coverage (pairs /
-/// possible), span, alignment {type, scale, rank, condition}, diagnosis {name: value}, metrics
+/// estimate, protocol {name, version, changes, rules}, status (ok or incomplete), why, pairs,
+/// possible, coverage (pairs / possible), span, alignment {type, scale, rank, condition}, diagnosis
+/// {name: value}, metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
 /// [{metric, options, why}], with relation and axis when only one number of a metric is.
 std::string json(const std::vector<Judgement>& judgements);

@@ -16,7 +16,7 @@ std::string head(const Judgement& j) {
 std::string csv(const std::vector<Judgement>& judgements) {
   std::string out =
       "reference,estimate,protocol,protocol_version,metric,options,relation,axis,unit,count,rmse,"
-      "mean,median,std,min,max,sse,pairs,possible,scale,why\n";
+      "mean,median,std,min,max,sse,pairs,possible,scale,status,why\n";
   for (const Judgement& j : judgements) {
     const std::string tail =
         fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
@@ -24,11 +24,16 @@ std::string csv(const std::vector<Judgement>& judgements) {
       const std::string front = head(j) + "," + metric.name + "," + quoted(to_text(metric.options));
       for (const auto& [relation, axis, unit, s, why] : metric.scores) {
         if (!why.empty()) {
-          out += fmt::format(
-              "{},{},{},{},,,,,,,,,{},{}\n", front, relation, axis, unit, tail, quoted(why));
+          out += fmt::format("{},{},{},{},,,,,,,,,{},undefined,{}\n",
+                             front,
+                             relation,
+                             axis,
+                             unit,
+                             tail,
+                             quoted(why));
           continue;
         }
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},\n",
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                            front,
                            relation,
                            axis,
@@ -41,10 +46,13 @@ std::string csv(const std::vector<Judgement>& judgements) {
                            s.min,
                            s.max,
                            s.sse,
-                           tail);
+                           tail,
+                           j.why_incomplete.empty() ? "ok" : "incomplete",
+                           quoted(j.why_incomplete));
       }
       if (metric.why_undefined.empty()) continue;
-      out += fmt::format("{},,,,,,,,,,,,{},{}\n", front, tail, quoted(metric.why_undefined));
+      out +=
+          fmt::format("{},,,,,,,,,,,,{},undefined,{}\n", front, tail, quoted(metric.why_undefined));
     }
   }
   return out;

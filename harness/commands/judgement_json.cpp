@@ -60,6 +60,8 @@ Json to_json(const Judgement& j) {
             {"version", j.protocol.version},
             {"changes", to_json(j.protocol.changes)},
             {"rules", to_json(echo(j.protocol.rules))}}},
+          {"status", j.why_incomplete.empty() ? "ok" : "incomplete"},
+          {"why", j.why_incomplete},
           {"pairs", j.coverage.pairs},
           {"possible", j.coverage.possible},
           {"coverage", j.coverage.share()},

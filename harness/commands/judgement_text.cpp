@@ -4,6 +4,7 @@
 #include <map>
 
 #include "harness/commands/judgement.hpp"
+#include "harness/export/notes.hpp"
 #include "harness/export/text.hpp"
 
 namespace loopbench {
@@ -63,6 +64,23 @@ struct Widths {
   }
 };
 
+/// What has no number, as notes of `row`.
+std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
+  std::vector<Missing> out;
+  for (const JudgedMetric& metric : j.metrics) {
+    if (!metric.why_undefined.empty()) {
+      out.push_back({row, label(metric), "undefined", metric.why_undefined});
+    }
+    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      if (why.empty()) continue;
+      const bool is_whole = axis == "3d" || axis == "all";
+      const std::string what = label(metric) + " " + relation + (is_whole ? "" : " " + axis);
+      out.push_back({row, what, "undefined", why});
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string label(const JudgedMetric& metric) {
@@ -88,6 +106,7 @@ std::string text(const Judgement& j) {
                   j.coverage.possible,
                   100.0 * j.coverage.share(),
                   100.0 * j.coverage.span) +
+      (j.why_incomplete.empty() ? "" : "incomplete " + j.why_incomplete + "\n") +
       fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
       diagnosis_text(j.diagnosis) + "\n";
   const Widths widths(j);
@@ -97,27 +116,23 @@ std::string text(const Judgement& j) {
   }
   out += fmt::format(" {:>9}\n", "count");
   for (const JudgedMetric& metric : j.metrics) {
-    if (!metric.why_undefined.empty()) {
-      out += fmt::format("{:<13} undefined: {}\n", label(metric), metric.why_undefined);
-    }
     for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      if (!why.empty()) continue;
       out += widths.line(label(metric), relation, axis, unit);
-      if (!why.empty()) {
-        out += " undefined: " + why + "\n";
-        continue;
-      }
       for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
         out += fmt::format(" {:>12.6f}", value);
       }
       out += fmt::format(" {:>9}\n", s.count);
     }
   }
+  for (const std::string& note : grouped(undefined(j, ""))) out += note + "\n";
   return out;
 }
 
 std::string comparison(const std::vector<Judgement>& judgements) {
   std::vector<Table> tables;
   std::vector<std::map<std::string, std::size_t>> columns;  // of each table
+  std::vector<std::vector<Missing>> missing;                // of each table
   for (const Judgement& j : judgements) {
     const Protocol& rules = j.protocol.rules;
     const std::string title = fmt::format(
@@ -126,6 +141,7 @@ std::string comparison(const std::vector<Judgement>& judgements) {
     if (table == tables.end()) {
       table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});
       columns.emplace_back();
+      missing.emplace_back();
     }
     auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
     std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
@@ -137,23 +153,27 @@ std::string comparison(const std::vector<Judgement>& judgements) {
       row[place->second] = std::move(cell);
     };
     put("coverage [%]", {100.0 * j.coverage.share(), 1, ""});
+    std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
+    if (!j.why_incomplete.empty()) {
+      notes.push_back({j.estimate, "", "incomplete", j.why_incomplete});
+    }
+    for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
     for (const JudgedMetric& metric : j.metrics) {
-      if (!metric.why_undefined.empty()) {
-        table->notes.push_back(j.estimate + ": " + label(metric) + ": " + metric.why_undefined);
-      }
       for (const auto& [relation, axis, unit, s, why] : metric.scores) {
         if (axis != "3d" && axis != "all") continue;
-        if (!why.empty()) {
-          table->notes.push_back(j.estimate + ": " + label(metric) + " " + relation + ": " + why);
-          continue;
+        if (!why.empty()) continue;
+        const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
+        if (j.why_incomplete.empty()) {
+          put(column, {quoted_statistic(rules, s), 1, ""});
+        } else {
+          put(column, {std::nullopt, 0, "incomplete"});
         }
-        put(fmt::format("{} {} [{}]", label(metric), relation, unit),
-            {quoted_statistic(rules, s), 1, ""});
       }
     }
   }
-  for (Table& table : tables) {
-    for (std::vector<TableCell>& row : table.cells) row.resize(table.columns.size());
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    tables[t].notes = grouped(missing[t]);
+    for (std::vector<TableCell>& row : tables[t].cells) row.resize(tables[t].columns.size());
   }
   return markdown(tables);
 }

@@ -26,21 +26,23 @@ struct Item {
   std::string kind;  ///< corrector, smoother, method; a protocol's version; else empty
   std::string summary;
   std::vector<OptionInfo> options;
+  bool is_oracle = false;  ///< a method that is shown the reference
 };
 
 std::vector<Item> items(const Catalogue& known, const std::string& subject) {
   std::vector<Item> out;
   if (subject == "datasets") {
-    for (const auto& e : known.datasets) out.push_back({e.name, "", e.summary, e.options});
+    for (const auto& e : known.datasets) out.push_back({e.name, "", e.summary, e.options, false});
   } else if (subject == "methods") {
     for (const auto& e : known.methods) {
-      out.push_back({e.name, to_text(e.kind), e.summary, e.options});
+      const bool is_oracle = find_oracle(known, e.name) != nullptr;
+      out.push_back({e.name, to_text(e.kind), e.summary, e.options, is_oracle});
     }
   } else if (subject == "metrics") {
-    for (const auto& e : known.metrics) out.push_back({e.name, "", e.summary, e.options});
+    for (const auto& e : known.metrics) out.push_back({e.name, "", e.summary, e.options, false});
   } else {
     for (const auto& e : protocols()) {
-      out.push_back({e.name, e.version, e.summary, describe(e.protocol)});
+      out.push_back({e.name, e.version, e.summary, describe(e.protocol), false});
     }
   }
   return out;
@@ -58,16 +60,18 @@ Json to_json(const Item& item, bool is_protocol) {
   }
   Json out{{"name", item.name}};
   if (!item.kind.empty()) out[is_protocol ? "version" : "kind"] = item.kind;
+  if (item.is_oracle) out["oracle"] = true;
   out["summary"] = item.summary;
   out["options"] = std::move(options);
   return out;
 }
 
 void print_line(const Item& item) {
-  fmt::print("{:<18} {}{}\n",
-             item.name,
-             item.kind.empty() ? "" : fmt::format("[{}] ", item.kind),
-             item.summary);
+  fmt::print(
+      "{:<18} {}{}\n",
+      item.name,
+      item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : ""),
+      item.summary);
 }
 
 void print_options(const Item& item) {

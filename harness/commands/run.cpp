@@ -12,6 +12,8 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/write_file.hpp"
+#include "harness/isolate/isolated_sweep.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
@@ -26,6 +28,9 @@ struct RunArguments {
   std::string out;
   std::vector<std::filesystem::path> plugins;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string retry = "none";
+  bool fresh = false;
+  bool in_process = false;
   bool dry_run = false;
 };
 
@@ -47,10 +52,9 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
 
 /// The method failed, or a metric is undefined on its result.
 bool has_failure(const CellResult& result) {
-  return result.status == Status::failed ||
-         std::ranges::any_of(result.scores, [](const ScoreResult& score) {
-           return score.status == Status::failed;
-         });
+  return is_failure(result.status) ||
+         std::ranges::any_of(result.scores,
+                             [](const ScoreResult& score) { return is_failure(score.status); });
 }
 
 std::string protocol_names(const Sweep& sweep) {
@@ -61,11 +65,12 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-int run(const RunArguments& arguments) {
+int run(const RunArguments& arguments, const Source& source) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
   const DataRoot root = data_root(sweep, arguments.data);
-  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
+  const std::vector<bool> with_seed = seeded(sweep, known);
+  const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
   if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
   if (arguments.dry_run) {
     print_plan(sweep, planned);
@@ -74,27 +79,37 @@ int run(const RunArguments& arguments) {
 
   const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
   const std::filesystem::path file = out / "results.sqlite";
+  CellKeys keys(sweep, known, root, build_id());
+  std::optional<Store> store(
+      std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
+  const Resumed resumed =
+      store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
+  const std::vector<Cell>& missing = resumed.missing;
   std::size_t done = 0;
-  std::size_t failed = 0;
-  std::size_t incomplete = 0;
-  {
-    Sequences sequences(sweep, known, root, planned);
-    std::optional<Store> store;  // opened by the first result: a wrong path leaves no empty store
-    Progress progress(planned.size());
+  std::size_t failed = resumed.failed;
+  std::size_t incomplete = resumed.incomplete;
+  if (!missing.empty()) {
+    Progress progress(missing.size());
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
-    run_sweep(
-        sweep, planned, known, sequences, arguments.jobs, interrupted, [&](const CellResult& r) {
-          if (!store) store.emplace(file, sweep);
-          store->write(sweep, r);
-          ++done;
-          if (has_failure(r)) ++failed;
-          if (r.status == Status::incomplete) ++incomplete;
-          progress.step(sweep.datasets[r.cell.dataset].label + " / " +
-                        sweep.methods[r.cell.method].label);
-        });
+    const auto finished = [&](const CellResult& r) {
+      store->write(r);
+      ++done;
+      if (has_failure(r)) ++failed;
+      if (r.status == Status::incomplete) ++incomplete;
+      progress.step(sweep.datasets[r.cell.dataset].label + " / " +
+                    sweep.methods[r.cell.method].label);
+    };
+    if (arguments.in_process) {
+      Sequences sequences(sweep, known, root, missing);
+      const int jobs = sweep.serial ? 1 : arguments.jobs;
+      run_sweep(sweep, missing, known, sequences, jobs, interrupted, finished);
+    } else {
+      run_isolated(sweep, missing, known, root, arguments.jobs, interrupted, finished);
+    }
   }
-  if (done == 0) return kExitInterrupted;
+  store.reset();
+  if (done + resumed.there == 0) return kExitInterrupted;
 
   const std::vector<Record> records = all_records(file);
   const std::vector<Table> tables = pivot(records, sweep.table);
@@ -102,10 +117,11 @@ int run(const RunArguments& arguments) {
   write_file(out / "table.md", text);
   write_file(out / "table.csv", csv(tables));
   write_file(out / "rows.csv", csv(records));
-  fmt::print("{}\n{} of {} cells done, {} failed{}; value: {}; protocol: {}\n{}\n",
+  fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",
              text,
-             done,
+             done + resumed.there,
              planned.size(),
+             resumed.there == 0 ? "" : fmt::format(" ({} of them before)", resumed.there),
              failed,
              incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
@@ -120,16 +136,19 @@ int run(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& exit_code) {
+void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print its tables");
   command->add_option("config", arguments->config, "YAML file, see configs/")->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_flag("--dry-run", arguments->dry_run, "Check everything, list the cells, run none");
-  command->add_option("-j,--jobs", arguments->jobs, "Threads; results do not depend on it")
+  command->add_option("-j,--jobs", arguments->jobs, "Workers; results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command->add_flag("--in-process",
+                    arguments->in_process,
+                    "Threads instead of worker processes, for debuggers: no limits, no fence");
   command->add_option("--data", arguments->data, "Folder with real data")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
@@ -137,7 +156,12 @@ void add_run(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
       ->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->add_option("--retry", arguments->retry, "Run again what is there: failed cells, or all")
+      ->check(CLI::IsMember({"none", "failed", "all"}))
+      ->capture_default_str();
+  command->add_flag(
+      "--fresh", arguments->fresh, "Start anew; what is there stays as previous.sqlite");
+  command->callback([arguments, source, &exit_code] { exit_code = run(*arguments, source); });
 }
 
 }  // namespace loopbench

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <regex>
 
+#include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/suggest.hpp"
@@ -22,8 +23,13 @@ const std::vector<std::string> kKeys{"description",
                                      "min_coverage",
                                      "repeats",
                                      "timing",
+                                     "traces",
+                                     "limits",
                                      "exclude",
                                      "table"};
+
+/// With `timing: true`: enough for a median that one disturbance does not move.
+constexpr int kRunsWhenAlone = 5;
 
 /// Reads one config; knows the file for its messages.
 class Reader {
@@ -44,7 +50,9 @@ class Reader {
     if (const YamlNode* node = root.find("protocol")) sweep.protocols = protocols(*node);
     if (const YamlNode* node = root.find("min_coverage")) sweep.min_coverage = share(*node);
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
-    if (const YamlNode* node = root.find("timing")) sweep.timing = count(*node, "timing");
+    if (const YamlNode* node = root.find("timing")) read_timing(*node, sweep);
+    if (const YamlNode* node = root.find("limits")) sweep.limits = limits(*node);
+    if (const YamlNode* node = root.find("traces")) sweep.traces = flag(*node, "traces");
     if (const YamlNode* node = root.find("exclude")) sweep.exclude = exclusions(*node);
     if (const YamlNode* node = root.find("table")) sweep.table = table(*node);
     sweep.baseline = baseline(root.find("baseline"), sweep.methods);
@@ -79,6 +87,55 @@ class Reader {
       throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
     }
     return static_cast<int>(*whole);
+  }
+
+  /// A number of runs; true for the times of cells that ran alone; or {runs: N, serial: true}.
+  void read_timing(const YamlNode& node, Sweep& sweep) const {
+    if (node.type == YamlNode::Type::map) {
+      only_keys(node, {"runs", "serial"});
+      if (const YamlNode* runs = node.find("runs")) sweep.timing = count(*runs, "timing.runs");
+      if (const YamlNode* alone = node.find("serial")) sweep.serial = flag(*alone, "timing.serial");
+    } else if (const bool* alone = std::get_if<bool>(&node.scalar);
+               node.type == YamlNode::Type::scalar && alone != nullptr) {
+      sweep.serial = *alone;
+      if (*alone) sweep.timing = kRunsWhenAlone;
+    } else {
+      sweep.timing = count(node, "timing");
+    }
+  }
+
+  Limits limits(const YamlNode& node) const {
+    only_keys(node, {"seconds", "memory"});
+    Limits out;
+    if (const YamlNode* seconds = node.find("seconds")) {
+      out.seconds = number(*seconds, "limits.seconds");
+    }
+    if (const YamlNode* memory = node.find("memory")) {
+      const auto bytes = parse_bytes(word(*memory, "limits.memory"));
+      if (!bytes) {
+        throw input_error(file_, memory->line, "limits.memory: expected a size, for example 2GiB");
+      }
+      out.memory = *bytes;
+    }
+    return out;
+  }
+
+  double number(const YamlNode& node, const std::string& key) const {
+    double out = 0.0;
+    try {
+      if (node.type != YamlNode::Type::scalar) throw OptionError(key, key + ": expected a number");
+      FieldType<double>::assign(key, out, node.scalar);
+      detail::obey(key, out, Between{0.0});
+    } catch (const OptionError& error) {
+      throw input_error(file_, node.line, error.what());
+    }
+    return out;
+  }
+
+  bool flag(const YamlNode& node, const std::string& key) const {
+    const bool* value = std::get_if<bool>(&node.scalar);
+    if (node.type == YamlNode::Type::scalar && value != nullptr) return *value;
+    throw input_error(file_, node.line, key + ": expected true or false");
   }
 
   double share(const YamlNode& node) const {

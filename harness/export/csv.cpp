@@ -40,17 +40,18 @@ std::string csv(const std::vector<Table>& tables) {
 
 std::string csv(const std::vector<Record>& records) {
   std::string out =
-      "sequence,repeat,method,closures,oracle_closures,protocol,protocol_version,times,metric,"
+      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,times,metric,"
       "relation,axis,unit,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {
     const Statistics& s = r.statistics;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},",
                        quoted(r.sequence),
                        r.repeat,
                        quoted(r.method),
                        quoted(r.closures),
                        r.oracle_closures,
+                       r.oracle,
                        quoted(r.protocol),
                        quoted(r.protocol_version),
                        r.times,

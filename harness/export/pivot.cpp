@@ -4,6 +4,7 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
+#include "harness/export/notes.hpp"
 
 namespace loopbench {
 namespace {
@@ -44,6 +45,7 @@ struct Builder {
   std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
   std::size_t most = 1;                           // records averaged into one cell
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
+  std::vector<Missing> missing;
   std::vector<std::string> notes;
 
   void note(const std::string& text) {
@@ -52,14 +54,18 @@ struct Builder {
 };
 
 void add(Builder& table, const Record& record, const TableSpec& spec) {
-  const std::string name = joined(record, spec.rows, ", ");
+  std::string name = joined(record, spec.rows, ", ");
+  if (record.oracle) {
+    name += " (oracle)";
+    table.note("oracle: the method was shown the reference");
+  }
   const std::size_t row = table.rows.index(name);
   if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
   if (record.status != "ok") {
     // Too little coverage is one reason for every metric; an undefined number names itself.
     const bool is_whole = record.metric.empty() || record.status == "incomplete";
-    const std::string what = is_whole ? "" : joined(record, {"metric", "relation"}, " ") + " ";
-    table.note(name + ": " + what + record.status + ": " + record.why);
+    const std::string what = is_whole ? "" : joined(record, {"metric", "relation"}, " ");
+    table.missing.push_back({name, what, record.status, record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);
   }
@@ -88,6 +94,8 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
 
 Table finish(const Builder& table, const std::string& title, const TableSpec& spec) {
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
+  const std::vector<std::string> missing = grouped(table.missing);
+  out.notes.insert(out.notes.end(), missing.begin(), missing.end());
   if (table.most > 1) {
     out.notes.insert(out.notes.begin(),
                      "each number is the mean of up to " + std::to_string(table.most) + " cells");

@@ -77,8 +77,9 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
     paper.result = run_cell(planned[i], sweep, *sequence, catalogue);
     if (paper.result.status == Status::ok) {
       Report unused;
-      const auto curve = make_method(sweep.methods[planned[i].method], catalogue)
-                             ->estimate(sequence->problem, unused);
+      const auto curve =
+          make_method(sweep.methods[planned[i].method], catalogue, sequence->reference)
+              ->estimate(sequence->problem, unused);
       paper.dense = evaluate(sequence->reference,
                              *curve,
                              stamps(sequence->problem.keyframes),

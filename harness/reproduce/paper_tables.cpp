@@ -29,13 +29,14 @@ std::string ours(const std::vector<PaperCell>& cells, const ReportedRow& row) {
   for (const PaperCell& cell : cells) {
     if (cell.sequence != row.sequence || cell.variant != row.variant) continue;
     const std::string source = cell.input + (cell.reading.empty() ? "" : ", " + cell.reading);
+    const char* note = cell.result.oracle_method ? "oracle: was shown the truth" : "";
     const auto keyframes = axis_numbers(cell, row.axis, Times::keyframes);
     const auto dense = axis_numbers(cell, row.axis, Times::dense);
     if (!keyframes || !dense) {
       out += fmt::format("| {} | {} | | | | | | | {} |\n", row.variant, source, cell.result.why);
       continue;
     }
-    out += line(row.variant, source, *keyframes, fmt::format("{:.4f}", dense->ate), "");
+    out += line(row.variant, source, *keyframes, fmt::format("{:.4f}", dense->ate), note);
   }
   return out;
 }

@@ -1,11 +1,12 @@
 #include "harness/run/run_cell.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
 
+#include "harness/run/incomplete.hpp"
+#include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 
 namespace loopbench {
@@ -13,11 +14,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs `work`; an exception of any kind becomes a failed status with its text.
+/// Runs `work`; an exception of any kind becomes a status with its text: failed, or declined for a
+/// metric that says it means nothing here.
 template <class Result, class Work>
 void fenced(Result& result, Work work) {
   try {
     work();
+  } catch (const Undefined& reason) {
+    result.status = Status::declined;
+    result.why = reason.what();
+  } catch (const std::bad_alloc&) {
+    result.status = Status::out_of_memory;
+    result.why = "asked for more memory than there is";
   } catch (const std::exception& error) {
     result.status = Status::failed;
     result.why = error.what();
@@ -27,14 +35,30 @@ void fenced(Result& result, Work work) {
   }
 }
 
-/// Why so little was judged that the numbers do not stand beside others; empty when enough was.
-std::string why_incomplete(const Coverage& coverage, double min_coverage) {
-  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
-  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
-                     coverage.pairs,
-                     coverage.possible,
-                     100.0 * coverage.span,
-                     100.0 * min_coverage);
+/// The method's verb, run and measured; memory is looked at outside the clock.
+std::unique_ptr<const Curve> timed(CellResult& result,
+                                   const Method& method,
+                                   const Problem& problem,
+                                   int runs) {
+  const std::optional<std::int64_t> before =
+      forget_peak_memory() ? resident_memory() : std::nullopt;
+  std::unique_ptr<const Curve> curve;
+  for (int run = 0; run < runs; ++run) {
+    curve.reset();  // or its end would be in the next one's time
+    Report report;
+    const double cpu_begin = process_cpu_seconds();
+    const auto begin = Clock::now();
+    curve = method.estimate(problem, report);
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    result.seconds.push_back(took.count());
+    result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
+    result.report = std::move(report);
+  }
+  if (before) {
+    result.peak_memory = peak_memory();
+    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
+  }
+  return curve;
 }
 
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
@@ -57,7 +81,8 @@ void score(CellResult& result,
       added.score = std::move(score);
     }
   });
-  if (row.status == Status::failed) result.scores.push_back(row);
+  const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
+  if (has_thrown) result.scores.push_back(row);
 }
 
 /// Every metric under one protocol at one choice of times, which `row` names.
@@ -85,6 +110,11 @@ void judge(CellResult& result,
     }
     for (const MetricChoice& choice : sweep.metrics) {
       score(result, choice, usual, evaluation, catalogue);
+    }
+    const bool densest =
+        row.times == Times::dense || std::ranges::count(sweep.times, Times::dense) == 0;
+    if (sweep.traces && row.protocol == 0 && densest) {
+      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
   });
   if (none.status == Status::ok) return;
@@ -120,11 +150,15 @@ void judge_without_reference(CellResult& result,
 
 }  // namespace
 
-std::unique_ptr<const Method> make_method(const MethodChoice& choice, const Catalogue& catalogue) {
+std::unique_ptr<const Method> make_method(const MethodChoice& choice,
+                                          const Catalogue& catalogue,
+                                          const Trajectory& reference) {
   std::unique_ptr<const Corrector> corrector;
   std::unique_ptr<const Smoother> smoother;
   for (const Choice& part : choice.stages) {
-    Stage stage = find_method(catalogue, part.name).make(part.options);
+    const OracleEntry* oracle = find_oracle(catalogue, part.name);
+    Stage stage = oracle ? oracle->make(part.options, reference)
+                         : find_method(catalogue, part.name).make(part.options);
     if (auto* whole = std::get_if<std::unique_ptr<const Method>>(&stage)) return std::move(*whole);
     if (auto* first = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
       corrector = std::move(*first);
@@ -141,24 +175,19 @@ CellResult run_cell(const Cell& cell,
                     const Catalogue& catalogue) {
   CellResult result;
   result.cell = cell;
-  result.closures = sequence.provenance.closures;
-  result.oracle_closures = sequence.provenance.oracle_closures;
+  const MethodChoice& choice = sweep.methods[cell.method];
+  result.oracle_method = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+    return find_oracle(catalogue, stage.name) != nullptr;
+  });
   fenced(result, [&] {
-    const auto method = make_method(sweep.methods[cell.method], catalogue);
+    const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
       result.why = std::move(*why);
       return;
     }
-    std::unique_ptr<const Curve> curve;
-    for (int run = 0; run < sweep.timing; ++run) {
-      Report report;
-      const auto begin = Clock::now();
-      curve = method->estimate(sequence.problem, report);
-      const std::chrono::duration<double> took = Clock::now() - begin;
-      result.seconds.push_back(took.count());
-      result.report = std::move(report);
-    }
+    const std::unique_ptr<const Curve> curve =
+        timed(result, *method, sequence.problem, sweep.timing);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
       judge_without_reference(result, sweep, sequence, *curve, catalogue);

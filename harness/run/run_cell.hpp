@@ -8,8 +8,11 @@
 
 namespace loopbench {
 
-/// The stages of a choice as one method. Throws InputError, OptionError.
-std::unique_ptr<const Method> make_method(const MethodChoice& choice, const Catalogue& catalogue);
+/// The stages of a choice as one method; only an oracle is shown `reference`. Throws InputError,
+/// OptionError.
+std::unique_ptr<const Method> make_method(const MethodChoice& choice,
+                                          const Catalogue& catalogue,
+                                          const Trajectory& reference);
 
 /// Never throws for what a method or metric does: that becomes status and why.
 CellResult run_cell(const Cell& cell,

@@ -59,7 +59,12 @@ void run_sweep(const Sweep& sweep,
   std::mutex mutex;
   for_each_index(cells.size(), jobs, stop, [&](std::size_t i) {
     const auto sequence = sequences.get(cells[i]);
-    const CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
+    CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
+    result.facts = sequences.facts(cells[i]);
+    if (jobs > 1) {  // the process is more than this cell
+      result.cpu_seconds.clear();
+      result.peak_memory = result.added_memory = std::nullopt;
+    }
     sequences.done(cells[i]);
     const std::lock_guard lock(mutex);
     finished(result);

@@ -32,8 +32,19 @@ Sequences::Sequences(const Sweep& sweep,
 std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
   Slot& slot = slots_.at({cell.dataset, cell.repeat});
   const std::lock_guard lock(slot.mutex);
-  if (!slot.sequence) slot.sequence = load(cell);
+  if (!slot.sequence) {
+    slot.sequence =
+        std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
+    slot.facts =
+        std::make_shared<const SequenceFacts>(sequence_facts(*slot.sequence, sweep_.traces));
+  }
   return slot.sequence;
+}
+
+std::shared_ptr<const SequenceFacts> Sequences::facts(const Cell& cell) {
+  Slot& slot = slots_.at({cell.dataset, cell.repeat});
+  const std::lock_guard lock(slot.mutex);
+  return slot.facts;
 }
 
 void Sequences::done(const Cell& cell) {
@@ -42,18 +53,32 @@ void Sequences::done(const Cell& cell) {
   if (--slot.waiting == 0) slot.sequence.reset();
 }
 
-std::shared_ptr<const Sequence> Sequences::load(const Cell& cell) const {
-  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
-  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
-  Params options = choice.dataset.options;
+Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat) {
+  Params out;
+  for (const OptionInfo& option : entry.options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : choice.dataset.options) out.insert_or_assign(name, value);
   for (const OptionInfo& option : entry.options) {
     if (!is_seed(option)) continue;
-    const Param base = options.contains(option.name) ? options.at(option.name) : option.value;
-    options[option.name] = derived_seed(std::get<std::int64_t>(base), cell.repeat);
+    Param& seed = out.at(option.name);
+    seed = derived_seed(std::get<std::int64_t>(seed), repeat);
   }
-  auto sequence = std::make_shared<Sequence>(entry.load(options, root_));
-  check(sequence->problem, choice.label);
-  check(sequence->reference, choice.label + ": reference");
+  return out;
+}
+
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root) {
+  const DatasetChoice& choice = sweep.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+  Params options = choice.dataset.options;
+  const Params full = full_options(choice, entry, cell.repeat);
+  for (const OptionInfo& option : entry.options) {
+    if (is_seed(option)) options[option.name] = full.at(option.name);
+  }
+  Sequence sequence = entry.load(options, root);
+  check(sequence.problem, choice.label);
+  check(sequence.reference, choice.label + ": reference");
   return sequence;
 }
 

@@ -9,12 +9,23 @@
 #include "datasets/core/sequence.hpp"
 #include "harness/catalogue.hpp"
 #include "harness/run/cells.hpp"
+#include "harness/run/sequence_facts.hpp"
 #include "harness/sweep.hpp"
 
 namespace loopbench {
 
 /// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
+
+/// Loads the sequence of a cell, with the seed of its repeat. Throws InputError with the dataset's
+/// label when a file is missing or broken.
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root);
+
+/// The dataset's options in full, defaults included, with the seed of this repeat.
+Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
 
 /// Thread-safe.
 class Sequences {
@@ -28,6 +39,9 @@ class Sequences {
   /// label when a file is missing or broken.
   std::shared_ptr<const Sequence> get(const Cell& cell);
 
+  /// What is kept about it. Only after get().
+  std::shared_ptr<const SequenceFacts> facts(const Cell& cell);
+
   /// Says that a cell will not ask again.
   void done(const Cell& cell);
 
@@ -35,11 +49,10 @@ class Sequences {
   struct Slot {
     std::mutex mutex;
     std::shared_ptr<const Sequence> sequence;
+    std::shared_ptr<const SequenceFacts> facts;
     std::size_t waiting = 0;  ///< cells not done yet
   };
   using Key = std::pair<std::size_t, int>;  // dataset, repeat
-
-  std::shared_ptr<const Sequence> load(const Cell& cell) const;
 
   const Sweep& sweep_;
   const Catalogue& catalogue_;

@@ -2,21 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "methods/report.hpp"
 #include "metrics/statistics.hpp"
 
 namespace loopbench {
 
 /// A cell that was declined or failed has one record with empty metric and its reason.
 struct Record {
-  std::int64_t cell = 0;
+  std::int64_t cell = 0;  ///< position in the sweep
   std::string sequence;
   std::int64_t repeat = 0;
   std::string method;
   std::string closures;
   bool oracle_closures = false;
+  bool oracle = false;        ///< the method was shown the reference
   double milliseconds = 0.0;  ///< median wall time of the method's verb
   std::string protocol;       ///< label; empty when it does not apply, so the next two
   std::string protocol_version;
@@ -30,6 +33,36 @@ struct Record {
   std::int64_t possible = 0;  ///< pose pairs that could have been
   std::string status = "ok";
   std::string why;
+};
+
+/// A cell without its scores.
+struct CellRecord {
+  std::int64_t position = 0;  ///< in the sweep: Record::cell
+  std::string key;            ///< content key: same key, same numbers
+  std::string build;
+  std::string sequence;
+  std::int64_t repeat = 0;
+  std::string method;
+  std::string dataset_options;
+  std::string method_options;
+  std::string closures;
+  bool oracle_closures = false;
+  bool oracle = false;
+  std::string worker;  ///< "isolated", "in process"; ", serial", ", pinned" where it was
+  std::int64_t runs = 0;
+  double seconds = 0.0;  ///< median wall time of the method's verb, and its extremes
+  double seconds_min = 0.0;
+  double seconds_max = 0.0;
+  std::optional<double> cpu_seconds;         ///< median
+  std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
+  std::optional<std::int64_t> added_memory;  ///< of it, beyond what it had before [bytes]
+  std::optional<std::int64_t> allocations;
+  std::string status;
+  std::string signal;
+  std::string why;
+  std::vector<Phase> phases;
+  std::vector<Count> counts;
+  std::vector<std::string> notes;
 };
 
 /// The text of a record's named column: sequence, repeat, method, closures, protocol,

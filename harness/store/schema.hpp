@@ -3,13 +3,27 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
-  CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+  CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);  -- what was asked for last
+  CREATE TABLE provenance (            -- by what it was made; a value with several lines was not
+    key TEXT PRIMARY KEY,              -- the same for all cells, or is a list
+    value TEXT NOT NULL);
+  CREATE TABLE input (                 -- every file that a sequence was read from
+    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options
+    number INTEGER NOT NULL,           -- order of reading
+    path TEXT NOT NULL,
+    bytes INTEGER NOT NULL,
+    hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128)
+    PRIMARY KEY (asked, number)) WITHOUT ROWID;
   CREATE TABLE cell (
-    id INTEGER PRIMARY KEY,            -- position in the sweep
+    id INTEGER PRIMARY KEY,            -- what other tables call cell
+    position INTEGER,                  -- in the sweep; NULL: the config asks for it no more
+    key TEXT NOT NULL,                 -- hash of input bytes, options, protocols, method and build
+    build TEXT NOT NULL,               -- of the program that made it
+    asked TEXT NOT NULL,               -- its sequence in input and sequence_trace
     sequence TEXT NOT NULL,            -- label of the dataset entry
     repeat INTEGER NOT NULL,           -- instance of a seeded dataset, from 0
     method TEXT NOT NULL,              -- label of the method entry
@@ -17,12 +31,21 @@ inline constexpr const char* kSchema = R"sql(
     method_options TEXT NOT NULL,
     closures TEXT NOT NULL,            -- where the loop closures were taken from
     oracle_closures INTEGER NOT NULL,  -- 1: they were measured in the reference
+    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference
+    worker TEXT NOT NULL,              -- isolated | in process, then serial, pinned where it was
     runs INTEGER NOT NULL,             -- timed runs of the method's verb
-    seconds_median REAL NOT NULL,
+    seconds_median REAL NOT NULL,      -- wall time of one
     seconds_min REAL NOT NULL,
     seconds_max REAL NOT NULL,
-    status TEXT NOT NULL,              -- ok | declined | failed | incomplete
-    why TEXT NOT NULL);
+    cpu_seconds_median REAL,           -- CPU time of the process meanwhile; NULL: not known
+    peak_memory INTEGER,               -- largest resident size of the process meanwhile [bytes]
+    added_memory INTEGER,              -- of it, beyond what the process had before [bytes]
+    allocations INTEGER,               -- calls for memory in one run; NULL: not counted
+    status TEXT NOT NULL,              -- ok | declined | incomplete; failed | crashed | timeout |
+                                       -- out_of_memory
+    signal TEXT NOT NULL,              -- SIGSEGV and the like, when one ended it
+    why TEXT NOT NULL,
+    failed_scores INTEGER NOT NULL);   -- rows of score with status failed
   CREATE TABLE score (
     cell INTEGER NOT NULL REFERENCES cell(id),
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
@@ -43,7 +66,24 @@ inline constexpr const char* kSchema = R"sql(
   CREATE TABLE phase (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, seconds REAL);
   CREATE TABLE count (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, value REAL);
   CREATE TABLE note (cell INTEGER NOT NULL REFERENCES cell(id), text TEXT);
+  CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/run/trace.hpp
+    cell INTEGER PRIMARY KEY REFERENCES cell(id),
+    times TEXT NOT NULL,               -- keyframes | dense
+    samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
+  CREATE TABLE sequence_trace (
+    asked TEXT PRIMARY KEY,
+    origin_stamp REAL NOT NULL,        -- stamps count from here [s]
+    origin_x REAL NOT NULL,            -- positions in the reference's world count from here [m]
+    origin_y REAL NOT NULL,
+    origin_z REAL NOT NULL,
+    reference BLOB NOT NULL,           -- TracePose, 8 floats each
+    keyframes BLOB NOT NULL,           -- TracePose, in the tracker's own world
+    closures BLOB NOT NULL);           -- TraceClosure, 8 floats each
+  CREATE INDEX cell_position ON cell(position);
   CREATE INDEX score_cell ON score(cell);
+  CREATE INDEX phase_cell ON phase(cell);
+  CREATE INDEX count_cell ON count(cell);
+  CREATE INDEX note_cell ON note(cell);
 )sql";
 
 }  // namespace loopbench

@@ -29,6 +29,17 @@ void Database::execute(const std::string& sql) {
   }
 }
 
+std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
+Transaction::~Transaction() {
+  if (!open_) return;
+  try {
+    database_.execute("ROLLBACK");
+  } catch (const std::exception&) {
+    // SQLite has rolled back by itself, as it does when the disk is full.
+  }
+}
+
 Statement Database::prepare(const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
   const int size = static_cast<int>(sql.size());
@@ -64,10 +75,28 @@ Statement& Statement::bind(const std::string& value) {
   return *this;
 }
 
+Statement& Statement::bind_blob(std::string_view bytes) {
+  const int size = static_cast<int>(bytes.size());
+  // A null pointer would bind NULL instead of an empty blob.
+  const char* data = bytes.data() == nullptr ? "" : bytes.data();
+  expect(sqlite3_bind_blob(handle_.get(), ++parameter_, data, size, SQLITE_STATIC), "cannot bind");
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  expect(sqlite3_bind_null(handle_.get(), ++parameter_), "cannot bind");
+  return *this;
+}
+
 void Statement::run() {
   while (step()) {
   }
   expect(sqlite3_reset(handle_.get()), "cannot write");
+  parameter_ = 0;
+}
+
+void Statement::reset() {
+  sqlite3_reset(handle_.get());
   parameter_ = 0;
 }
 
@@ -80,6 +109,14 @@ bool Statement::step() {
 
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
 double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
+bool Statement::is_null() const {
+  return sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
+}
+std::string Statement::blob() {
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
+  return bytes == nullptr ? "" : std::string(bytes, size);
+}
 std::string Statement::text() {
   const auto* bytes = sqlite3_column_text(handle_.get(), column_);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));

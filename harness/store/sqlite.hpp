@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -21,6 +23,8 @@ class Database {
 
   void execute(const std::string& sql);
   Statement prepare(const std::string& sql);
+
+  std::int64_t last_row() const;  ///< rowid of the last insert
 
   /// Throws InputError with the database's last message.
   [[noreturn]] void fail(const std::string& doing) const;
@@ -39,15 +43,26 @@ class Statement {
   Statement& bind(std::int64_t value);
   Statement& bind(double value);
   Statement& bind(const std::string& value);
+  Statement& bind_blob(std::string_view bytes);  ///< not copied: must live until run()
+  template <class T>
+  Statement& bind(const std::optional<T>& value) {
+    return value ? bind(*value) : bind_null();
+  }
+  Statement& bind_null();
 
   /// Runs to completion and makes ready for the next binding.
   void run();
+
+  /// Ends a walk over rows early or late and makes ready for the next binding.
+  void reset();
 
   /// The next row, or false when there is none.
   bool step();
   std::int64_t integer();
   double real();
   std::string text();
+  std::string blob();
+  bool is_null() const;  ///< of the next column, which stays the next
 
  private:
   friend class Database;
@@ -61,6 +76,26 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
   int parameter_ = 0;
   int column_ = 0;
+};
+
+/// Everything or nothing: what is not committed when it is destroyed is undone.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) {
+    database_.execute("BEGIN IMMEDIATE");
+  }
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit() {
+    database_.execute("COMMIT");
+    open_ = false;
+  }
+
+ private:
+  Database& database_;
+  bool open_ = true;
 };
 
 }  // namespace loopbench

@@ -6,6 +6,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/spline_controls.hpp"
+#include "methods/smoothers/two_curves.hpp"
 
 namespace loopbench {
 namespace {
@@ -43,28 +44,6 @@ class SplineCurve final : public Curve {
  private:
   CubicBasis basis_;
   std::vector<Control> controls_;
-};
-
-/// Positions of one curve, attitudes of another over the same span.
-class TwoCurves final : public Curve {
- public:
-  TwoCurves(std::unique_ptr<const Curve> positions, std::unique_ptr<const Curve> attitudes)
-      : positions_(std::move(positions)), attitudes_(std::move(attitudes)) {}
-
-  double start() const override { return positions_->start(); }
-  double end() const override { return positions_->end(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    attitudes_->sample(times, poses);
-    std::vector<Pose> places(times.size());
-    positions_->sample(times, places);
-    for (std::size_t k = 0; k < poses.size(); ++k) poses[k].translation = places[k].translation;
-  }
-
- private:
-  std::unique_ptr<const Curve> positions_;
-  std::unique_ptr<const Curve> attitudes_;
 };
 
 }  // namespace

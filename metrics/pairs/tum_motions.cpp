@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "metrics/angle.hpp"
+#include "metrics/pairs/python_random.hpp"
 #include "metrics/statistics.hpp"
 
 namespace loopbench {
@@ -39,6 +40,24 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
   return out;
 }
 
+/// Poses as TumMotions wants them; for each whether its reference is near enough in time.
+std::vector<bool> lay_side_by_side(const Paired& whole,
+                                   double offset,
+                                   const Alignment& alignment,
+                                   Paired& poses) {
+  const auto& [reference, estimate] = whole;
+  const std::vector<double> reference_stamps = stamps(reference);
+  const double limit = 2.0 * median_step(reference_stamps);
+  poses.estimate = moved(alignment, estimate);
+  std::vector<bool> is_near;
+  for (const auto& [stamp, pose] : estimate) {
+    const std::size_t nearest = tum_closest_index(reference_stamps, stamp + offset);
+    poses.reference.push_back(reference[nearest]);
+    is_near.push_back(std::abs(reference_stamps[nearest] - (stamp + offset)) <= limit);
+  }
+  return is_near;
+}
+
 }  // namespace
 
 std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted) {
@@ -67,21 +86,27 @@ TumMotions tum_motions(const Paired& whole,
                        double offset,
                        const Alignment& alignment,
                        const Stretch& stretch) {
-  const auto& [reference, estimate] = whole;
-  const std::vector<double> reference_stamps = stamps(reference);
-  const double limit = 2.0 * median_step(reference_stamps);
   TumMotions out;
-  out.poses.estimate = moved(alignment, estimate);
-  std::vector<bool> is_near;
-  for (const auto& [stamp, pose] : estimate) {
-    const std::size_t nearest = tum_closest_index(reference_stamps, stamp + offset);
-    out.poses.reference.push_back(reference[nearest]);
-    is_near.push_back(std::abs(reference_stamps[nearest] - (stamp + offset)) <= limit);
-  }
-  const std::vector<double> index = measure(estimate, stretch.unit);
+  const std::vector<bool> is_near = lay_side_by_side(whole, offset, alignment, out.poses);
+  const std::vector<double> index = measure(whole.estimate, stretch.unit);
   for (std::size_t i = 0; i < index.size(); ++i) {
     const std::size_t j = tum_closest_index(index, index[i] + stretch.delta);
     if (j + 1 != index.size() && is_near[i] && is_near[j]) out.pairs.emplace_back(i, j);
+  }
+  return out;
+}
+
+TumMotions tum_random_motions(const Paired& whole, double offset, const Alignment& alignment) {
+  constexpr std::size_t kMostPairs = 10'000;
+  TumMotions out;
+  const std::vector<bool> is_near = lay_side_by_side(whole, offset, alignment, out.poses);
+  const std::size_t n = is_near.size();
+  const bool takes_all = n * n < kMostPairs;
+  PythonRandom random;
+  for (std::size_t k = 0; k < (takes_all ? n * n : kMostPairs); ++k) {
+    const std::size_t i = takes_all ? k / n : random.below(n);
+    const std::size_t j = takes_all ? k % n : random.below(n);
+    if (is_near[i] && is_near[j]) out.pairs.emplace_back(i, j);
   }
   return out;
 }

@@ -19,12 +19,16 @@ struct SegmentErrors {
   std::vector<double> gravity;            ///< [rad]
 };
 
+/// By the protocol. Poses that both stand in KITTI files and that nothing has moved since count
+/// with the digits of the files and general inverses, as in the devkit: making rotations of them
+/// first shifts the mean angle by 2e-9 of it.
 SegmentErrors segment_errors(const Evaluation& evaluation,
                              const std::vector<double>& distances,
                              const std::vector<FromTo>& pairs,
                              double length);
 
-/// The devkit's: distances, angles and lengths of translations in float, transforms in double.
+/// The devkit's, with matrices as above: distances, angles and lengths of translations in float,
+/// transforms in double.
 std::vector<float> float_distances(const Trajectory& trajectory);
 SegmentErrors float_segment_errors(const Evaluation& evaluation,
                                    const std::vector<FromTo>& pairs,

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "metrics/angle.hpp"
+#include "metrics/position_only.hpp"
 #include "metrics/segments/ends.hpp"
 #include "metrics/segments/errors.hpp"
 #include "metrics/segments/lengths.hpp"
@@ -102,6 +103,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   const bool is_own = !options.lengths.empty();
   const std::vector<Length> wanted =
       is_own ? lengths("lengths", options.lengths) : lengths("segments.lengths", rule.lengths);
+  if (const std::string why = why_no_attitude(evaluation); !why.empty()) throw Undefined(why);
   const Finder find(evaluation);
   Scores each{evaluation.protocol, {}};
   Together all;
@@ -120,9 +122,9 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
     each.add("gravity", length.text, "deg", kDegrees, errors.gravity);
   }
   if (all.rates.empty()) {
-    throw std::runtime_error("segments: no stretch of the reference (" +
-                             to_text(evaluation.reference_length) + " m) has a length of " +
-                             (is_own ? options.lengths : rule.lengths));
+    throw Undefined("segments: no stretch of the reference (" +
+                    to_text(evaluation.reference_length) + " m) has a length of " +
+                    (is_own ? options.lengths : rule.lengths));
   }
   Scores out{evaluation.protocol, {}};
   out.add_rates("all", all.in_order());

@@ -22,8 +22,9 @@ void fields(SegmentsOptions& o, Visit visit) {
 /// root of squared roll and pitch. Shares of the path are cut to whole centimetres as rpg does.
 /// Errors per metre divide by the length asked for; with end eth3d by the metres gone. Lengths with
 /// fewer than segments.fewest sub-trajectories are left out. precision float32: the devkit's float
-/// arithmetic and float sums (`mean`), only % and deg/m. Throws std::runtime_error when nothing is
-/// left. O(lengths * n log n).
+/// arithmetic and float sums (`mean`), only % and deg/m. Throws Undefined when nothing is left, and
+/// for positions without attitude, which turns every motion into its body (position_only.hpp).
+/// O(lengths * n log n).
 std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions& options);
 
 }  // namespace loopbench

@@ -56,7 +56,12 @@ void expect_sound(Edge edge) {
 }  // namespace
 
 void fuzz_tum(const Path& file) { fuzz_trajectory(file, Format::tum); }
-void fuzz_kitti(const Path& file) { fuzz_trajectory(file, Format::kitti); }
+void fuzz_kitti(const Path& file) {
+  fuzz_trajectory(file, Format::kitti);
+  for (const PoseMatrix& pose : read_or_refuse([&] { return read_kitti_matrices(file); })) {
+    expect(pose.matrix().allFinite(), "matrices are finite");
+  }
+}
 void fuzz_euroc(const Path& file) { fuzz_trajectory(file, Format::euroc); }
 void fuzz_any(const Path& file) { fuzz_trajectory(file, Format::automatic); }
 

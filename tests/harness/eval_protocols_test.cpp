@@ -86,6 +86,44 @@ TEST(Eval, CsvHoldsALinePerScoreInFull) {
       << got;
 }
 
+TEST(Eval, JudgesKittiByTheDigitsOfItsFiles) {
+  const Json judged =
+      eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt"), "--protocol=kitti-double"});
+  double mean = 0.0;
+  for (const Json& row : judged["metrics"]) {
+    if (row["relation"] == "rotation" && row["axis"] == "all") mean = row["mean"];
+  }
+  EXPECT_NEAR(mean, 0.0128037720163, 1e-9 * 0.0128);
+}
+
+TEST(Eval, DrawsTumsRandomPairsOnce) {
+  const Json judged = eval_json(
+      {golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum", "--set=pairs=tum_random"});
+  EXPECT_NEAR(find(judged, "rpe", "translation")["rmse"], 1.5566026278354204, 1e-9);
+  int rows = 0;
+  for (const Json& row : judged["metrics"]) rows += row["metric"] == "rpe" ? 1 : 0;
+  EXPECT_EQ(rows, 5);
+}
+
+TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
+  const std::vector<std::string> asked{
+      golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
+  const std::string why =
+      "judged 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
+  const Json judged = eval_json(asked);
+  EXPECT_EQ(judged["status"], "incomplete");
+  EXPECT_EQ(judged["why"], why);
+  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // kept all the same
+  EXPECT_NE(eval(asked).find("\nincomplete " + why + "\n"), std::string::npos);
+  const Json enough = eval_json({asked[0], asked[1], "--min-coverage=0.96"});
+  EXPECT_EQ(enough["status"], "ok");
+  const std::string table =
+      eval({asked[0], asked[1], golden("est_corrected.txt"), "--min-coverage=0.97"});
+  EXPECT_NE(table.find("est_corrected.txt: incomplete: " + why), std::string::npos) << table;
+  EXPECT_NE(table.find(" incomplete |"), std::string::npos) << table;
+  EXPECT_THROW(eval({asked[0], asked[1], "--min-coverage=1.5"}), CLI::ParseError);
+}
+
 TEST(Eval, WritesTheErrorOfEveryPose) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "poses.csv").string();

@@ -99,8 +99,12 @@ TEST(Eval, RefusesRotationOfPositionsAlone) {
   EXPECT_EQ(find(judged, "ate", "translation")["count"], 20);
   EXPECT_EQ(judged["undefined"][0]["metric"], "ate");
   EXPECT_EQ(judged["undefined"][0]["relation"], "rotation");
-  const std::regex line("\nate +rotation +3d +deg +undefined: the reference keeps");
-  EXPECT_TRUE(std::regex_search(eval({file, file}), line));
+  const std::string text = eval({file, file});
+  EXPECT_NE(text.find("\nate rotation, rpe 1 frames translation, rpe 1 frames rotation, "),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find(" undefined: the reference keeps"), std::string::npos);
+  EXPECT_EQ(text.find("the reference keeps"), text.rfind("the reference keeps"));  // said once
 }
 
 TEST(Eval, SeveralEstimatesAreSeveralJudgements) {
@@ -157,7 +161,7 @@ TEST(Eval, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   EXPECT_EQ(find(judged, "ate", "translation")["count"], 3);
   ASSERT_EQ(judged["undefined"].size(), 2u);  // rpe over 1 s and over 1 m
   EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 3 poses is 1.0 s before another");
-  EXPECT_NE(eval({file, file}).find("rpe 1 m       undefined: rpe: none of 3"), std::string::npos);
+  EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
 }
 TEST(Eval, RefusesWhatItCannotJudge) {
   const std::string kitti = golden("kitti_gt.txt");

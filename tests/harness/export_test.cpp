@@ -2,6 +2,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/export/derived.hpp"
+#include "harness/export/notes.hpp"
 #include "harness/export/text.hpp"
 
 namespace loopbench {
@@ -68,6 +69,22 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
             "- bad: failed: no such luck\n");
 }
 
+TEST(Notes, SayAReasonOnce) {
+  EXPECT_EQ(
+      grouped({{"raw", "ate rotation", "declined", "no attitude"},
+               {"raw", "rpe rotation", "declined", "no attitude"},
+               {"raw", "ate rotation", "declined", "no attitude"},
+               {"raw", "closure_residual", "declined", "no closures"},
+               {"bad", "", "failed", "no luck"},
+               {"uniform", "ate rotation", "declined", "no attitude"},
+               {"uniform", "rpe rotation", "declined", "no attitude"},
+               {"uniform", "closure_residual", "failed", "no closures"}}),
+      (std::vector<std::string>{"raw, uniform: ate rotation, rpe rotation declined: no attitude",
+                                "raw: closure_residual declined: no closures",
+                                "bad: failed: no luck",
+                                "uniform: closure_residual failed: no closures"}));
+}
+
 TEST(Pivot, AveragesWhatFallsTogether) {
   std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
   records[1].repeat = 1;
@@ -92,8 +109,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
   EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
   EXPECT_EQ(tables[0].notes,
-            (std::vector<std::string>{"raw: incomplete: judged 1 of 9 poses",
-                                      "worse: incomplete: judged 1 of 9 poses"}));
+            (std::vector<std::string>{"raw, worse: incomplete: judged 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
   EXPECT_TRUE(gains(records, "worse").empty());
 }

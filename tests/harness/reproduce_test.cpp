@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/plot/gnuplot.hpp"
 #include "harness/reproduce/claims.hpp"
 #include "harness/reproduce/paper_tables.hpp"
 #include "harness/reproduce/reported.hpp"
+#include "harness/reproduce/segment_claims.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
@@ -80,6 +82,41 @@ TEST(Claims, AreDecidedByOurNumbers) {
   EXPECT_EQ(claim(claims, "N4: smoother").verdict, Verdict::does_not_hold);
   EXPECT_EQ(claim(claims, "Table 3").verdict, Verdict::cannot_be_judged);  // no such sequence
   EXPECT_NE(claim_table(claims).find("*cannot be judged* | no such run |"), std::string::npos);
+}
+
+/// fr3_office, closed, on a circle: 0.3 m/s, 0.045 rad a keyframe.
+PaperCell circling() {
+  PaperCell out;
+  out.sequence = "fr3_office";
+  out.input = "closed";
+  out.variant = "ORB_SLAM2";
+  const auto at = [](double t) {
+    const double angle = 0.045 * 3.0 * t;
+    const double radius = 0.1 / 0.045;
+    return StampedPose{
+        t, {Rotation::Identity(), radius * Vector3(std::sin(angle), 1.0 - std::cos(angle), 0.0)}};
+  };
+  for (int i = 0; i < 30; ++i) out.keyframes.push_back(at(i / 3.0));
+  for (int i = 0; i < 300; ++i) out.dense.reference.push_back(at(i / 30.0));
+  return out;
+}
+
+TEST(SegmentClaims, AreJudgedWhereSpeedAndCurvatureAreAsQuoted) {
+  const std::vector<Claim> claims = judge_segment_claims({circling()});
+  // Symmetric nodes give the cubic no cubic term: parabola and cubic tie, to 0.01 mm on this arc.
+  const Claim& parabola = claim(claims, "Figure 7 a c e: a parabola at 0.2017 to 0.3832 m/s");
+  EXPECT_EQ(parabola.verdict, Verdict::holds) << parabola.because;
+  EXPECT_TRUE(
+      parabola.because.starts_with("in both ranges 26 windows, parabola 0.00 mm, cubic 0.00 mm"))
+      << parabola.because;
+  // Its speeds, but turning more: the speeds alone decide.
+  const Claim& faster = claim(claims, "Figure 8 left: a parabola at 0.1998 to 0.3035 m/s");
+  EXPECT_EQ(faster.verdict, Verdict::holds) << faster.because;
+  EXPECT_TRUE(faster.because.starts_with("in both ranges 0 windows; by speed alone 26 windows"))
+      << faster.because;
+  EXPECT_EQ(claim(claims, "Text, special segment: a rational").verdict, Verdict::cannot_be_judged);
+  // Parabolas through a circle meet at a small angle at any speed.
+  EXPECT_EQ(claim(claims, "Text: segments meet C1").verdict, Verdict::does_not_hold);
 }
 
 TEST(PaperTables, PutOurRowsBeneathThePrintedOnes) {

@@ -34,10 +34,13 @@ class RunSweep : public testing::Test {
     const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
     Sequences sequences(sweep_, known_, {}, planned);
     std::atomic<bool> stop = false;
-    Store store(file, sweep_);
-    run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
-      store.write(sweep_, result);
-    });
+    CellKeys keys(sweep_, known_, {}, "build");
+    {
+      Store store(file, keys, {}, true);
+      run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
+        store.write(result);
+      });
+    }
     return read_records(file);
   }
 
@@ -119,6 +122,19 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
     if (r.method != "straight" || r.metric != "ate") continue;
     EXPECT_EQ(r.status, r.times == "dense" ? "ok" : "incomplete");
   }
+}
+
+TEST_F(RunSweep, AMetricThatMeansNothingHereIsDeclinedNotFailed) {
+  known_.metrics[0].score = [](const Evaluation&, const Params&) -> std::vector<Score> {
+    throw Undefined("no closures");
+  };
+  int declined = 0;
+  for (const Record& r : run(1)) {
+    if (r.why != "no closures") continue;
+    EXPECT_EQ(r.status, "declined");
+    ++declined;
+  }
+  EXPECT_EQ(declined, 36);
 }
 
 TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {

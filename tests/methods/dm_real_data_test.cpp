@@ -94,6 +94,29 @@ class DmOnTum : public testing::Test {
   Report report_;
 };
 
+TEST_F(DmOnTum, ReferencesAreThoseTheDesignMeasured) {
+  struct Stats {
+    const char* folder;
+    double length, duration;  // [m], [s]
+    Vector3 low, high;        // [m]
+  };
+  for (const Stats& wanted :
+       {Stats{"fr1_room", 17.483, 48.90, {-1.16, -1.35, 1.19}, {1.39, 0.86, 1.70}},
+        Stats{"fr3_office", 22.197, 87.09, {-3.29, -2.17, 1.20}, {1.83, 2.73, 1.74}}}) {
+    const Trajectory poses = read(tum_ / wanted.folder / "groundtruth.txt");
+    Vector3 low = poses.front().world_from_body.translation;
+    Vector3 high = low;
+    for (const StampedPose& pose : poses) {
+      low = low.cwiseMin(pose.world_from_body.translation);
+      high = high.cwiseMax(pose.world_from_body.translation);
+    }
+    EXPECT_NEAR(path_length(poses), wanted.length, 5e-4) << wanted.folder;
+    EXPECT_NEAR(poses.back().stamp - poses.front().stamp, wanted.duration, 5e-3);
+    EXPECT_LT((low - wanted.low).cwiseAbs().maxCoeff(), 5.1e-3) << low.transpose();
+    EXPECT_LT((high - wanted.high).cwiseAbs().maxCoeff(), 5.1e-3) << high.transpose();
+  }
+}
+
 TEST_F(DmOnTum, SegmentsAreAsManyAsTheDesignCounts) {
   use(kRoom);
   EXPECT_NEAR(path_length(problem_.keyframes), 15.836, 5e-4);

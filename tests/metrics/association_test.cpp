@@ -38,9 +38,17 @@ Pairs literal_evo(Stamps reference, Stamps estimate, double max_diff, double off
   return out;
 }
 
+bool crosses(const IndexPair& a, const IndexPair& b) {
+  return (a.reference < b.reference) != (a.estimate < b.estimate);
+}
+
 /// TUM's associate.py, word by word: all pairs, sorted, taken while both are free.
-Pairs literal_one_to_one(
-    const Stamps& reference, const Stamps& estimate, double max_diff, Limit limit, double offset) {
+Pairs literal_one_to_one(const Stamps& reference,
+                         const Stamps& estimate,
+                         double max_diff,
+                         Limit limit,
+                         Crossing crossing,
+                         double offset) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t r = 0; r < reference.size(); ++r) {
     for (std::size_t e = 0; e < estimate.size(); ++e) {
@@ -56,6 +64,9 @@ Pairs literal_one_to_one(
   Pairs out;
   for (const auto& [gap, r, e] : candidates) {
     if (references.contains(r) || estimates.contains(e)) continue;
+    const IndexPair pair{r, e};
+    const auto is_crossed = [&](const IndexPair& taken) { return crosses(taken, pair); };
+    if (crossing == Crossing::refused && std::ranges::any_of(out, is_crossed)) continue;
     references.insert(r);
     estimates.insert(e);
     out.push_back({r, e});
@@ -101,9 +112,11 @@ TEST(Association, OneToOneIsTheLiteralRuleOnRandomStamps) {
     const double max_diff = std::uniform_int_distribution<int>(0, 20)(random) / 64.0;
     const double offset = std::uniform_int_distribution<int>(-20, 20)(random) / 64.0;
     for (const Limit limit : {Limit::strict, Limit::inclusive}) {
-      ASSERT_EQ(match_one_to_one(reference, estimate, max_diff, limit, offset),
-                literal_one_to_one(reference, estimate, max_diff, limit, offset))
-          << "round " << round;
+      for (const Crossing crossing : {Crossing::allowed, Crossing::refused}) {
+        ASSERT_EQ(match_one_to_one(reference, estimate, max_diff, limit, crossing, offset),
+                  literal_one_to_one(reference, estimate, max_diff, limit, crossing, offset))
+            << "round " << round;
+      }
     }
   }
 }
@@ -120,8 +133,10 @@ TEST(Association, RulesAgreeWithTheLiteralOnesAtEpochStamps) {
               literal_evo(reference, estimate, 0.01, offset));
     EXPECT_EQ(match_evo(estimate, reference, 0.01, offset),
               literal_evo(estimate, reference, 0.01, offset));
-    EXPECT_EQ(match_one_to_one(reference, estimate, 0.02, Limit::strict, offset),
-              literal_one_to_one(reference, estimate, 0.02, Limit::strict, offset));
+    for (const Crossing crossing : {Crossing::allowed, Crossing::refused}) {
+      EXPECT_EQ(match_one_to_one(reference, estimate, 0.02, Limit::strict, crossing, offset),
+                literal_one_to_one(reference, estimate, 0.02, Limit::strict, crossing, offset));
+    }
   }
 }
 
@@ -136,21 +151,37 @@ TEST(Association, EvoBreaksATieToTheFirst) {
 
 TEST(Association, LimitsAreInclusiveForNearestAndStrictForTum) {
   EXPECT_EQ(match_evo({0.0}, {0.25}, 0.25, 0.0).size(), 1u);
-  EXPECT_EQ(match_one_to_one({0.0}, {0.25}, 0.25, Limit::inclusive, 0.0).size(), 1u);
-  EXPECT_EQ(match_one_to_one({0.0}, {0.25}, 0.25, Limit::strict, 0.0).size(), 0u);
+  EXPECT_EQ(match_one_to_one({0.0}, {0.25}, 0.25, Limit::inclusive, Crossing::refused, 0.0).size(),
+            1u);
+  EXPECT_EQ(match_one_to_one({0.0}, {0.25}, 0.25, Limit::strict, Crossing::refused, 0.0).size(),
+            0u);
 }
 
 TEST(Association, OffsetIsAddedToTheEstimate) {
   const Pairs wanted{{1, 0}};
   EXPECT_EQ(match_evo({0.0, 1.0}, {0.5}, 0.1, 0.5), wanted);
-  EXPECT_EQ(match_one_to_one({0.0, 1.0}, {0.5}, 0.1, Limit::strict, 0.5), wanted);
+  EXPECT_EQ(match_one_to_one({0.0, 1.0}, {0.5}, 0.1, Limit::strict, Crossing::refused, 0.5),
+            wanted);
 }
 
 TEST(Association, OneToOneTakesTheClosestFirst) {
   // 0.9 is nearer to 1.0 than 1.2 is; 1.2 is left with 2.0.
   const Pairs wanted{{0, 0}, {1, 1}};
-  EXPECT_EQ(match_one_to_one({1.0, 2.0}, {0.9, 1.2}, 1.0, Limit::inclusive, 0.0), wanted);
-  EXPECT_EQ(match_one_to_one({1.0, 2.0}, {0.9, 1.2}, 0.5, Limit::inclusive, 0.0), (Pairs{{0, 0}}));
+  EXPECT_EQ(match_one_to_one({1.0, 2.0}, {0.9, 1.2}, 1.0, Limit::inclusive, Crossing::refused, 0.0),
+            wanted);
+  EXPECT_EQ(match_one_to_one({1.0, 2.0}, {0.9, 1.2}, 0.5, Limit::inclusive, Crossing::refused, 0.0),
+            (Pairs{{0, 0}}));
+}
+
+TEST(Association, NearestRefusesPairsThatCrossWhereTumTakesThem) {
+  // 2.005 and 2.004 are closest and leave 1.99 before them and 2.02 behind them to each other.
+  const Stamps reference{1.0, 1.99, 2.005, 3.0};
+  const Stamps estimate{1.0, 2.004, 2.02, 3.0};
+  const auto pairs = [&](Crossing crossing) {
+    return match_one_to_one(reference, estimate, 0.05, Limit::inclusive, crossing, 0.0);
+  };
+  EXPECT_EQ(pairs(Crossing::allowed), (Pairs{{0, 0}, {1, 2}, {2, 1}, {3, 3}}));
+  EXPECT_EQ(pairs(Crossing::refused), (Pairs{{0, 0}, {2, 1}, {3, 3}}));
 }
 
 TEST(Association, OneToOneIsFastWhateverTheLimit) {
@@ -161,7 +192,8 @@ TEST(Association, OneToOneIsFastWhateverTheLimit) {
     reference.push_back(i);
     estimate.push_back(i + 0.5);
   }
-  const Pairs got = match_one_to_one(reference, estimate, 1e9, Limit::inclusive, 0.0);
+  const Pairs got =
+      match_one_to_one(reference, estimate, 1e9, Limit::inclusive, Crossing::refused, 0.0);
   ASSERT_EQ(got.size(), 100'000u);
   for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(got[i], (IndexPair{i, i}));
 }

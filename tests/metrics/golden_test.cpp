@@ -206,5 +206,34 @@ TEST(Golden, BurstSeparatesTheAssociations) {
   EXPECT_NEAR(rmse(Association::tum, 0.02), 0.0361229585047602, 1e-12);
 }
 
+/// Not of golden.json: what a literal copy of evaluate_rpe.py in plain Python 3.11, with Python's
+/// own random.seed(0), gives without --fixed_delta.
+TEST(Golden, TumRpeOfRandomPairs) {
+  const Params random{{"pairs", std::string("tum_random")}};
+  const auto expect = [&](const char* name, std::size_t n, double rmse, double mean, double deg) {
+    const Evaluation judged =
+        evaluate(file("gt.txt"), file(name), named_protocol("tum", random).rules);
+    const std::vector<Score> got = rpe(judged, {});
+    const Statistics translation = find(got, "translation", "3d");
+    EXPECT_EQ(translation.count, n) << name;
+    expect_same(translation.rmse, rmse, name);
+    expect_same(translation.mean, mean, name);
+    expect_same(find(got, "rotation", "3d").rmse, deg, name);
+  };
+  expect("est_drift.txt", 9393, 1.5566026278354204, 1.1909726827963953, 9.716495239575913);
+  expect("est_corrected.txt", 9393, 0.10058034889875365, 0.0781356581798225, 0.6351958430506388);
+  expect("est_burst.txt", 9408, 0.10196076571413372, 0.07908341199621904, 0.6368885820702946);
+}
+
+TEST(Golden, RandomPairsHaveNoDelta) {
+  const Params random{{"pairs", std::string("tum_random")}};
+  const Evaluation judged =
+      evaluate(file("gt.txt"), file("est_drift.txt"), named_protocol("tum", random).rules);
+  EXPECT_EQ(why<Undefined>([&] { rpe(judged, {.delta = 1.0, .unit = DeltaUnit::s}); }),
+            "rpe: pairs tum_random have no stretch of 1.0 s; ask for rpe without delta and unit");
+  EXPECT_EQ(rpe(judged, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
+            620u);
+}
+
 }  // namespace
 }  // namespace loopbench::test

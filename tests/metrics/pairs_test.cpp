@@ -2,6 +2,7 @@
 
 #include "metrics/pairs/angle_pairs.hpp"
 #include "metrics/pairs/consecutive.hpp"
+#include "metrics/pairs/python_random.hpp"
 #include "metrics/pairs/tum_motions.hpp"
 #include "support.hpp"
 
@@ -88,6 +89,37 @@ TEST(TumMotions, MeasureMetresFramesAndTurns) {
   EXPECT_EQ(pairs(2.1, DeltaUnit::m), two);
   EXPECT_EQ(pairs(0.81, DeltaUnit::rad), two);
   EXPECT_EQ(pairs(46.0, DeltaUnit::deg), two);
+}
+
+/// What Python 3.11 answers to random.seed(0); [random.randint(0, SIZE - 1) for _ in range(8)].
+TEST(PythonRandom, DrawsWhatPythonDraws) {
+  const auto draws = [](std::size_t size) {
+    PythonRandom random;
+    std::vector<std::size_t> out;
+    for (int i = 0; i < 8; ++i) out.push_back(random.below(size));
+    return out;
+  };
+  EXPECT_EQ(draws(657), (std::vector<std::size_t>{394, 430, 41, 265, 523, 497, 414, 310}));
+  EXPECT_EQ(draws(100), (std::vector<std::size_t>{49, 97, 53, 5, 33, 65, 62, 51}));
+  EXPECT_EQ(draws(1), std::vector<std::size_t>(8, 0));
+}
+
+TEST(TumRandomMotions, TakeAllPairsOfFewerThanAHundredPoses) {
+  Trajectory reference = turning({0, 0, 0, 0, 0, 0, 0, 0});
+  const Trajectory estimate = turning({0, 0, 0});
+  EXPECT_EQ(tum_random_motions({reference, estimate}, 0.0, {}).pairs,
+            (Pairs{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}));
+  // The reference starts 3 s after estimate pose 0: beyond twice its interval.
+  EXPECT_EQ(tum_random_motions({reference, estimate}, -3.0, {}).pairs,
+            (Pairs{{1, 1}, {1, 2}, {2, 1}, {2, 2}}));
+}
+
+TEST(TumRandomMotions, DrawFromAHundredOn) {
+  const Trajectory poses = turning(std::vector<double>(100, 0.0));
+  const Pairs got = tum_random_motions({poses, poses}, 0.0, {}).pairs;
+  ASSERT_EQ(got.size(), 10'000u);
+  EXPECT_EQ(got[0], (FromTo{49, 97}));
+  EXPECT_EQ(got[1], (FromTo{53, 5}));
 }
 
 TEST(StretchPairs, RefuseWhatNoStretchCanBe) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
+#include "metrics/angle.hpp"
+#include "metrics/ate.hpp"
+#include "metrics/segments/segments.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {
@@ -65,9 +69,11 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}),
             "offset = 1.0: association index does not look at stamps");
   EXPECT_EQ(refusal("tum", {{"pairs_from", word("reference")}}),
-            "pairs_from = reference: pairs tum are measured on the estimate");
+            "pairs_from = reference: pairs tum are those of the estimate");
   EXPECT_EQ(refusal("tum", {{"project", word("xy")}}),
             "project = xy: pairs tum are taken from the files, not flattened");
+  EXPECT_EQ(refusal("evo", {{"pairs", word("tum_random")}, {"pairs_from", word("reference")}}),
+            "pairs_from = reference: pairs tum_random are those of the estimate");
   EXPECT_EQ(refusal("rpg", {{"segments.precision", word("float32")}}),
             "segments.precision = float32: is the KITTI devkit's: end beyond, form kitti, angle "
             "trace");
@@ -80,6 +86,101 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("evo", {{"segments.lengths", word("ten")}}),
             "segments.lengths: 'ten': expected metres or a share, like 100 or 20%");
   EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 breaks 0 <= ddof <= 1");
+}
+
+/// 1 m and 0.1 s a pose along x.
+Trajectory road(int size) {
+  Trajectory out;
+  for (int i = 0; i < size; ++i) out.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0, 0)}});
+  return out;
+}
+
+Evaluation judged(const std::string& name,
+                  const Trajectory& reference,
+                  const Trajectory& estimate) {
+  return evaluate(reference, estimate, named_protocol(name).rules);
+}
+
+// ov_eval and eth3d stand on their code alone, without numbers of the originals: rule by rule.
+
+TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
+  const double tilt = 0.1;
+  const Pose elsewhere{exp_so3(Vector3(0.0, 0.0, 0.3)) * exp_so3(Vector3(0.0, tilt, 0.0)),
+                       Vector3(1.0, 2.0, 3.0)};
+  const Evaluation got = judged("ov_eval", road(21), moved_by(elsewhere, 1.0, road(21)));
+  EXPECT_EQ(got.alignment.scale, 1.0);
+  const std::vector<Score> scores = ate(got, {});
+  EXPECT_NEAR(find(scores, "rotation", "3d").min, kDegrees * tilt, 1e-9);
+  // A chord of the tilt at each of 0..20 from their middle; their variance is (21^2 - 1) / 12.
+  EXPECT_NEAR(find(scores, "translation", "3d").rmse,
+              2.0 * std::sin(tilt / 2.0) * std::sqrt(440.0 / 12.0),
+              1e-9);
+}
+
+TEST(OvEval, SegmentsStartEverywhereAndStdDividesByOneLess) {
+  Trajectory estimate = road(21);
+  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the way
+  const std::vector<Score> got = segments(judged("ov_eval", road(21), estimate), {});
+  std::set<std::string> axes;
+  for (const Score& score : got) axes.insert(score.axis);
+  EXPECT_EQ(axes, (std::set<std::string>{"all", "8 m", "16 m"}));  // 24 m and more are too long
+  for (const Score& score : got) {
+    if (score.axis != "8 m") continue;
+    EXPECT_EQ(score.statistics.count, 13u);  // starts 0..12; 2 ends in pose 10, 10 starts there
+    if (score.relation == "translation") {
+      EXPECT_NEAR(score.statistics.max, 0.0, 1e-12);
+    }
+    if (score.relation != "rotation" || score.unit != "deg") continue;
+    const double mean = 2.0 * 0.2 / 13.0;
+    EXPECT_NEAR(score.statistics.mean, kDegrees * mean, 1e-9);
+    const double squares = 2.0 * std::pow(0.2 - mean, 2) + 11.0 * mean * mean;
+    EXPECT_NEAR(score.statistics.std, kDegrees * std::sqrt(squares / 12.0), 1e-9);
+  }
+}
+
+TEST(OvEval, AnEndExactlyHalfAMetreOffIsNone) {
+  Trajectory off = road(2);
+  off[1].world_from_body.translation.x() = 7.5;
+  EXPECT_THROW(segments(judged("ov_eval", off, off), {}), Undefined);
+  off[1].world_from_body.translation.x() = 7.6;
+  EXPECT_EQ(find(segments(judged("ov_eval", off, off), {}), "translation", "8 m").count, 1u);
+}
+
+/// 40 steps along x, then 40 along y, 10 ms each, turning; `at` says how many have been gone.
+Pose on_the_corner(double step, double at) {
+  const double x = std::min(at, 40.0);
+  return {exp_so3(Vector3(0.0, 0.0, 0.01 * at)), Vector3(step * x, step * (at - x), 0.0)};
+}
+
+TEST(Eth3d, InterpolatesTheReferenceOverAtMostASeventyFifth) {
+  Trajectory reference;
+  Trajectory estimate;
+  for (int i = 0; i <= 80; ++i) {
+    // Without 20 its neighbours are 20 ms apart, and what lies between has no reference.
+    if (i != 20) reference.push_back({0.01 * i, on_the_corner(0.1, i)});
+    if (i < 80) estimate.push_back({0.01 * (i + 0.5), on_the_corner(0.1, i + 0.5)});
+  }
+  const Evaluation got = judged("eth3d", reference, estimate);
+  EXPECT_EQ(got.coverage.pairs, 78u);
+  EXPECT_NEAR(find(ate(got, {}), "translation", "3d").max, 0.0, 1e-12);
+}
+
+TEST(Eth3d, ErrorsAreOfTheMetresGoneAndNothingIsScaled) {
+  Trajectory reference;
+  Trajectory estimate;
+  for (int i = 0; i <= 80; ++i) {
+    reference.push_back({0.01 * i, on_the_corner(0.101, i)});
+    estimate.push_back({0.01 * i, on_the_corner(1.01 * 0.101, i)});
+  }
+  const Evaluation got = judged("eth3d", reference, estimate);
+  EXPECT_EQ(got.alignment.scale, 1.0);
+  // Five steps are 0.505 m for 0.5 m, and a hundredth too long: 1 % of what was gone, less across
+  // the corner. 20 steps are 2.02 m.
+  const std::vector<Score> scores = segments(got, {});
+  for (const char* length : {"0.5 m", "1 m", "1.5 m", "2 m"}) {
+    EXPECT_NEAR(find(scores, "translation", length).max, 1.0, 1e-9) << length;
+    EXPECT_LT(find(scores, "translation", length).min, 0.8) << length;
+  }
 }
 
 }  // namespace

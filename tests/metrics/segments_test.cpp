@@ -124,6 +124,15 @@ TEST(Segments, FloatAndDoubleAgreeToFloat) {
   EXPECT_NEAR(in_float.mean, in_double.mean, 1e-5 * in_double.mean);
 }
 
+TEST(Segments, OfPositionsAloneAreRefused) {
+  Trajectory poses;
+  for (int i = 0; i < 50; ++i) {
+    poses.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0.1 * i * i, 0.0)}});
+  }
+  const Evaluation judged = evaluate(poses, poses, named_protocol("loopbench").rules);
+  EXPECT_EQ(why<Undefined>([&] { segments(judged, {}); }).find("the reference keeps one"), 0u);
+}
+
 TEST(Segments, WithoutAnySaysSo) {
   const Params far{{"segments.lengths", std::string("5000")}};
   EXPECT_EQ(

@@ -47,6 +47,7 @@ class ManifoldCurve final : public Curve {
   void sample(std::span<const double> times, std::span<Pose> poses) const override;
 
   const std::vector<double>& stamps() const { return stamps_; }
+  const Parts& parts() const { return parts_; }
 
   /// Position [m], velocity and acceleration, analytically, with the pieces of `edge` even at its
   /// ends: asked of both edges of a node, the jump there.

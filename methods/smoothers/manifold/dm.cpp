@@ -15,7 +15,7 @@ std::size_t whole_segment(const DmOptions& o) {
   return static_cast<std::size_t>(nodes);
 }
 
-PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families) {
+PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const PieceJudge& judge) {
   return {.size = static_cast<std::size_t>(o.planar),
           .axes = o.frame,
           .guarded = o.guard,
@@ -23,6 +23,7 @@ PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families) {
           .families = std::move(families),
           .family = o.family,
           .selection = o.selection,
+          .judge = judge,
           .fallback = o.fallback,
           .chords_below = o.short_policy == Short::polyline ? whole_segment(o) : 0};
 }
@@ -85,6 +86,21 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
     report.notes.push_back("fewer than three nodes: polyline");
     return std::make_unique<Polyline>(std::move(dense.nodes));
   }
+  return fit(problem, std::move(dense), report, {});
+}
+
+std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
+                                             Report& report,
+                                             const PieceJudge& judge) const {
+  Densified dense = with_quasi_keyframes(problem, options_.gap);
+  if (dense.nodes.size() < 3) return nullptr;
+  return fit(problem, std::move(dense), report, judge);
+}
+
+std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
+                                             Densified dense,
+                                             Report& report,
+                                             const PieceJudge& judge) const {
   Nodes nodes(dense.nodes);
   Vector3 up = up_of(dense.nodes, options_);
   const SegmentRule& rule = options_.segment;
@@ -112,7 +128,8 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
     if (options_.joint.meet == Meet::constrained_ls) {
       fit = fit_regression(nodes, runs, parts.spline, laying.size);
     }
-    if (!fit) fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_));
+    if (!fit)
+      fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, judge));
     describe(*fit, report);
     if (options_.report_coefficients) note_coefficients(*fit, report);
     parts.planar =

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "methods/method.hpp"
+#include "methods/smoothers/manifold/curve.hpp"
 #include "methods/smoothers/manifold/dm_options.hpp"
 
 namespace loopbench {
@@ -27,7 +28,18 @@ class Dm final : public Smoother {
   /// Continuity). Fewer than three nodes give the polyline.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
+  /// The same as its pieces, or null for fewer than three nodes. `judge`, when there is one,
+  /// chooses between the families in the place of `selection`.
+  std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
+                                                     Report& report,
+                                                     const manifold::PieceJudge& judge) const;
+
  private:
+  std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
+                                                     manifold::Densified dense,
+                                                     Report& report,
+                                                     const manifold::PieceJudge& judge) const;
+
   Options options_;
   std::vector<manifold::Family> families_;
 };

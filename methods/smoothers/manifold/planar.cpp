@@ -36,6 +36,10 @@ PlanarFit fit_planar(const Nodes& nodes,
                      const Vector3& up,
                      const PlanarRule& rule) {
   PlanarFit out;
+  // Growing moves every piece again and again, and each has more than its coefficients in it.
+  const std::size_t steps = rule.scheme == Scheme::sliding_blend ? 1 : rule.size - 1;
+  out.windows.reserve(nodes.size() / steps + segments.size());
+  out.pieces.reserve(nodes.size() / steps + segments.size());
   const WindowFitter fitter{nodes, spline, up, rule};
   // The families of the rule, a polynomial when they refuse, or nothing when the guard does.
   const auto fit = [&](const Window& window) -> std::optional<PlanarPiece> {

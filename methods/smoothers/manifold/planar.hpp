@@ -1,6 +1,7 @@
 /// Step 8 in the plane: y' = f(x') on windows of N nodes, with the guard and what follows it.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "methods/smoothers/manifold/family.hpp"
@@ -14,6 +15,10 @@ inline auto choices(Fallback) {
   return std::array{std::pair{"arc", Fallback::arc}, std::pair{"spline", Fallback::spline}};
 }
 
+/// How badly a piece stands for a window, less is better; at `spline`'s places.
+using PieceJudge = std::function<double(
+    const PlanarPiece& piece, const Window& window, const Nodes& nodes, const NodeSpline& spline)>;
+
 struct PlanarRule {
   std::size_t size = 4;  ///< N
   Axes axes = Axes::chord;
@@ -22,6 +27,7 @@ struct PlanarRule {
   std::vector<Family> families{Family::by_n};
   FamilyRule family = {};
   Selection selection = Selection::fixed;
+  PieceJudge judge = {};  ///< chooses in the place of `selection`; only an oracle has one
   Fallback fallback = Fallback::arc;
   std::size_t chords_below = 0;  ///< segments of fewer nodes become straight lines
 };

@@ -55,6 +55,9 @@ SpatialFit fit_spatial(const Nodes& nodes,
                        const Vector3& up,
                        const SpatialRule& rule) {
   SpatialFit out;
+  const std::size_t steps = rule.scheme == Scheme::sliding_blend ? 1 : rule.size - 1;
+  out.windows.reserve(nodes.size() / steps + segments.size());
+  out.pieces.reserve(nodes.size() / steps + segments.size());
   for (const NodeRange& segment : segments) {
     if (segment.nodes() < rule.plain_below) {
       ++out.fallbacks;

@@ -37,8 +37,9 @@ std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
     auto piece = fit(family, frame, nodes_taken);
     if (!piece) continue;
     if (rule.guarded && !is_polynomial(family) && !is_tame(*piece, window)) continue;
-    if (rule.selection == Selection::fixed) return piece;
-    const double own = score(family, *piece, frame, nodes_taken);
+    if (rule.selection == Selection::fixed && !rule.judge) return piece;
+    const double own = rule.judge ? rule.judge(*piece, window, nodes, spline)
+                                  : score(family, *piece, frame, nodes_taken);
     if (best && !(own < least)) continue;
     best = piece;
     least = own;

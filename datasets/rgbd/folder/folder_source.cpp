@@ -1,0 +1,142 @@
+#include "datasets/rgbd/folder/folder_source.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "datasets/rgbd/folder/layouts.hpp"
+#include "datasets/rgbd/folder/read_image.hpp"
+#include "datasets/rgbd/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint16_t kNoDepth = 65535;  // 7-Scenes; TUM writes 0
+
+std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  return mixed(seed, bytes);
+}
+
+class FolderSource final : public RgbdSource {
+ public:
+  explicit FolderSource(Recording recording) : recording_(std::move(recording)) {}
+
+  Camera camera() const override { return recording_.camera; }
+  std::size_t size() const override { return recording_.frames.size(); }
+  double stamp(std::size_t index) const override { return recording_.frames.at(index).stamp; }
+  const Trajectory& reference() const override { return recording_.reference; }
+
+  std::optional<RgbdFrame> read(std::size_t index, std::string& why) const override {
+    const ImagePair& pair = recording_.frames.at(index);
+    try {
+      RgbdFrame out;
+      out.grey = read_grey(pair.grey);
+      require_size(out.grey.width, out.grey.height, pair.grey);
+      const Image<std::uint16_t> raw = read_depth(pair.depth);
+      require_size(raw.width, raw.height, pair.depth);
+      out.depth = metres(raw);
+      return out;
+    } catch (const InputError& error) {
+      why = error.what();
+      return std::nullopt;
+    }
+  }
+
+  std::uint64_t content() const override {
+    std::uint64_t out = mixed(1, "rgbd_folder");
+    for (const fs::path& list : recording_.lists) out = hashed(list, out);
+    for (const ImagePair& pair : recording_.frames) {
+      out = hashed(pair.depth, hashed(pair.grey, mixed(out, pair.grey.filename().string())));
+    }
+    const Camera& c = recording_.camera;
+    return mixed(out,
+                 fmt::format("{} {} {} {} {} {} {} {} {} {}",
+                             c.fx,
+                             c.fy,
+                             c.cx,
+                             c.cy,
+                             c.k1,
+                             c.k2,
+                             c.p1,
+                             c.p2,
+                             c.k3,
+                             c.depth_scale));
+  }
+
+  Provenance provenance() const override {
+    Provenance out;
+    out.sensor = "RGB-D";
+    out.inputs = recording_.lists;
+    for (const ImagePair& pair : recording_.frames) {
+      out.inputs.push_back(pair.grey);
+      out.inputs.push_back(pair.depth);
+    }
+    out.notes = recording_.notes;
+    return out;
+  }
+
+ private:
+  void require_size(int width, int height, const fs::path& file) const {
+    const Camera& camera = recording_.camera;
+    if (width == camera.width && height == camera.height) return;
+    throw input_error(file.string(),
+                      0,
+                      fmt::format("is {} x {}, the camera's images are {} x {}",
+                                  width,
+                                  height,
+                                  camera.width,
+                                  camera.height));
+  }
+
+  DepthImage metres(const Image<std::uint16_t>& raw) const {
+    DepthImage out(raw.width, raw.height);
+    for (std::size_t i = 0; i < raw.pixels.size(); ++i) {
+      if (raw.pixels[i] == kNoDepth) continue;
+      out.pixels[i] =
+          static_cast<float>(static_cast<double>(raw.pixels[i]) / recording_.camera.depth_scale);
+    }
+    return out;
+  }
+
+  Recording recording_;
+};
+
+std::vector<ImagePair> chosen(const std::vector<ImagePair>& all, const FolderOptions& o) {
+  std::vector<ImagePair> out;
+  const auto every = static_cast<std::size_t>(o.every);
+  for (auto k = static_cast<std::size_t>(o.first); k < all.size(); k += every) {
+    if (o.frames > 0 && out.size() == static_cast<std::size_t>(o.frames)) break;
+    out.push_back(all[k]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
+                                                   const FolderOptions& options) {
+  const bool tum = fs::exists(folder / "rgb.txt");
+  if (!tum && !is_seven_scenes(folder)) {
+    throw input_error(folder.string(),
+                      0,
+                      "holds no recording: expected rgb.txt and depth.txt (TUM RGB-D) or "
+                      "frame-000000.color.png (7-Scenes)");
+  }
+  Recording recording =
+      tum ? read_tum_layout(folder, options) : read_seven_scenes_layout(folder, options);
+  const std::size_t all = recording.frames.size();
+  recording.frames = chosen(recording.frames, options);
+  if (recording.frames.empty()) {
+    throw OptionError(
+        "first",
+        fmt::format("first = {} breaks first < {}, the number of frames", options.first, all));
+  }
+  return std::make_unique<FolderSource>(std::move(recording));
+}
+
+}  // namespace loopbench

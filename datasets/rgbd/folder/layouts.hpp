@@ -1,0 +1,31 @@
+/// What the layouts of recordings have in common, and a reader for each.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+#include "datasets/rgbd/camera.hpp"
+#include "datasets/rgbd/folder/folder_source.hpp"
+#include "datasets/rgbd/folder/image_list.hpp"
+
+namespace loopbench {
+
+struct Recording {
+  Camera camera = {};
+  std::vector<ImagePair> frames = {};
+  Trajectory reference = {};                      ///< world_from_camera; may be empty
+  std::vector<std::filesystem::path> lists = {};  ///< every text file read
+  std::vector<std::string> notes = {};
+};
+
+/// Throws InputError.
+Recording read_tum_layout(const std::filesystem::path& folder, const FolderOptions& options);
+
+bool is_seven_scenes(const std::filesystem::path& folder);
+/// Throws InputError.
+Recording read_seven_scenes_layout(const std::filesystem::path& folder,
+                                   const FolderOptions& options);
+
+}  // namespace loopbench

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include "datasets/formats/formats.hpp"
+#include "datasets/rgbd/folder/layouts.hpp"
+
+namespace loopbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The recording's folder may be called anything below; TUM's own names say which camera it was.
+int freiburg_in(const fs::path& folder) {
+  const std::string name = fs::weakly_canonical(folder).filename().string();
+  for (int k = 1; k <= 3; ++k) {
+    for (const char* word : {"freiburg", "fr"}) {
+      if (name.find(word + std::to_string(k)) != std::string::npos) return k;
+    }
+  }
+  return 0;
+}
+
+Camera camera_for(const fs::path& folder, CameraChoice choice, std::vector<fs::path>& lists) {
+  if (choice == CameraChoice::fr1) return tum_camera(1);
+  if (choice == CameraChoice::fr2) return tum_camera(2);
+  if (choice == CameraChoice::fr3) return tum_camera(3);
+  const fs::path file = folder / "camera.yaml";
+  if (choice == CameraChoice::file || fs::exists(file)) {
+    lists.push_back(file);
+    return read_camera(file);
+  }
+  if (const int k = freiburg_in(folder)) return tum_camera(k);
+  throw input_error(folder.string(),
+                    0,
+                    "has no camera.yaml and no freiburg1, 2 or 3 in its name; the option camera "
+                    "says which intrinsics to take");
+}
+
+}  // namespace
+
+Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) {
+  Recording out;
+  out.camera = camera_for(folder, options.camera, out.lists);
+  const std::vector<ListedImage> colour = read_image_list(folder / "rgb.txt");
+  const std::vector<ListedImage> depth = read_image_list(folder / "depth.txt");
+  out.lists.push_back(folder / "rgb.txt");
+  out.lists.push_back(folder / "depth.txt");
+  out.frames = pair_images(colour, depth, options.pair_gap, folder);
+  if (out.frames.empty()) {
+    throw input_error(
+        (folder / "depth.txt").string(),
+        0,
+        fmt::format("no depth image lies within {} s of a colour image", options.pair_gap));
+  }
+  if (out.frames.size() < colour.size()) {
+    out.notes.push_back(fmt::format("{} of {} colour images have no depth image within {} s",
+                                    colour.size() - out.frames.size(),
+                                    colour.size(),
+                                    options.pair_gap));
+  }
+  const fs::path truth = folder / "groundtruth.txt";
+  if (fs::exists(truth)) {
+    out.lists.push_back(truth);
+    ReadOptions how;
+    how.format = Format::tum;
+    how.repeats = Repeats::keep_first;
+    out.reference = read_trajectory(truth, how);
+  } else {
+    out.notes.emplace_back("no groundtruth.txt: nothing can be judged against a reference");
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,116 @@
+#include "datasets/rgbd/render/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "datasets/rgbd/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr double kWallContrast = 1.0;
+constexpr double kFloorContrast = 0.6;
+
+std::array<std::size_t, 6> painted(Scene& scene,
+                                   const Vector3& size,
+                                   double contrast,
+                                   std::uint64_t seed) {
+  std::array<std::size_t, 6> skin{};
+  for (std::size_t face = 0; face < 6; ++face) {
+    const int axis = static_cast<int>(face / 2);
+    const double share = axis == 2 ? kFloorContrast : 1.0;
+    skin[face] = scene.textures.size();
+    scene.textures.push_back(dead_leaves(
+        size[(axis + 1) % 3], size[(axis + 2) % 3], contrast * share, mixed(seed, face)));
+  }
+  return skin;
+}
+
+/// Where the ray enters (from outside) or leaves (from inside) a block, and through which face.
+struct Crossing {
+  double near, far;
+  int near_face, far_face;
+};
+
+Crossing cross(const Block& block, const Vector3& origin, const Vector3& inverse) {
+  Crossing out{
+      -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    double a = (block.low[axis] - origin[axis]) * inverse[axis];
+    double b = (block.high[axis] - origin[axis]) * inverse[axis];
+    int low = 2 * axis;
+    int high = 2 * axis + 1;
+    if (a > b) std::swap(a, b), std::swap(low, high);
+    if (a > out.near) out.near = a, out.near_face = low;
+    if (b < out.far) out.far = b, out.far_face = high;
+  }
+  return out;
+}
+
+Hit surface(
+    const Block& block, int face, double depth, const Vector3& origin, const Vector3& direction) {
+  const int axis = face / 2;
+  const Vector3 point = origin + depth * direction - block.low;
+  return {static_cast<float>(depth),
+          static_cast<float>(std::abs(direction[axis]) / direction.norm()),
+          static_cast<float>(point[(axis + 1) % 3]),
+          static_cast<float>(point[(axis + 2) % 3]),
+          face,
+          block.skin[static_cast<std::size_t>(face)]};
+}
+
+}  // namespace
+
+Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
+  Scene scene;
+  const Vector3& h = half_size;
+  scene.room = {-h, h, painted(scene, 2.0 * h, kWallContrast, seed)};
+  const auto furnish = [&](const Vector3& low, const Vector3& size, std::uint64_t paint) {
+    scene.furniture.push_back({low, low + size, painted(scene, size, kWallContrast, paint)});
+  };
+  // Three pieces a wall, standing or hanging, no deeper than half a metre.
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    const auto draw = [&](std::uint64_t i) {
+      return static_cast<double>(uniform(mixed(mixed(seed, 100 + k), i)));
+    };
+    const int wall = static_cast<int>(k % 4);
+    const int across = wall < 2 ? 0 : 1;  // the axis that the wall stands on
+    const int along = 1 - across;
+    const double slot = static_cast<double>(k / 4);
+    Vector3 size;
+    size[across] = 0.2 + 0.3 * draw(0);
+    size[along] = 0.4 + 0.5 * draw(1);
+    size.z() = 0.4 + 0.8 * draw(2);
+    Vector3 low;
+    low[across] = wall % 2 == 0 ? -h[across] : h[across] - size[across];
+    low[along] = -h[along] + (slot + 0.2 + 0.4 * draw(3)) * 2.0 * h[along] / 3.0;
+    low[along] = std::min(low[along], h[along] - size[along]);
+    low.z() = k / 4 == 1 ? h.z() - 0.3 - size.z() : -h.z();  // the middle ones hang
+    furnish(low, size, mixed(seed, 200 + k));
+  }
+  // Twins against opposite walls.
+  const Vector3 twin(0.5, 0.3, 1.6);
+  furnish({0.55 * h.x(), -h.y(), -h.z()}, twin, mixed(seed, 300));
+  furnish({-0.85 * h.x(), h.y() - twin.y(), -h.z()}, twin, mixed(seed, 300));
+  return scene;
+}
+
+Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction) {
+  const Vector3 inverse = direction.cwiseInverse();  // infinite where parallel: the slabs allow it
+  const Crossing walls = cross(scene.room, origin, inverse);
+  double depth = walls.far;
+  int face = walls.far_face;
+  const Block* met = &scene.room;
+  for (const Block& block : scene.furniture) {
+    const Crossing crossing = cross(block, origin, inverse);
+    if (crossing.near > 0.0 && crossing.near < crossing.far && crossing.near < depth) {
+      depth = crossing.near;
+      face = crossing.near_face;
+      met = &block;
+    }
+  }
+  return surface(*met, face, depth, origin, direction);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,35 @@
+#include "harness/oracle/oracle.hpp"
+#include "harness/oracle/paper_oracle.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Wraps a Smoother constructible from Options and a reference.
+template <class T>
+OracleEntry oracle(std::string name, std::string summary, typename T::Options defaults) {
+  const auto make = [defaults](const Params& given, const Trajectory& reference) -> Stage {
+    return std::unique_ptr<const Smoother>(std::make_unique<T>(with(defaults, given), reference));
+  };
+  return {{std::move(name),
+           Kind::smoother,
+           std::move(summary),
+           describe(defaults),
+           [make](const Params& given) { return make(given, {}); }},
+          make};
+}
+
+}  // namespace
+
+std::vector<OracleEntry> oracles() {
+  return {
+      oracle<PaperOracle>(
+          "paper_oracle", "dm, but y' = f(x') is asked at the reference's x': shows a leak", {}),
+      oracle<PaperOracle>("paper_oracle_families",
+                          "dm, but the reference chooses between parabola, cubic, sine, rational",
+                          {.dm = {.families = "poly2 poly3 sin1 rat02"},
+                           .reference_abscissa = false,
+                           .reference_families = true}),
+  };
+}
+
+}  // namespace loopbench

@@ -1,0 +1,68 @@
+#include "harness/oracle/paper_oracle.hpp"
+
+#include "datasets/core/polyline.hpp"
+#include "harness/oracle/reference_abscissa.hpp"
+#include "metrics/evaluation.hpp"
+
+namespace loopbench {
+namespace {
+
+/// The reference as the keyframes' world has it: p = R^T (p_reference - t) / scale.
+Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference, Align align) {
+  Protocol protocol;
+  protocol.align = align;
+  const Alignment to_reference = evaluate(reference, keyframes, protocol).alignment;
+  const Pose estimate_from_reference = to_reference.reference_from_estimate.inverse();
+  Trajectory out = reference;
+  for (StampedPose& pose : out) {
+    pose.world_from_body = estimate_from_reference * pose.world_from_body;
+    pose.world_from_body.translation /= to_reference.scale;
+  }
+  return out;
+}
+
+/// Mean squared distance to the reference over the edges a window stands for [m^2].
+manifold::PieceJudge nearest_to(const Polyline& reference) {
+  return [&reference](const manifold::PlanarPiece& piece,
+                      const manifold::Window& window,
+                      const manifold::Nodes& nodes,
+                      const manifold::NodeSpline& spline) {
+    constexpr std::size_t parts = 8;  // of an edge
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t edge = window.owned.first; edge < window.owned.last; ++edge) {
+      for (std::size_t k = 0; k <= parts; ++k) {
+        const double u = static_cast<double>(k) / parts;
+        const double time = std::lerp(nodes.stamps[edge], nodes.stamps[edge + 1], u);
+        if (!(time >= reference.start() && time <= reference.end())) continue;
+        const Vector3 seen = reference.at(time).translation - nodes.base;
+        sum += (asked(piece, spline.at(edge, time)) - seen).squaredNorm();
+        ++count;
+      }
+    }
+    return count > 0.0 ? sum / count : 0.0;  // the first family where there is no reference
+  };
+}
+
+}  // namespace
+
+PaperOracle::PaperOracle(const Options& options, Trajectory reference)
+    : options_(options), dm_(options.dm), reference_(std::move(reference)) {}
+
+std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
+  if (reference_.empty()) return "an oracle needs a reference";
+  return dm_.declines(problem);
+}
+
+std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem, Report& report) const {
+  Polyline reference(in_world_of(problem.keyframes, reference_, options_.reference_align));
+  manifold::PieceJudge judge;
+  if (options_.reference_families) judge = nearest_to(reference);
+  std::shared_ptr<const manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
+  report.notes.push_back("oracle: was shown the reference");
+  if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
+  return std::make_unique<ReferenceAbscissa>(
+      std::move(fitted), std::move(reference), options_.reference_abscissa);
+}
+
+}  // namespace loopbench

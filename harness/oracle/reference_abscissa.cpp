@@ -1,0 +1,55 @@
+#include "harness/oracle/reference_abscissa.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace manifold;  // NOLINT: what this file takes apart
+
+template <class Piece>
+constexpr bool is_function_of_x = false;
+template <class Function>
+constexpr bool is_function_of_x<Graph<Function>> = true;
+
+}  // namespace
+
+Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& reference) const {
+  const Parts& parts = curve_->parts();
+  const Place own = parts.spline.at(edge, time);
+  const Vector3 levelled = reference + parts.up.dot(own.point - reference) * parts.up;
+  const Place seen{levelled, own.way, own.time};
+  const auto ask = [&](const PlanarPiece& piece) {
+    return std::visit(
+        [&](const auto& shape) {
+          return shape(is_function_of_x<std::remove_cvref_t<decltype(shape)>> ? seen : own);
+        },
+        piece);
+  };
+  const Vector3 planar = parts.planar ? parts.planar->at(edge, time, ask) : own.point;
+  if (!parts.spatial) return planar;
+  const Vector3& where = parts.planar ? planar : levelled;
+  const double height = parts.up.dot(planar);
+  const auto over = [&](const Height& piece) { return piece.over<double>(where, height); };
+  return planar + (parts.spatial->at(edge, time, over) - height) * parts.up;
+}
+
+void ReferenceAbscissa::sample(std::span<const double> times, std::span<Pose> poses) const {
+  curve_->sample(times, poses);
+  if (!used_) return;
+  std::vector<double> known;
+  std::vector<std::size_t> which;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (!(times[k] >= reference_.start() && times[k] <= reference_.end())) continue;
+    known.push_back(times[k]);
+    which.push_back(k);
+  }
+  const Trajectory reference = reference_.sample(known);
+  const Vector3& base = curve_->parts().base;
+  KnotSpan span(curve_->stamps());
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::size_t edge = span.find(known[i]);
+    const Vector3 seen = reference[i].world_from_body.translation - base;
+    poses[which[i]].translation = base + point(edge, known[i], seen);
+  }
+}
+
+}  // namespace loopbench

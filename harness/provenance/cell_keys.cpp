@@ -1,0 +1,104 @@
+#include "harness/provenance/cell_keys.hpp"
+
+#include <algorithm>
+
+#include "harness/provenance/hash.hpp"
+#include "harness/run/sequences.hpp"
+
+namespace loopbench {
+namespace {
+
+/// All options, defaults included, whole numbers written as real ones where the default is real:
+/// saying a default or writing 1 for 1.0 is no change.
+std::string in_full(const std::vector<OptionInfo>& options, const Params& given) {
+  Params out;
+  for (const OptionInfo& option : options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : given) {
+    const auto place = out.find(name);
+    const auto* whole = std::get_if<std::int64_t>(&value);
+    const bool real = place != out.end() && std::holds_alternative<double>(place->second);
+    out[name] = real && whole != nullptr ? Param(static_cast<double>(*whole)) : value;
+  }
+  Fields fields;
+  for (const auto& [name, value] : out) fields.add(name).add(to_text(value));
+  return fields.hashed();
+}
+
+std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
+  Fields fields;
+  for (const Choice& stage : choice.stages) {
+    const auto version = catalogue.versions.find(stage.name);
+    fields.add(stage.name)
+        .add(in_full(find_method(catalogue, stage.name).options, stage.options))
+        .add(version == catalogue.versions.end() ? "" : version->second);
+  }
+  return fields.hashed();
+}
+
+std::string of_judging(const Sweep& sweep, const Catalogue& catalogue) {
+  Fields fields;
+  for (const NamedProtocol& protocol : sweep.protocols) {
+    fields.add(protocol.label()).add(protocol.version).add(to_text(echo(protocol.rules)));
+  }
+  for (const MetricChoice& metric : sweep.metrics) {
+    // The label is in the rows, so it is content here.
+    fields.add(metric.label)
+        .add(metric.metric.name)
+        .add(in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options));
+  }
+  for (const Times times : sweep.times) fields.add(to_text(times));
+  fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
+  fields.add(sweep.serial ? "serial" : "").add(sweep.traces ? "traces" : "");
+  return fields.hashed();
+}
+
+}  // namespace
+
+CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build)
+    : sweep_(sweep),
+      catalogue_(catalogue),
+      root_(std::move(root)),
+      build_(std::move(build)),
+      judged_(of_judging(sweep, catalogue)) {
+  for (const MethodChoice& choice : sweep.methods) methods_.push_back(of_method(choice, catalogue));
+}
+
+const std::string& CellKeys::asked(const Cell& cell) {
+  const auto [place, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
+  if (!fresh) return place->second;
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
+  const Params options = full_options(choice, entry, cell.repeat);
+  Fields fields;
+  fields.add(choice.dataset.name).add(in_full(entry.options, options));
+  return place->second = fields.hashed();
+}
+
+std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,
+                                             std::vector<InputFile> inputs) const {
+  const Params& options = sweep_.datasets[cell.dataset].dataset.options;
+  for (InputFile& input : inputs) {
+    std::filesystem::path now = input.path;
+    for (const auto& [name, value] : options) {
+      const auto* text = std::get_if<std::string>(&value);
+      if (text == nullptr || text->empty() || !input.path.ends_with("/" + *text)) continue;
+      for (const std::filesystem::path& folder : root_.folders) {
+        if (std::filesystem::is_regular_file(folder / *text)) {
+          now = folder / *text;
+          break;
+        }
+      }
+    }
+    if (std::filesystem::exists(now)) input = hashed_inputs({now}).front();
+  }
+  return inputs;
+}
+
+std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {
+  Fields fields;
+  fields.add(build_).add(asked(cell)).add(methods_[cell.method]).add(judged_);
+  for (const InputFile& input : inputs) fields.add(input.hash);
+  return fields.hashed();
+}
+
+}  // namespace loopbench

@@ -1,0 +1,25 @@
+#include "harness/run/sequence_facts.hpp"
+
+#include "harness/provenance/hash.hpp"
+
+namespace loopbench {
+
+std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files) {
+  std::vector<InputFile> out;
+  for (const std::filesystem::path& file : files) {
+    const std::string hash = hex(hash_of_file(file));
+    out.push_back({file.string(), std::filesystem::file_size(file), hash});
+  }
+  return out;
+}
+
+SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
+  SequenceFacts out;
+  out.inputs = hashed_inputs(sequence.provenance.inputs);
+  out.closures = sequence.provenance.closures;
+  out.oracle_closures = sequence.provenance.oracle_closures;
+  if (with_trace) out.trace = sequence_trace(sequence);
+  return out;
+}
+
+}  // namespace loopbench

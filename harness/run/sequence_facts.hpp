@@ -1,0 +1,32 @@
+/// What is kept about a sequence once it is loaded: what it was read from, what a report draws.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/run/trace.hpp"
+
+namespace loopbench {
+
+/// A file that a dataset read.
+struct InputFile {
+  std::string path;  ///< as it was found
+  std::uint64_t bytes = 0;
+  std::string hash;  ///< of its content, see provenance/hash.hpp
+};
+
+struct SequenceFacts {
+  std::vector<InputFile> inputs;
+  std::string closures;          ///< where the loop closures came from
+  bool oracle_closures = false;  ///< they were measured in the reference
+  SequenceTrace trace;           ///< empty when the sweep keeps no traces
+};
+
+/// Reads the inputs again to hash them. Throws InputError.
+SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
+
+/// The files with their sizes and hashes. Throws InputError for one that is not there.
+std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files);
+
+}  // namespace loopbench

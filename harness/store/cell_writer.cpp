@@ -1,0 +1,177 @@
+#include "harness/store/cell_writer.hpp"
+
+#include <algorithm>
+
+#include "harness/store/traces.hpp"
+
+namespace loopbench {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+std::string option_text(const std::vector<Choice>& stages) {
+  std::string out;
+  for (const Choice& stage : stages) {
+    if (stage.options.empty()) continue;
+    out += (out.empty() ? "" : "; ") + stage.name + ": " + to_text(stage.options);
+  }
+  return out;
+}
+
+std::string text_of(const Worker& worker) {
+  return std::string(worker.isolated ? "isolated" : "in process") +
+         (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "");
+}
+
+}  // namespace
+
+void remove_cell(Database& database, std::int64_t id) {
+  for (const char* table : {"score", "phase", "count", "note", "trace"}) {
+    database.prepare(std::string("DELETE FROM ") + table + " WHERE cell = ?").bind(id).run();
+  }
+  database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
+}
+
+CellWriter::CellWriter(Database& database)
+    : database_(database),
+      remove_(database.prepare("SELECT id FROM cell WHERE position = ?")),
+      cell_(database.prepare(
+          "INSERT INTO cell VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      score_(
+          database.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
+      count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
+      note_(database.prepare("INSERT INTO note VALUES (?,?)")),
+      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?)")) {}
+
+void CellWriter::write(const CellResult& result, CellKeys& keys) {
+  Transaction transaction(database_);
+  write_rows(result, keys);
+  transaction.commit();
+}
+
+void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
+  remove_.bind(static_cast<std::int64_t>(result.cell.index));
+  std::vector<std::int64_t> before;
+  while (remove_.step()) before.push_back(remove_.integer());
+  remove_.reset();
+  for (const std::int64_t id : before) remove_cell(database_, id);
+
+  if (result.facts) write_facts(keys.asked(result.cell), *result.facts);
+  const std::int64_t id = write_cell(result, keys);
+  write_scores(id, result, keys.sweep());
+  for (const Phase& p : result.report.phases) phase_.bind(id).bind(p.name).bind(p.seconds).run();
+  for (const Count& c : result.report.counts) count_.bind(id).bind(c.name).bind(c.value).run();
+  for (const std::string& text : result.report.notes) note_.bind(id).bind(text).run();
+  if (!result.trace.samples.empty()) {
+    trace_.bind(id)
+        .bind(to_text(result.trace.times))
+        .bind_blob(bytes_of(result.trace.samples))
+        .run();
+  }
+}
+
+std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
+  const DatasetChoice& dataset = keys.sweep().datasets[result.cell.dataset];
+  const MethodChoice& method = keys.sweep().methods[result.cell.method];
+  const SequenceFacts none;
+  const SequenceFacts& facts = result.facts ? *result.facts : none;
+  const auto [low, high] = std::ranges::minmax_element(result.seconds);
+  const bool timed = !result.seconds.empty();
+  const auto cpu =
+      result.cpu_seconds.empty() ? std::nullopt : std::optional<double>(median(result.cpu_seconds));
+  const auto failed_scores =
+      std::ranges::count(result.scores, Status::failed, &ScoreResult::status);
+  cell_.bind(static_cast<std::int64_t>(result.cell.index))
+      .bind(keys.key(result.cell, facts.inputs))
+      .bind(keys.build())
+      .bind(keys.asked(result.cell))
+      .bind(dataset.label)
+      .bind(std::int64_t{result.cell.repeat})
+      .bind(method.label)
+      .bind(option_text({dataset.dataset}))
+      .bind(option_text(method.stages))
+      .bind(facts.closures)
+      .bind(std::int64_t{facts.oracle_closures})
+      .bind(std::int64_t{result.oracle_method})
+      .bind(text_of(result.worker))
+      .bind(static_cast<std::int64_t>(result.seconds.size()))
+      .bind(median(result.seconds))
+      .bind(timed ? *low : 0.0)
+      .bind(timed ? *high : 0.0)
+      .bind(cpu)
+      .bind(result.peak_memory)
+      .bind(result.added_memory)
+      .bind(result.allocations)
+      .bind(to_text(result.status))
+      .bind(result.signal)
+      .bind(result.why)
+      .bind(static_cast<std::int64_t>(failed_scores))
+      .run();
+  return database_.last_row();
+}
+
+void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
+  for (const ScoreResult& row : result.scores) {
+    const Statistics& s = row.score.statistics;
+    const NamedProtocol& protocol = sweep.protocols[row.protocol];
+    score_.bind(id)
+        .bind(protocol.label())
+        .bind(protocol.version)
+        .bind(to_text(row.times))
+        .bind(row.metric)
+        .bind(row.score.relation)
+        .bind(row.score.axis)
+        .bind(row.score.unit)
+        .bind(static_cast<std::int64_t>(s.count))
+        .bind(s.rmse)
+        .bind(s.mean)
+        .bind(s.median)
+        .bind(s.std)
+        .bind(s.min)
+        .bind(s.max)
+        .bind(s.sse)
+        .bind(static_cast<std::int64_t>(row.coverage.pairs))
+        .bind(static_cast<std::int64_t>(row.coverage.possible))
+        .bind(row.coverage.span)
+        .bind(to_text(row.status))
+        .bind(row.why)
+        .run();
+  }
+}
+
+void CellWriter::write_facts(const std::string& asked, const SequenceFacts& facts) {
+  if (facts_.contains(asked)) return;
+  database_.prepare("DELETE FROM input WHERE asked = ?").bind(asked).run();
+  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?)");
+  std::int64_t number = 0;
+  for (const InputFile& file : facts.inputs) {
+    input.bind(asked)
+        .bind(number++)
+        .bind(file.path)
+        .bind(static_cast<std::int64_t>(file.bytes))
+        .bind(file.hash)
+        .run();
+  }
+  const SequenceTrace& trace = facts.trace;
+  if (!trace.keyframes.empty()) {
+    database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?)")
+        .bind(asked)
+        .bind(trace.origin.stamp)
+        .bind(trace.origin.x)
+        .bind(trace.origin.y)
+        .bind(trace.origin.z)
+        .bind_blob(bytes_of(trace.reference))
+        .bind_blob(bytes_of(trace.keyframes))
+        .bind_blob(bytes_of(trace.closures))
+        .run();
+  }
+  facts_.insert(asked);
+}
+
+}  // namespace loopbench

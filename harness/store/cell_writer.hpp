@@ -1,0 +1,42 @@
+/// One cell's rows.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "harness/provenance/cell_keys.hpp"
+#include "harness/run/result.hpp"
+#include "harness/store/sqlite.hpp"
+
+namespace loopbench {
+
+/// Statements prepared once for all cells of a sweep.
+class CellWriter {
+ public:
+  explicit CellWriter(Database& database);
+
+  /// One transaction: everything about the cell, and about its sequence when it is new; what was
+  /// at the cell's place goes. Throws InputError; then nothing of the cell is written.
+  void write(const CellResult& result, CellKeys& keys);
+
+ private:
+  void write_rows(const CellResult& result, CellKeys& keys);
+  std::int64_t write_cell(const CellResult& result, CellKeys& keys);
+  void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
+  void write_facts(const std::string& asked, const SequenceFacts& facts);
+
+  Database& database_;
+  Statement remove_;
+  Statement cell_;
+  Statement score_;
+  Statement phase_;
+  Statement count_;
+  Statement note_;
+  Statement trace_;
+  std::set<std::string> facts_;  ///< sequences whose facts are written, by `asked`
+};
+
+/// Removes the cell with that id from every table.
+void remove_cell(Database& database, std::int64_t id);
+
+}  // namespace loopbench

@@ -1,0 +1,32 @@
+#include "harness/store/open.hpp"
+
+#include "datasets/core/error.hpp"
+#include "harness/store/schema.hpp"
+
+namespace loopbench {
+
+std::filesystem::path store_file(const std::filesystem::path& given) {
+  const std::filesystem::path file =
+      std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file.string() + ": no such file, expected a store of results");
+  }
+  return file;
+}
+
+void check_schema(Database& database, const std::filesystem::path& file) {
+  Statement version = database.prepare("PRAGMA user_version");
+  const std::int64_t found = version.step() ? version.integer() : 0;
+  if (found == kSchemaVersion) return;
+  throw InputError(file.string() + ": is not a store of results of this version (schema " +
+                   std::to_string(found) + ", expected " + std::to_string(kSchemaVersion) + ")");
+}
+
+Database open_store(const std::filesystem::path& given) {
+  const std::filesystem::path file = store_file(given);
+  Database database(file, Database::Mode::read);
+  check_schema(database, file);
+  return database;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,161 @@
+#include "harness/store/resume.hpp"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+namespace loopbench {
+namespace {
+
+/// A cell as it is in the store.
+struct Row {
+  std::int64_t id = 0;
+  std::int64_t position = -1;  ///< -1: none
+  std::string sequence;
+  std::int64_t repeat = 0;
+  std::string method;
+  Status status = Status::ok;
+  bool failed = false;  ///< the method, or a metric on it
+  bool claimed = false;
+};
+
+using Rows = std::unordered_map<std::string, std::vector<Row>>;  // by key
+
+Rows read_rows(Database& database) {
+  Statement rows = database.prepare(
+      "SELECT key, id, position, sequence, repeat, method, status, failed_scores FROM cell "
+      "ORDER BY id");
+  Rows out;
+  while (rows.step()) {
+    std::vector<Row>& same_key = out[rows.text()];
+    Row row;
+    row.id = rows.integer();
+    const bool placed = !rows.is_null();
+    const std::int64_t position = rows.integer();
+    row.position = placed ? position : -1;
+    row.sequence = rows.text();
+    row.repeat = rows.integer();
+    row.method = rows.text();
+    row.status = from_text<Status>(rows.text()).value_or(Status::failed);
+    row.failed = is_failure(row.status) || rows.integer() > 0;
+    same_key.push_back(std::move(row));
+  }
+  return out;
+}
+
+std::map<std::string, std::vector<InputFile>> read_input_rows(Database& database) {
+  Statement rows =
+      database.prepare("SELECT asked, path, bytes, hash FROM input ORDER BY asked, number");
+  std::map<std::string, std::vector<InputFile>> out;
+  while (rows.step()) {
+    std::vector<InputFile>& files = out[rows.text()];
+    InputFile file;
+    file.path = rows.text();
+    file.bytes = static_cast<std::uint64_t>(rows.integer());
+    file.hash = rows.text();
+    files.push_back(std::move(file));
+  }
+  return out;
+}
+
+/// The key of every cell, with the inputs as they are now.
+std::vector<std::string> keys_now(Database& database,
+                                  CellKeys& keys,
+                                  const std::vector<Cell>& all) {
+  auto inputs = read_input_rows(database);
+  std::set<std::string> fresh;
+  std::vector<std::string> out;
+  out.reserve(all.size());
+  for (const Cell& cell : all) {
+    const std::string& asked = keys.asked(cell);
+    std::vector<InputFile>& files = inputs[asked];
+    if (fresh.insert(asked).second) files = keys.as_they_are(cell, std::move(files));
+    out.push_back(keys.key(cell, files));
+  }
+  return out;
+}
+
+bool same_labels(const Row& row, const Cell& cell, const Sweep& sweep) {
+  return row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
+         row.method == sweep.methods[cell.method].label;
+}
+
+/// The row of each cell, or null. Two cells may have one key; then labels tell whose is whose.
+std::vector<Row*> claim(Rows& rows,
+                        const std::vector<std::string>& keys,
+                        const std::vector<Cell>& all,
+                        const Sweep& sweep) {
+  std::vector<Row*> out(all.size(), nullptr);
+  for (const bool exact : {true, false}) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto found = rows.find(keys[i]);
+      if (out[i] != nullptr || found == rows.end()) continue;
+      for (Row& row : found->second) {
+        if (row.claimed || (exact && !same_labels(row, all[i], sweep))) continue;
+        row.claimed = true;
+        out[i] = &row;
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Resumed match(Database& database,
+              CellKeys& keys,
+              const std::vector<Cell>& all,
+              const std::vector<Cell>& planned,
+              Retry retry) {
+  const Sweep& sweep = keys.sweep();
+  Rows rows = read_rows(database);
+  const std::vector<Row*> claimed = claim(rows, keys_now(database, keys, all), all, sweep);
+
+  Resumed out;
+  out.unchanged = true;
+  Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
+  for (const auto& [key, same_key] : rows) {
+    for (const Row& row : same_key) {
+      if (row.claimed || row.position < 0) continue;
+      set_aside.bind(row.id).run();
+      out.unchanged = false;
+    }
+  }
+  Statement place = database.prepare(
+      "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
+  std::unordered_map<std::size_t, const Row*> by_position;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (claimed[i] == nullptr) {
+      out.unchanged = false;
+      continue;
+    }
+    const Row& row = *claimed[i];
+    by_position.emplace(all[i].index, &row);
+    const auto position = static_cast<std::int64_t>(all[i].index);
+    if (row.position == position && same_labels(row, all[i], sweep)) continue;
+    out.unchanged = false;
+    place.bind(position)
+        .bind(sweep.datasets[all[i].dataset].label)
+        .bind(std::int64_t{all[i].repeat})
+        .bind(sweep.methods[all[i].method].label)
+        .bind(row.id)
+        .run();
+  }
+  for (const Cell& cell : planned) {
+    const auto found = by_position.find(cell.index);
+    const Row* row = found == by_position.end() ? nullptr : found->second;
+    const bool again =
+        row != nullptr && (retry == Retry::all || (retry == Retry::failed && row->failed));
+    if (row == nullptr || again) {
+      out.missing.push_back(cell);
+      continue;
+    }
+    ++out.there;
+    if (row->failed) ++out.failed;
+    if (row->status == Status::incomplete) ++out.incomplete;
+  }
+  return out;
+}
+
+}  // namespace loopbench

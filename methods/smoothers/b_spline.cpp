@@ -1,0 +1,37 @@
+#include "methods/smoothers/b_spline.hpp"
+
+#include "datasets/core/polyline.hpp"
+#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/spline/curve.hpp"
+#include "methods/smoothers/spline/interpolate.hpp"
+#include "methods/smoothers/two_curves.hpp"
+
+namespace loopbench {
+
+std::optional<std::string> BSplineThrough::declines(const Problem& problem) const {
+  if (problem.keyframes.empty()) return "no keyframes";
+  return std::nullopt;
+}
+
+std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Report& report) const {
+  const Trajectory& keyframes = problem.keyframes;
+  if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
+  const std::vector<double> sites = stamps(keyframes);
+  const auto basis = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), sites);
+  const std::vector<Vector3> points = points_through(basis, sites, places(keyframes));
+  const auto turned = rotations_through(basis, sites, attitudes(keyframes));
+  std::vector<Pose> controls(basis.size());
+  for (std::size_t j = 0; j < controls.size(); ++j) {
+    controls[j].translation = points[j];
+    if (turned) controls[j].rotation = turned->controls[j];
+  }
+  auto spline = std::make_unique<CumulativeCurve>(basis, controls);
+  if (turned) {
+    report.count("iterations", turned->iterations);
+    return spline;
+  }
+  report.notes.push_back("no attitude spline found, great arcs instead");
+  return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,109 @@
+#include "methods/smoothers/gaussian_process.hpp"
+
+#include <utility>
+
+#include "datasets/core/knot_span.hpp"
+#include "methods/smoothers/gp/evidence.hpp"
+
+namespace loopbench {
+namespace {
+
+template <int P>
+class GpCurve final : public Curve {
+ public:
+  GpCurve(std::vector<double> stamps,
+          const GpPosterior<P>& posterior,
+          std::vector<GpState<P>> states)
+      : stamps_(std::move(stamps)), states_(std::move(states)) {
+    // Derivatives in units of each interval: weights are then those of the unit interval.
+    for (std::size_t i = 0; i + 1 < states_.size(); ++i) {
+      Interval each;
+      each.to = local_state(states_[i], states_[i + 1]).value;
+      each.from[0].setZero();
+      double power = 1.0;
+      for (std::size_t a = 1; a < P; ++a) {
+        power *= posterior.interval_of(i);
+        each.from[a] = power * states_[i].rates[a - 1];
+        each.to[a] *= power;
+      }
+      intervals_.push_back(each);
+    }
+  }
+
+  double start() const override { return stamps_.front(); }
+  double end() const override { return stamps_.back(); }
+
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    KnotSpan span(stamps_);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const std::size_t i = span.find(times[k]);
+      const double s = (times[k] - stamps_[i]) / (stamps_[i + 1] - stamps_[i]);
+      const auto weights = Prior<P>::between(s);
+      Twist xi = Twist::Zero();
+      for (int a = 0; a < P; ++a) {
+        const auto index = static_cast<std::size_t>(a);
+        xi += weights.from[a] * intervals_[i].from[index] + weights.to[a] * intervals_[i].to[index];
+      }
+      poses[k] = normalized(states_[i].pose * exp_se3(xi));
+    }
+  }
+
+ private:
+  struct Interval {
+    std::array<Twist, P> from, to;  ///< local states at either end
+  };
+  std::vector<double> stamps_;
+  std::vector<GpState<P>> states_;
+  std::vector<Interval> intervals_;
+};
+
+}  // namespace
+
+template <int P>
+std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyframes,
+                                                          Report& report) const {
+  const GpPosterior<P> posterior(keyframes);
+  const double unit = std::pow(posterior.interval(), 2 * P - 1);
+  const auto per_interval = [&](const std::optional<double>& power) {
+    return power ? std::optional<double>(*power * unit) : std::nullopt;
+  };
+  const GpGiven given{options_.sigma_t,
+                      options_.sigma_r,
+                      per_interval(options_.power_t),
+                      per_interval(options_.power_r)};
+  auto states = posterior.first_guess();
+  int iterations = 0, evaluations = 0;
+  GpParameters parameters = report.time("evidence", [&] {
+    GpParameters best = first_parameters(keyframes, P, given);
+    constexpr int kRounds = 2;
+    for (int round = 0; round < kRounds; ++round) {
+      iterations += posterior.solve(states, best);
+      const GpChosen chosen = chosen_parameters<P>(posterior, states, best, given);
+      evaluations += chosen.evaluations;
+      best = chosen.parameters;
+    }
+    return best;
+  });
+  iterations += report.time("solve", [&] { return posterior.solve(states, parameters); });
+  report.count("sigma_t", parameters.sigma_t);
+  report.count("sigma_r", parameters.sigma_r);
+  report.count("power_t", parameters.power_t / unit);
+  report.count("power_r", parameters.power_r / unit);
+  report.count("iterations", iterations);
+  report.count("evaluations", evaluations);
+  return std::make_unique<GpCurve<P>>(stamps(keyframes), posterior, std::move(states));
+}
+
+std::optional<std::string> GaussianProcess::declines(const Problem& problem) const {
+  const std::size_t needed = options_.prior == Prior::velocity ? 3 : 4;
+  if (problem.keyframes.size() >= needed) return std::nullopt;
+  return "fewer than " + std::to_string(needed) + " keyframes";
+}
+
+std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Report& report) const {
+  return options_.prior == Prior::velocity ? smooth_with<2>(problem.keyframes, report)
+                                           : smooth_with<3>(problem.keyframes, report);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,167 @@
+#include "methods/smoothers/gp/posterior.hpp"
+
+#include <stdexcept>
+
+namespace loopbench {
+namespace {
+
+/// 1 / sqrt of what each row of six is worth: of translation and of rotation.
+template <int Rows>
+Eigen::Matrix<double, Rows, 1> row_weights(double variance_t, double variance_r) {
+  Eigen::Matrix<double, Rows, 1> out;
+  for (int row = 0; row < Rows; ++row) {
+    out[row] = 1.0 / std::sqrt(row % 6 < 3 ? variance_t : variance_r);
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int P>
+GpPosterior<P>::GpPosterior(const Trajectory& measured)
+    : interval_((measured.back().stamp - measured.front().stamp) /
+                static_cast<double>(measured.size() - 1)) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    measured_.push_back(measured[i].world_from_body);
+    if (i > 0) gaps_.push_back((measured[i].stamp - measured[i - 1].stamp) / interval_);
+    const Vector3 from_start = measured_[i].translation - measured_[0].translation;
+    extent_ = std::max(extent_, from_start.norm());
+  }
+}
+
+template <int P>
+typename GpPosterior<P>::States GpPosterior<P>::first_guess() const {
+  const std::size_t n = measured_.size();
+  States out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, n - 1);
+    double time = 0.0;
+    for (std::size_t k = before; k < after; ++k) time += gaps_[k];
+    out[i].pose = measured_[i];
+    for (Twist& rate : out[i].rates) rate.setZero();
+    out[i].rates[0] = log_se3(measured_[before].inverse() * measured_[after]) / time;
+  }
+  return out;
+}
+
+template <int P>
+double GpPosterior<P>::cost(const States& states, const GpParameters& parameters) const {
+  const auto pose_weights = row_weights<6>(parameters.sigma_t * parameters.sigma_t,
+                                           parameters.sigma_r * parameters.sigma_r);
+  const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Twist miss = log_se3(measured_[i].inverse() * states[i].pose);
+    sum += pose_weights.cwiseProduct(miss).squaredNorm();
+    if (i == 0) continue;
+    const GpVector<P> error = link<P>(states[i - 1], states[i], gaps_[i - 1]).error;
+    sum += link_weights.cwiseProduct(error).squaredNorm();
+  }
+  return 0.5 * sum;
+}
+
+template <int P>
+typename GpPosterior<P>::Elimination GpPosterior<P>::eliminate(const States& states,
+                                                               const GpParameters& parameters,
+                                                               std::vector<Step>* steps) const {
+  const auto pose_weights = row_weights<6>(parameters.sigma_t * parameters.sigma_t,
+                                           parameters.sigma_r * parameters.sigma_r);
+  const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
+  Elimination out{0.0, 0.0, 0.0};
+  GpMatrix<P> block = GpMatrix<P>::Zero();  // what earlier states leave on the diagonal
+  GpVector<P> gradient = GpVector<P>::Zero();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Twist miss = log_se3(measured_[i].inverse() * states[i].pose);
+    const Matrix6 J = pose_weights.asDiagonal() * inverse_right_jacobian_se3(miss);
+    const Twist white = pose_weights.cwiseProduct(miss);
+    block.template topLeftCorner<6, 6>() += J.transpose() * J;
+    gradient.template head<6>() += J.transpose() * white;
+    out.cost += 0.5 * white.squaredNorm();
+
+    const bool is_last = i + 1 == states.size();
+    Link<P> next;
+    GpMatrix<P> coupling = GpMatrix<P>::Zero();
+    if (!is_last) {
+      next = link<P>(states[i], states[i + 1], gaps_[i]);
+      next.error = link_weights.cwiseProduct(next.error).eval();
+      next.by_from = (link_weights.asDiagonal() * next.by_from).eval();
+      next.by_to = (link_weights.asDiagonal() * next.by_to).eval();
+      block.noalias() += next.by_from.transpose() * next.by_from;
+      gradient.noalias() += next.by_from.transpose() * next.error;
+      coupling.noalias() = next.by_from.transpose() * next.by_to;
+      out.cost += 0.5 * next.error.squaredNorm();
+    }
+    const Eigen::LLT<GpMatrix<P>> factor(block);
+    if (factor.info() != Eigen::Success) {
+      throw std::runtime_error("gp: normal equations are not positive definite at keyframe " +
+                               std::to_string(i));
+    }
+    out.log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    const GpVector<P> offset = factor.solve(gradient);
+    out.decrease += 0.5 * gradient.dot(offset);
+    const GpMatrix<P> to_next = factor.solve(coupling);
+    if (steps != nullptr) (*steps)[i] = {to_next, -offset};
+    if (is_last) break;
+    block.noalias() = next.by_to.transpose() * next.by_to;
+    block.noalias() -= coupling.transpose() * to_next;
+    gradient = (next.by_to.transpose() * next.error - coupling.transpose() * offset).eval();
+  }
+  return out;
+}
+
+template <int P>
+int GpPosterior<P>::solve(States& states, const GpParameters& parameters) const {
+  constexpr int kMostSteps = 30;
+  constexpr int kMostHalvings = 10;
+  constexpr double kStill = 1e-12;    // of the extent, and [rad]
+  constexpr double kRounding = 1e-9;  // steps so small are taken unasked
+  std::vector<Step> steps(states.size());
+  double now = cost(states, parameters);
+  for (int iteration = 1; iteration <= kMostSteps; ++iteration) {
+    eliminate(states, parameters, &steps);
+    std::vector<GpVector<P>> step(states.size());
+    double largest = 0.0;
+    for (std::size_t i = states.size(); i-- > 0;) {
+      step[i] = steps[i].offset;
+      if (i + 1 < states.size()) step[i] -= steps[i].to_next * step[i + 1];
+      largest = std::max({largest,
+                          step[i].template head<3>().norm() / extent_,
+                          step[i].template segment<3>(3).norm()});
+    }
+    bool better = false;
+    double share = 1.0;
+    for (int halving = 0; halving <= kMostHalvings && !better; ++halving, share *= 0.5) {
+      States trial = states;
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        const GpVector<P> part = share * step[i];
+        trial[i].pose = normalized(trial[i].pose * exp_se3(part.template head<6>()));
+        for (int a = 1; a < P; ++a) {
+          trial[i].rates[static_cast<std::size_t>(a - 1)] += part.template segment<6>(6 * a);
+        }
+      }
+      const double then = cost(trial, parameters);
+      better = then < now || largest < kRounding;
+      if (!better) continue;
+      now = then;
+      states = std::move(trial);
+    }
+    if (largest < kStill || !better) return iteration;
+  }
+  return kMostSteps;
+}
+
+template <int P>
+double GpPosterior<P>::negative_evidence(const States& states,
+                                         const GpParameters& parameters) const {
+  const Elimination at = eliminate(states, parameters, nullptr);
+  const auto poses = static_cast<double>(measured_.size());
+  const double log_links = 3.0 * P * std::log(parameters.power_t * parameters.power_r);
+  const double log_poses = 6.0 * std::log(parameters.sigma_t * parameters.sigma_r);
+  return at.cost - at.decrease +
+         0.5 * (at.log_determinant + (poses - 1.0) * log_links + poses * log_poses);
+}
+
+template class GpPosterior<2>;
+template class GpPosterior<3>;
+
+}  // namespace loopbench

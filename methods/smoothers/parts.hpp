@@ -1,0 +1,24 @@
+/// The two halves of a keyframe list that smoothers treat apart.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench {
+
+inline std::vector<Vector3> places(const Trajectory& poses) {
+  std::vector<Vector3> out;
+  out.reserve(poses.size());
+  for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.translation);
+  return out;
+}
+
+inline std::vector<Rotation> attitudes(const Trajectory& poses) {
+  std::vector<Rotation> out;
+  out.reserve(poses.size());
+  for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.rotation);
+  return out;
+}
+
+}  // namespace loopbench

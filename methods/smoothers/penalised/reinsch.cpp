@@ -1,0 +1,65 @@
+#include "methods/smoothers/penalised/reinsch.hpp"
+
+#include "methods/smoothers/penalised/lattice.hpp"
+
+namespace loopbench {
+
+Reinsch::Reinsch(const std::vector<double>& stamps)
+    : slope_change_(stamps), gram_(slope_change_.size()), outer_(slope_change_.outer()) {
+  for (std::size_t j = 0; j < gram_.size(); ++j) {
+    gram_[j].diagonal = (stamps[j + 2] - stamps[j]) / 3.0;
+    if (j + 1 < gram_.size()) gram_[j].next = (stamps[j + 2] - stamps[j + 1]) / 6.0;
+  }
+}
+
+Reinsch::Fit Reinsch::fit(const std::vector<Vector3>& y, double lambda) const {
+  Pentadiagonal matrix = gram_;
+  for (std::size_t j = 0; j < matrix.size(); ++j) {
+    matrix[j].diagonal += lambda * outer_[j].diagonal;
+    matrix[j].next += lambda * outer_[j].next;
+    matrix[j].second += lambda * outer_[j].second;
+  }
+  const PentadiagonalFactor factor(std::move(matrix));
+  const std::vector<Vector3> right = slope_change_.of(y);
+  std::vector<Vector3> gamma = right;
+  factor.solve(gamma);
+
+  Fit out;
+  out.energy.setZero();
+  for (std::size_t j = 0; j < gamma.size(); ++j) {
+    out.energy += lambda * right[j].cwiseProduct(gamma[j]);
+  }
+  std::vector<Vector3> misses(y.size(), Vector3::Zero());
+  slope_change_.add_transposed(gamma, lambda, misses);
+  out.residual.setZero();
+  for (const Vector3& miss : misses) out.residual += miss.cwiseAbs2();
+  out.values = y;
+  for (std::size_t i = 0; i < y.size(); ++i) out.values[i] -= misses[i];
+  out.free = lambda * trace_of_product(outer_, factor.inverse_bands());
+  out.log_determinant =
+      static_cast<double>(gamma.size()) * std::log(lambda) - factor.log_determinant();
+  out.bends = std::move(gamma);
+  out.bends.insert(out.bends.begin(), Vector3::Zero());
+  out.bends.push_back(Vector3::Zero());
+  return out;
+}
+
+double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
+  const auto size = static_cast<double>(n);
+  if (criterion == Criterion::gcv) return size * fit.residual.sum() / (fit.free * fit.free);
+  constexpr double kNothing = 1e-300;  // a straight line has no energy to take the logarithm of
+  // Three axes share the variance: 3 (n - 2) log(sum) - 3 log det, divided by three.
+  return (size - 2.0) * std::log(fit.energy.sum() + kNothing) - fit.log_determinant;
+}
+
+double chosen_lambda(const Reinsch& reinsch,
+                     const std::vector<double>& stamps,
+                     const std::vector<Vector3>& y,
+                     Criterion criterion) {
+  const double interval = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  const auto lambda = [&](int k) { return std::pow(interval, 3) * std::pow(10.0, k / 8.0); };
+  return lambda(least_on_lattice(
+      -48, 96, 8, [&](int k) { return score(criterion, reinsch.fit(y, lambda(k)), y.size()); }));
+}
+
+}  // namespace loopbench

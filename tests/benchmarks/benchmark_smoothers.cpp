@@ -1,0 +1,95 @@
+// What a smoother costs: a curve through a thousand keyframes to a million, and a curve of 200
+// keyframes asked at a thousand times to a million.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+
+#include "methods/method.hpp"
+#include "tests/benchmarks/markdown.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr const char* kSmoothers[] = {
+    "polyline", "cubic_spline", "dm_n3", "dm_n4", "dm_n5", "dm_m7", "dm_n4_m7", "dm_robust"};
+constexpr std::size_t kKeyframes = 200;  // of the curve that is asked
+
+/// A hand-held walk, three keyframes a second, that never comes to a rest.
+const Problem& walk(std::size_t size) {
+  static std::map<std::size_t, Problem> kept;
+  if (kept.contains(size)) return kept[size];
+  kept.clear();  // one size at a time is large enough
+  Problem& out = kept[size];
+  for (std::size_t i = 0; i < size; ++i) {
+    const double t = 0.3 * static_cast<double>(i);
+    out.keyframes.push_back(
+        {t,
+         {exp_so3({0.1 * std::sin(0.9 * t), 0.1 * std::cos(0.7 * t), 0.4 * t}),
+          Vector3(2.0 * std::sin(0.17 * t), 1.5 * std::sin(0.23 * t), 0.2 * std::sin(0.4 * t))}});
+  }
+  return out;
+}
+
+std::unique_ptr<const Smoother> made(const MethodEntry& entry) {
+  return std::get<std::unique_ptr<const Smoother>>(entry.make({}));
+}
+
+void smooth(const MethodEntry& entry, benchmark::State& state) {
+  const Problem& problem = walk(static_cast<std::size_t>(state.range(0)));
+  const auto smoother = made(entry);
+  for (auto _ : state) {
+    Report report;
+    benchmark::DoNotOptimize(smoother->smooth(problem, report));
+  }
+}
+
+void smooth_and_ask(const MethodEntry& entry, benchmark::State& state) {
+  const Problem& problem = walk(kKeyframes);
+  const auto smoother = made(entry);
+  const auto count = static_cast<std::size_t>(state.range(0));
+  std::vector<double> times(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(count);
+    times[k] = u * problem.keyframes.back().stamp;
+  }
+  std::vector<Pose> poses(count);
+  for (auto _ : state) {
+    Report report;
+    smoother->smooth(problem, report)->sample(times, poses);
+    benchmark::DoNotOptimize(poses.data());
+  }
+}
+
+using Work = void (*)(const MethodEntry&, benchmark::State&);
+
+void add(const std::string& name, const MethodEntry& entry, Work work) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [entry, work](benchmark::State& state) {
+                                 work(entry, state);
+                                 state.SetComplexityN(state.range(0));
+                               })
+      ->RangeMultiplier(10)
+      ->Range(1'000, 1'000'000)
+      ->MeasureProcessCPUTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Complexity();
+}
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int argc, char** argv) {
+  using namespace loopbench;
+  const std::vector<MethodEntry> known = methods();
+  const auto add_all = [&](const std::string& prefix, Work work) {
+    for (const char* name : kSmoothers) {
+      for (const MethodEntry& entry : known) {
+        if (entry.name == name) add(prefix + name, entry, work);
+      }
+    }
+  };
+  add_all("smooth ", smooth);
+  add_all("200 keyframes asked ", smooth_and_ask);
+  return test::run_benchmarks(argc, argv);
+}

@@ -1,0 +1,281 @@
+// Smoothers that look at a few neighbours: b_spline, screw, savitzky_golay.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "datasets/core/polyline.hpp"
+#include "methods/smoothers/b_spline.hpp"
+#include "methods/smoothers/savitzky_golay.hpp"
+#include "methods/smoothers/screw.hpp"
+#include "methods/smoothers/spline/basis.hpp"
+#include "methods/smoothers/spline/turning.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+template <class T>
+std::unique_ptr<const Curve> smooth(const Trajectory& keyframes, const Params& params = {}) {
+  Report report;
+  Problem problem;
+  problem.keyframes = keyframes;
+  const T smoother(with(typename T::Options{}, params));
+  EXPECT_EQ(smoother.declines(problem), std::nullopt);
+  auto curve = smoother.smooth(problem, report);
+  EXPECT_TRUE(report.notes.empty());
+  return curve;
+}
+
+/// Uneven: 0.1 to 0.7 s apart, from 1000 s on.
+std::vector<double> uneven(std::size_t n) {
+  std::vector<double> out;
+  double time = 1000.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out.push_back(time);
+    time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
+  }
+  return out;
+}
+
+template <class Truth>
+Trajectory poses_of(const std::vector<double>& stamps, Truth truth) {
+  Trajectory out;
+  for (const double stamp : stamps) out.push_back({stamp, truth(stamp)});
+  return out;
+}
+
+/// Ten times in every interval, and the last keyframe.
+std::vector<double> dense(const Trajectory& keyframes) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    for (int k = 0; k < 10; ++k) {
+      out.push_back(keyframes[i].stamp + 0.1 * k * (keyframes[i + 1].stamp - keyframes[i].stamp));
+    }
+  }
+  out.push_back(keyframes.back().stamp);
+  return out;
+}
+
+template <class Truth>
+void expect_follows(const Curve& curve, const Trajectory& keyframes, Truth truth, double near) {
+  for (const double time : dense(keyframes)) {
+    ASSERT_TRUE(is_close(curve.at(time), truth(time), near, near)) << "at " << time;
+  }
+}
+
+/// Position a polynomial of the given degree, attitude a polynomial angle about one axis.
+auto polynomial(int degree) {
+  return [degree](double time) {
+    const double s = 0.2 * (time - 1000.0);
+    double power = 1.0;
+    Vector3 place(1.0, -2.0, 0.5);
+    double angle = 0.3;
+    for (int k = 1; k <= degree; ++k) {
+      power *= s;
+      place += power * Vector3(0.5 / k, 0.3 - 0.2 * k, 0.1 * k);
+      angle += 0.4 * power / k;
+    }
+    return Pose{exp_so3({0.2, 0.1, -0.7}) * exp_so3(angle * Vector3(1.0, -2.0, 2.0) / 3.0), place};
+  };
+}
+
+TEST(SplineBasis, IsAPartitionOfUnityAndNeverNegativeAndReproducesTime) {
+  for (std::size_t order = 2; order <= 6; ++order) {
+    const auto sites = uneven(9);
+    const auto basis = SplineBasis::for_sites(order, sites);
+    EXPECT_EQ(basis.size(), sites.size());
+    const std::vector<double>& breaks = basis.breaks();
+    for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
+      for (const double u : {0.0, 0.3, 0.9, 1.0}) {
+        const double time = breaks[piece] + u * (breaks[piece + 1] - breaks[piece]);
+        const auto N = basis.values(piece, time);
+        double sum = 0.0, mean = 0.0;
+        for (std::size_t j = 0; j < order; ++j) {
+          EXPECT_GE(N[j], -1e-12);
+          sum += N[j];
+          mean += N[j] * (basis.greville(piece + j) - 1000.0);
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-13);
+        EXPECT_NEAR(mean, time - 1000.0, 1e-12);
+        EXPECT_NEAR(basis.cumulative(piece, time)[0], 1.0, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(Turning, AgreesWithDifferences) {
+  const std::array<Rotation, 5> controls{exp_so3({0.1, 0.2, 0.3}),
+                                         exp_so3({0.4, 0.0, 0.6}),
+                                         exp_so3({0.5, -0.6, 0.9}),
+                                         exp_so3({1.5, -0.6, 0.4}),
+                                         exp_so3({1.2, -1.6, 0.0})};
+  const SplineBasis::Values B{1.0, 0.95, 0.7, 0.3, 0.02, 0.0};
+  const Turning here = turning(controls.data(), 5, B);
+  constexpr double step = 1e-6;
+  for (std::size_t j = 0; j < 5; ++j) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto moved = [&](double by) {
+        auto there = controls;
+        there[j] = exp_so3(by * Vector3::Unit(axis)) * there[j];
+        return turning(there.data(), 5, B).rotation;
+      };
+      const Vector3 numeric = log_so3(moved(step) * moved(-step).conjugate()) / (2.0 * step);
+      EXPECT_LT((numeric - here.by[j].col(axis)).norm(), 1e-8) << j << ", " << axis;
+    }
+  }
+}
+
+TEST(BSpline, PassesThroughTheKeyframesInEveryOrder) {
+  for (const std::size_t n : {1u, 2u, 3u, 5u, 6u, 60u}) {
+    Trajectory keyframes = hand_held_truth(n);
+    for (int order = 2; order <= 6; ++order) {
+      const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
+      for (const auto& [stamp, pose] : keyframes) {
+        EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-11, 1e-11)) << order << " of " << n;
+      }
+    }
+  }
+}
+
+TEST(BSpline, OfOrderKReproducesPolynomialsOfDegreeKMinusOne) {
+  for (int order = 2; order <= 6; ++order) {
+    const auto truth = polynomial(order - 1);
+    const Trajectory keyframes = poses_of(uneven(14), truth);
+    const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
+    expect_follows(*curve, keyframes, truth, 1e-9);
+  }
+}
+
+TEST(BSpline, OfOrderTwoIsThePolyline) {
+  const Trajectory keyframes = hand_held_truth(20);
+  const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{2}}});
+  const Polyline polyline(keyframes);
+  expect_follows(
+      *curve, keyframes, [&](double time) { return polyline.at(time); }, 1e-12);
+}
+
+TEST(BSpline, OfAHigherOrderInterpolatesASmoothPathBetter) {
+  // Away from the ends the error of order k falls like h^k.
+  double before = 1.0;
+  for (int order = 2; order <= 6; order += 2) {
+    const auto truth = [](double time) {
+      const double s = 0.11 * (time - 1000.0);
+      return Pose{exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
+                  {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}};
+    };
+    const Trajectory keyframes = poses_of(uneven(60), truth);
+    const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
+    double worst = 0.0;
+    for (const double time : dense(keyframes)) {
+      if (time < 1003.0 || time > keyframes.back().stamp - 3.0) continue;
+      worst = std::max(worst, (curve->at(time).translation - truth(time).translation).norm());
+      worst = std::max(worst, angle_between(curve->at(time).rotation, truth(time).rotation));
+    }
+    EXPECT_LT(worst, 0.1 * before) << order;
+    before = worst;
+  }
+}
+
+TEST(BSpline, SaysSoWhenItFallsBackToGreatArcs) {
+  Problem problem;
+  for (int i = 0; i < 12; ++i) {
+    problem.keyframes.push_back(
+        {0.5 * i, {exp_so3({0.0, 0.0, i % 2 == 0 ? 0.0 : 3.1}), Vector3::Zero()}});
+  }
+  Report report;
+  const auto curve = BSplineThrough({}).smooth(problem, report);
+  ASSERT_EQ(report.notes.size(), 1u);
+  for (const auto& [stamp, pose] : problem.keyframes) {
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-9, 1e-9));
+  }
+}
+
+TEST(Screw, IsExactOnAHelix) {
+  // Radius 2 m, 0.5 rad/s, rising 0.3 m/s, facing along: body twist ((1, 0, 0.3), (0, 0, 0.5)).
+  const auto helix = [](double time) {
+    const double angle = 0.5 * (time - 1000.0);
+    return turned_about_z(angle, {2.0 * std::sin(angle), 2.0 - 2.0 * std::cos(angle), 0.6 * angle});
+  };
+  const Trajectory keyframes = poses_of(uneven(12), helix);
+  const auto curve = smooth<Screw>(keyframes);
+  expect_follows(*curve, keyframes, helix, 1e-12);
+  EXPECT_GT((Polyline(keyframes).at(1000.05).translation - helix(1000.05).translation).norm(),
+            1e-4);
+}
+
+TEST(Screw, PassesThroughTheKeyframesBitForBit) {
+  const Trajectory keyframes = hand_held_truth(20);
+  const auto curve = smooth<Screw>(keyframes);
+  for (const auto& [stamp, pose] : keyframes) {
+    EXPECT_EQ(curve->at(stamp).translation, pose.translation);
+    EXPECT_EQ(curve->at(stamp).rotation.coeffs(), pose.rotation.coeffs());
+  }
+}
+
+TEST(SavitzkyGolay, ReproducesPolynomialsOfItsDegree) {
+  for (int degree = 0; degree <= 5; ++degree) {
+    const auto truth = polynomial(degree);
+    const Trajectory keyframes = poses_of(uneven(20), truth);
+    for (const Params& window : {Params{{"window", std::int64_t{degree + 1}}},
+                                 Params{{"window", std::int64_t{9}}},
+                                 Params{{"window", std::int64_t{100}}},
+                                 Params{{"seconds", 1.5}},
+                                 Params{{"seconds", 0.01}}}) {
+      Params params = window;
+      params["degree"] = std::int64_t{degree};
+      expect_follows(*smooth<SavitzkyGolay>(keyframes, params), keyframes, truth, 1e-9);
+    }
+  }
+}
+
+TEST(SavitzkyGolay, ReproducesATurnThatGoesRoundWithinAWindow) {
+  const auto spin = [](double time) { return turned_about_z(2.0 * (time - 1000.0), {1, 2, 3}); };
+  const Trajectory keyframes = poses_of(uneven(20), spin);
+  expect_follows(
+      *smooth<SavitzkyGolay>(keyframes, {{"window", std::int64_t{15}}}), keyframes, spin, 1e-11);
+}
+
+TEST(SavitzkyGolay, OnEvenStampsHasThePublishedWeights) {
+  // Five points, quadratic: (-3, 12, 17, 12, -3) / 35 (Savitzky & Golay 1964, table I).
+  const std::array<double, 5> weights{-3.0, 12.0, 17.0, 12.0, -3.0};
+  for (std::size_t k = 0; k < 5; ++k) {
+    Trajectory keyframes(11);
+    for (std::size_t i = 0; i < 11; ++i) keyframes[i].stamp = 0.5 * static_cast<double>(i);
+    keyframes[3 + k].world_from_body.translation = {1.0, -2.0, 0.0};
+    const auto curve = smooth<SavitzkyGolay>(
+        keyframes, {{"degree", std::int64_t{2}}, {"window", std::int64_t{5}}});
+    EXPECT_NEAR(curve->at(2.5).translation.x(), weights[k] / 35.0, 1e-14);
+    EXPECT_NEAR(curve->at(2.5).translation.y(), -2.0 * weights[k] / 35.0, 1e-14);
+  }
+}
+
+TEST(SavitzkyGolay, HasNoKink) {
+  const Trajectory keyframes = hand_held_truth(20);
+  const auto curve = smooth<SavitzkyGolay>(keyframes);
+  constexpr double h = 1e-5;
+  for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
+    const double t = keyframes[i].stamp;
+    const Pose here = curve->at(t);
+    const auto speed = [&](double side) {
+      return Vector3((curve->at(t + side).translation - here.translation) / side);
+    };
+    const auto turn = [&](double side) {
+      return Vector3(log_so3(here.rotation.conjugate() * curve->at(t + side).rotation) / side);
+    };
+    EXPECT_LT((speed(h) - speed(-h)).norm(), 1e-3);
+    EXPECT_LT((turn(h) - turn(-h)).norm(), 1e-3);
+  }
+}
+
+TEST(SavitzkyGolay, RefusesAWindowThatCannotHoldItsDegree) {
+  EXPECT_THROW(SavitzkyGolay({.degree = 3, .window = 3}), OptionError);
+  EXPECT_NO_THROW(SavitzkyGolay({.degree = 3, .window = 4}));
+  Problem problem;
+  problem.keyframes = hand_held_truth(3);
+  EXPECT_EQ(SavitzkyGolay({}).declines(problem), "fewer than degree + 1 = 4 keyframes");
+}
+
+}  // namespace
+}  // namespace loopbench
