@@ -9,6 +9,9 @@
 namespace loopbench {
 namespace {
 
+// Half a metre a second, two seconds out and two back, at 160 pixels: one of them is 2 cm of wall.
+constexpr double kDrift = 0.1;  // [m]
+
 FrontendOptions quick() {
   FrontendOptions out;
   out.features.count = 300;
@@ -72,7 +75,7 @@ TEST(Frontend, TracksAndClosesTheLoopOfARoomWalkedOutAndBack) {
   const OutAndBack source(0, 0);
   const Sequence sequence = run_frontend(source, "room", quick(), {});
   check(sequence.problem, "room");
-  EXPECT_LT(largest_error(sequence, source), 0.05);
+  EXPECT_LT(largest_error(sequence, source), kDrift);
   EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size(), source.size());
   EXPECT_EQ(sequence.problem.odometry.size() + 1, sequence.problem.keyframes.size());
   EXPECT_EQ(sequence.problem.common_view.size(), sequence.problem.odometry.size());
@@ -139,7 +142,7 @@ TEST(Frontend, SaysWhereTrackingWasLostAndRecovered) {
             std::string::npos)
       << told;
   EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size() + 3, source.size());
-  EXPECT_LT(largest_error(sequence, source), 0.05);
+  EXPECT_LT(largest_error(sequence, source), kDrift);
 }
 
 TEST(Frontend, BeginsAnewWhenLostForLongAndSaysSo) {
@@ -199,7 +202,7 @@ TEST(Frontend, OtherFeaturesTrackToo) {
     options.features.kind = kind;
     options.loops.enabled = false;
     const Sequence sequence = run_frontend(source, "room", options, {});
-    EXPECT_LT(largest_error(sequence, source), 0.1) << to_text(kind);
+    EXPECT_LT(largest_error(sequence, source), kDrift) << to_text(kind);
   }
 }
 
