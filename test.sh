@@ -12,4 +12,10 @@ for preset in "$@"; do
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset"
   ctest --preset "$preset"
+  if [[ $preset == release ]]; then
+    # The default comparison against its baseline: numbers that got worse fail here.
+    loopbench=build/release/loopbench checked=build/release/check
+    $loopbench run configs/quickstart.yaml --out $checked >/dev/null
+    $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
+  fi
 done

@@ -71,6 +71,9 @@ std::string told(const PoseGraphOptions& o, const PoseGraph& graph, std::size_t 
     if (!o.true_list.empty()) text += ", only those in " + o.true_list;
     if (o.skip_placeholders) text += ", without placeholders";
   }
+  if (o.false_closures.share > 0.0) {
+    text += fmt::format(", {:.0f} % of them false and added", 100.0 * o.false_closures.share);
+  }
   if (graph.similarity) text += "; Sim(3) chain: keyframes are its rigid part";
   return text;
 }
@@ -102,9 +105,12 @@ Problem derive_problem(const PoseGraph& graph,
   KeyframeSplit told_apart = split(poses, kept);
   problem.keyframes = std::move(told_apart.keyframes);
   problem.frames = std::move(told_apart.frames);
-  problem.odometry = bridge(parts.odometry, kept);
+  if (kept.size() < poses.size()) refuse_gap(parts, graph, file, "when poses are left out");
+  problem.odometry =
+      kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
   problem.planar = graph.planar;
+  add_false_closures(problem, o.false_closures);
   return problem;
 }
 
@@ -117,7 +123,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     return path.empty() ? std::filesystem::path() : inputs.emplace_back(root.find(path));
   };
   const std::filesystem::path file = open(o.path);
-  const PoseGraph graph = read_g2o(file);
+  const PoseGraph graph = read_g2o(file, o.turns);
   sequence.problem = derive_problem(graph, o, file, open(lists ? o.true_list : ""));
   if (!o.truth.empty()) {
     sequence.reference = read_truth(open(o.truth), stamps_of(graph, o.period), o);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "datasets/dataset.hpp"
+#include "datasets/derive/false_closures.hpp"
 #include "datasets/formats/g2o.hpp"
 
 namespace loopbench {
@@ -20,17 +21,24 @@ inline auto choices(TruthAxes) {
                     std::pair{"kitti_camera", TruthAxes::kitti_camera}};
 }
 
+inline auto choices(TurnInformation) {
+  return std::array{std::pair{"half_angles", TurnInformation::half_angles},
+                    std::pair{"angles", TurnInformation::angles}};
+}
+
 struct PoseGraphOptions {
   std::string name;
   std::string path;
   std::string truth;
   TruthAxes truth_axes = TruthAxes::same;
+  TurnInformation turns = TurnInformation::half_angles;
   double period = 0.1;
   std::int64_t keyframes_every = 1;
   GraphClosures closures = GraphClosures::edges;
   std::int64_t closures_max = 0;
   bool skip_placeholders = false;
   std::string true_list;
+  FalseClosures false_closures;
   std::string sensor;
   std::string licence;
 };
@@ -41,6 +49,9 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("path", o.path, "g2o file");
   visit("truth", o.truth, "g2o with the same ids, or poses, as many; empty: none");
   visit("truth_axes", o.truth_axes, "body axes of the truth");
+  visit("information",
+        o.turns,
+        "what that of :QUAT edges is about: half_angles as g2o, angles as GTSAM and SE-Sync");
   visit("period", o.period, "stamp = id * period [s]", Above{0.0});
   visit("keyframes.every", o.keyframes_every, "k-th pose, and every loop's ends", Between{1});
   visit("closures.source", o.closures, "edges: all that are not i, i + 1");
@@ -50,13 +61,16 @@ void fields(PoseGraphOptions& o, Visit visit) {
         o.skip_placeholders,
         "drop closures measured as exactly the identity (robust_slam's unmeasured ones)");
   visit("closures.true_list", o.true_list, "file with `id id` a line: keep only these; empty: all");
+  false_closure_fields(o.false_closures, visit);
   visit("sensor", o.sensor, "free text for the results");
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
-/// Keyframes are every k-th pose, the last one and both ends of every closure taken; odometry
-/// between them is composed from the file's edges. The poses between become frames. `true_list`
-/// is the found file, or empty. Throws InputError. O(poses + edges).
+/// Consecutive poses need an edge each where poses are left out between keyframes or the file has
+/// no vertices; otherwise the graph may have gaps. Keyframes are every k-th pose, the last one and
+/// both ends of every closure taken; odometry between them is composed from the file's edges. The
+/// poses between become frames. `true_list` is the found file, or empty. Throws InputError. O(poses
+/// + edges).
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& options,
                        const std::filesystem::path& file,

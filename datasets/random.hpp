@@ -12,7 +12,7 @@
 namespace loopbench {
 
 /// What draws are for: a stream each, so that asking for more of one leaves the others alone.
-enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures = 3 };
+enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures = 3, shake = 4 };
 
 class Random {
  public:

@@ -110,6 +110,7 @@ Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
     closures = in_run(problem.keyframes, in.other_run, o);
   }
   problem.closures = std::move(closures);
+  add_false_closures(problem, o.false_closures);
   return problem;
 }
 
@@ -144,6 +145,10 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
   sequence.provenance.closures = told(o, sequence.problem.closures.size());
+  if (o.false_closures.share > 0.0) {
+    sequence.provenance.closures +=
+        fmt::format(", {:.0f} % of them false and added", 100.0 * o.false_closures.share);
+  }
   sequence.provenance.oracle_closures = o.closures == ClosureSource::reference;
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");

@@ -4,6 +4,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/derive/closure_file.hpp"
 #include "datasets/derive/closures.hpp"
+#include "datasets/derive/false_closures.hpp"
 #include "datasets/derive/keyframes.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "datasets/formats/formats.hpp"
@@ -40,6 +41,7 @@ struct TrajectoryOptions {
   std::int64_t closures_max = 20;
   ClosureNoise closures_noise;
   Reach reach;
+  FalseClosures false_closures;
   std::int64_t seed = 1;
   std::string sensor;
   std::string licence;
@@ -85,6 +87,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.reach.max_gap,
         "longest gap interpolated in reference or other run [s]",
         Between{0.0, 1e9});
+  false_closure_fields(o.false_closures, visit);
   visit("seed", o.seed, "of the noise on closures from the reference");
   visit("sensor", o.sensor, "free text for the results");
   visit("licence", o.licence, "of the data, free text for the results");

@@ -16,14 +16,20 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 some cells failed, 2 unusable input, 3 internal error, "
+      "Exit codes: 0 done, 1 some cells failed or got worse, 2 unusable input, 3 internal error, "
       "130 interrupted.");
   int exit_code = kExitOk;
   add_run(app, exit_code, {source_commit, source_state});
   add_list(app, exit_code);
   add_table(app, exit_code);
+  add_compare(app, exit_code);
+  add_check(app, exit_code);
   add_eval(app, exit_code);
   add_reproduce(app, exit_code);
+  add_calibrate(app, exit_code);
+  add_merge(app, exit_code);
+  add_profile(app, exit_code);
+  add_verify(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

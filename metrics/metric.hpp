@@ -32,6 +32,7 @@ struct MetricEntry {
   /// Throws OptionError on bad options, Undefined when the sequence has nothing to measure,
   /// std::runtime_error when the estimate cannot be measured.
   std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
+  bool needs_reference = true;  ///< false: judges from the context alone, also without a reference
 };
 
 /// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry.
@@ -44,6 +45,14 @@ MetricEntry metric(std::string name, std::string summary, Function score) {
           [score](const Evaluation& evaluation, const Params& given) {
             return score(evaluation, with(Options{}, given));
           }};
+}
+
+/// The same for a metric that looks at the problem and the estimate only.
+template <class Options, class Function>
+MetricEntry metric_without_reference(std::string name, std::string summary, Function score) {
+  MetricEntry out = metric<Options>(std::move(name), std::move(summary), score);
+  out.needs_reference = false;
+  return out;
 }
 
 /// Every built-in.

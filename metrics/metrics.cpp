@@ -9,6 +9,7 @@
 #include "metrics/coverage.hpp"
 #include "metrics/diagnostics.hpp"
 #include "metrics/gain_along.hpp"
+#include "metrics/graph_cost.hpp"
 #include "metrics/interpolation_floor.hpp"
 #include "metrics/jerk.hpp"
 #include "metrics/jumps.hpp"
@@ -42,6 +43,8 @@ std::vector<MetricEntry> metrics() {
           "gain_along", "what was gained on the raw keyframes, by axis and third", gain_along),
       metric<ClosureResidualOptions>(
           "closure_residual", "what the loop closures still disagree with", closure_residual),
+      metric_without_reference<GraphCostOptions>(
+          "graph_cost", "squared Mahalanobis errors of all edges, summed", graph_cost),
       metric<LocalShapeOptions>(
           "local_shape", "how far neighbouring keyframes moved against each other", local_shape),
       metric<JumpsOptions>("jumps", "jumps of the curve and its derivatives at keyframes", jumps),

@@ -33,16 +33,28 @@ GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
       parts.closures.push_back(edge);
     }
   }
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i]) continue;
+    if (found[i]) parts.odometry[kept++] = parts.odometry[i];
+  }
+  parts.odometry.resize(kept);
+  return parts;
+}
+
+void refuse_gap(const GraphParts& parts,
+                const PoseGraph& graph,
+                const std::filesystem::path& file,
+                const std::string& why) {
+  for (std::size_t i = 0; i + 1 < graph.ids.size(); ++i) {
+    if (i < parts.odometry.size() && parts.odometry[i].from == i) continue;
     throw input_error(file.string(),
                       0,
                       fmt::format("found no edge between {} and {}, expected odometry between "
-                                  "consecutive poses",
+                                  "consecutive poses {}",
                                   graph.ids[i],
-                                  graph.ids[i + 1]));
+                                  graph.ids[i + 1],
+                                  why));
   }
-  return parts;
 }
 
 std::vector<double> stamps_of(const PoseGraph& graph, double period) {

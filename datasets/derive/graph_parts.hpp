@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "datasets/derive/keyframes.hpp"
@@ -11,13 +12,19 @@ namespace loopbench {
 
 /// Edges name poses by index, as in PoseGraph.
 struct GraphParts {
-  std::vector<Edge> odometry;  ///< i joins pose i and i + 1
+  std::vector<Edge> odometry;  ///< each joins a pose and the next, ascending; some may be missing
   std::vector<Edge> closures;  ///< the others, in file order; a second edge i, i + 1 too
 };
 
-/// Throws InputError naming the ids when the chain has a gap, and `file:line` when an edge's
-/// information is not positive definite or it joins a pose to itself. O(edges).
+/// Throws InputError `file:line` when an edge's information is not positive definite or it joins a
+/// pose to itself. O(edges).
 GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file);
+
+/// Throws InputError naming the ids when the chain has a gap, and `why` that matters.
+void refuse_gap(const GraphParts& parts,
+                const PoseGraph& graph,
+                const std::filesystem::path& file,
+                const std::string& why);
 
 /// stamp = id * period [s].
 std::vector<double> stamps_of(const PoseGraph& graph, double period);

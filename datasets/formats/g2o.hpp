@@ -20,9 +20,15 @@ struct PoseGraph {
   bool similarity = false;         ///< RST3 lines; edge.scale is then meaningful
 };
 
+/// What the rotation part of a :QUAT edge's information is about. g2o minimises the quaternion's
+/// vector part, half angles; GTSAM, SE-Sync and the papers that use them take the same numbers for
+/// angles, four times as sure.
+enum class TurnInformation { half_angles, angles };
+
 /// How each kind of line is read (g2o's wiki and sources; TORO; COP-SLAM):
 /// - information of :QUAT edges is stored for the quaternion's vector part (half angles) and is
-///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2;
+///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (unless told that it
+///   is about angles);
 /// - SE2 is lifted: x, y, yaw from the file, z, roll, pitch with a positive diagonal of their own,
 ///   which a planar problem never feels;
 /// - VERTEX3, EDGE3 hold x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll), information in
@@ -32,7 +38,8 @@ struct PoseGraph {
 ///   other way round than edge.scale; vertices' scales are checked and not kept;
 /// - FIX and # lines are passed over; any other tag is refused.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
-PoseGraph read_g2o(const std::filesystem::path& file);
+PoseGraph read_g2o(const std::filesystem::path& file,
+                   TurnInformation turns = TurnInformation::half_angles);
 
 /// Writes vertices and edges so that read_g2o returns them: SE2 lines when `planar`, RST3 when
 /// `similarity`, else SE3:QUAT. Yaw angles and scales come back to rounding, the rest to the bit.

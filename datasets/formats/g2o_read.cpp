@@ -68,9 +68,9 @@ void turn_round(const TextFile& file, std::size_t line, Edge& edge) {
 
 }  // namespace
 
-PoseGraph read_g2o(const std::filesystem::path& path) {
+PoseGraph read_g2o(const std::filesystem::path& path, TurnInformation turns) {
   TextFile file(path);
-  Records records = read_records(file);
+  Records records = read_records(file, turns);
   PoseGraph out;
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;

@@ -75,8 +75,8 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
 /// One line being read: every missing column is a refusal that says what the tag needs.
 class Record {
  public:
-  Record(const TextFile& file, const Line& line, const Tag& tag)
-      : file_(file), line_(line), tag_(tag), columns_(file, line) {
+  Record(const TextFile& file, const Line& line, const Tag& tag, TurnInformation turns)
+      : file_(file), line_(line), tag_(tag), turns_(turns), columns_(file, line) {
     columns_.word();
   }
 
@@ -139,15 +139,19 @@ class Record {
       case Layout::euler:
         return upper<6>();
       case Layout::quaternion:
-        return from_half_angles(upper<6>());
+        return of_quaternion(upper<6>());
       case Layout::quaternion_and_scale:
         break;
     }
     const bool has_scale = count_columns(file_, line_) > 32;
-    return from_half_angles(has_scale ? Matrix6(upper<7>().topLeftCorner<6, 6>()) : upper<6>());
+    return of_quaternion(has_scale ? Matrix6(upper<7>().topLeftCorner<6, 6>()) : upper<6>());
   }
 
  private:
+  Matrix6 of_quaternion(const Matrix6& written) const {
+    return turns_ == TurnInformation::half_angles ? from_half_angles(written) : written;
+  }
+
   void need_column() const {
     if (done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
   }
@@ -169,6 +173,7 @@ class Record {
   const TextFile& file_;
   const Line& line_;
   const Tag& tag_;
+  TurnInformation turns_;
   Columns columns_;
 };
 
@@ -204,7 +209,7 @@ struct Part {
   std::size_t lines = 0;
 };
 
-Part read_part(TextFile& file) {
+Part read_part(TextFile& file, TurnInformation turns) {
   first_line(file);
   Part part;
   Records& out = part.records;
@@ -224,7 +229,7 @@ Part read_part(TextFile& file) {
                        std::string(tag.word) + " in a file that began with " + first->word +
                            " on line " + std::to_string(first_at) + ", expected one kind of pose");
     }
-    const Record record(file, line, tag);
+    const Record record(file, line, tag, turns);
     if (tag.is_edge) {
       if (out.edges.empty()) {
         out.edges.reserve(file.lines_like(line));
@@ -243,10 +248,11 @@ Part read_part(TextFile& file) {
 
 }  // namespace
 
-Records read_records(TextFile& file) {
-  std::vector<Part> parts = read_in_parts(file, read_part, [](const Part& a, const Part& b) {
-    return a.records.kind == b.records.kind;
-  });
+Records read_records(TextFile& file, TurnInformation turns) {
+  std::vector<Part> parts = read_in_parts(
+      file,
+      [turns](TextFile& part) { return read_part(part, turns); },
+      [](const Part& a, const Part& b) { return a.records.kind == b.records.kind; });
   Records out = std::move(parts.front().records);
   std::size_t lines = parts.front().lines;
   for (std::size_t i = 1; i < parts.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "datasets/formats/g2o.hpp"
 #include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
@@ -35,6 +36,6 @@ struct Records {
 /// Every VERTEX and EDGE line; FIX lines are passed over. Throws InputError: unknown tags, wrong
 /// columns, kinds mixed, quaternions not unit, scales not positive, information not positive
 /// definite, edges from a vertex to itself.
-Records read_records(TextFile& file);
+Records read_records(TextFile& file, TurnInformation turns);
 
 }  // namespace loopbench

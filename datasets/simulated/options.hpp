@@ -44,6 +44,13 @@ struct SystematicDrift {
   double pitch_per_radian = 0.0;  ///< of turn either way [rad/rad]
 };
 
+/// White noise on every tracked frame, keyframes among them: what smoothing can remove. Odometry is
+/// measured without it.
+struct Shake {
+  double sigma_t = 0.0;  ///< [m]
+  double sigma_r = 0.0;  ///< [rad]
+};
+
 struct SimulatedClosures {
   double radius = 0.0;       ///< [m]; 0: the path's own
   double angle = 30.0;       ///< [deg]
@@ -64,6 +71,7 @@ struct SimulatedOptions {
   bool planar = false;
   OdometryNoise noise;
   SystematicDrift drift;
+  Shake shake;
   SimulatedClosures closures;
 };
 
@@ -98,6 +106,9 @@ void fields(SimulatedOptions& o, Visit visit) {
   visit("drift.pitch_per_second", d.pitch_per_second, "steady turn about body y [rad/s]", some);
   visit("drift.pitch_per_metre", d.pitch_per_metre, "turn about body y [rad/m]", some);
   visit("drift.pitch_per_radian", d.pitch_per_radian, "turn about body y [rad/rad]", some);
+
+  visit("shake.sigma_t", o.shake.sigma_t, "white noise on every frame [m]", Between{0, 1e3});
+  visit("shake.sigma_r", o.shake.sigma_r, "white noise on every frame [rad]", Between{0, 1});
 
   SimulatedClosures& c = o.closures;
   visit(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "datasets/random.hpp"
 #include "datasets/simulated/closures.hpp"
 #include "datasets/simulated/odometry.hpp"
 #include "datasets/simulated/path.hpp"
@@ -57,6 +58,18 @@ Trajectory at(const std::vector<std::size_t>& indices, const Trajectory& poses) 
   return out;
 }
 
+/// Each pose moved on its own, in the plane when `planar`.
+void shake(Trajectory& poses, const SimulatedOptions& options) {
+  const auto [sigma_t, sigma_r] = options.shake;
+  if (sigma_t == 0.0 && sigma_r == 0.0) return;
+  const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
+  Random random(options.seed, Purpose::shake);
+  for (auto& [stamp, pose] : poses) {
+    const Twist noise = kept.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
+    pose = normalized(pose * exp_se3(noise));
+  }
+}
+
 }  // namespace
 
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
@@ -73,6 +86,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   const Trajectory truth = sampled(path, frame_rate, seconds, options.planar);
   const std::vector<std::size_t> keyframes = chosen(static_cast<std::size_t>(wanted), truth.size());
   Odometry odometry = measure_odometry(truth, keyframes, options);
+  shake(odometry.frames, options);
   const SimulatedClosures& closures = options.closures;
   const RevisitRule same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
                          closures.angle * std::numbers::pi / 180.0,

@@ -11,6 +11,7 @@ namespace loopbench {
 
 inline constexpr int kExitOk = 0;
 inline constexpr int kExitSomeCellsFailed = 1;
+inline constexpr int kExitRegression = 1;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitInternal = 3;
 inline constexpr int kExitInterrupted = 130;
@@ -19,7 +20,13 @@ inline constexpr int kExitInterrupted = 130;
 void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
+void add_profile(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench

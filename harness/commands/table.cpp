@@ -2,47 +2,49 @@
 
 #include <CLI/CLI.hpp>
 
+#include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
+#include "harness/export/where.hpp"
 
 namespace loopbench {
 namespace {
 
-enum class TableFormat { markdown, csv, rows };
+enum class TableFormat { markdown, terminal, latex, csv, json, rows };
 
 struct TableArguments {
   std::string store;
-  std::vector<std::string> where;
   TableSpec spec;
+  std::vector<std::string> where;
+  double alpha = 0.05;
   TableFormat format = TableFormat::markdown;
 };
 
-/// Keeps records whose named column has the given text: `metric=ate`.
-void filter(std::vector<Record>& records, const std::string& rule) {
-  const std::size_t equals = rule.find('=');
-  if (equals == std::string::npos) {
-    throw InputError("--where: '" + rule + "' is not COLUMN=TEXT, for example metric=ate");
+std::string text(const std::vector<Table>& tables, TableFormat format) {
+  if (format == TableFormat::csv) return csv(tables);
+  if (format == TableFormat::json) return json(tables);
+  if (format == TableFormat::markdown) return markdown(tables);
+  std::string out;
+  for (const Table& table : tables) {
+    const Sheet shown = sheet(table);
+    out += out.empty() ? "" : "\n";
+    out += format == TableFormat::latex ? latex(shown) : terminal(shown);
   }
-  const std::string name = rule.substr(0, equals);
-  const std::string text = rule.substr(equals + 1);
-  std::erase_if(records, [&](const Record& r) {
-    // Declined and failed cells have no metric, but their reasons belong into every table.
-    return field(r, name) != text && !(r.metric.empty() && field(r, name).empty());
-  });
+  return out;
 }
 
 int print_table(const TableArguments& arguments) {
   std::vector<Record> records = all_records(arguments.store);
-  for (const std::string& rule : arguments.where) filter(records, rule);
-  if (records.empty()) throw InputError(arguments.store + ": no row matches --where");
-  if (arguments.format == TableFormat::rows) {
-    fmt::print("{}", csv(records));
-    return kExitOk;
+  keep_where(records, arguments.where);
+  if (records.empty()) {
+    throw InputError(arguments.store +
+                     (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
   }
-  const std::vector<Table> tables = pivot(records, arguments.spec);
-  fmt::print("{}", arguments.format == TableFormat::csv ? csv(tables) : markdown(tables));
+  fmt::print("{}",
+             arguments.format == TableFormat::rows
+                 ? csv(records)
+                 : text(pivot(records, arguments.spec, arguments.alpha), arguments.format));
   return kExitOk;
 }
 
@@ -67,11 +69,21 @@ void add_table(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--show", arguments->spec.show, "Only these scores: ate,error x,gain,time")
       ->delimiter(',');
-  command->add_option("--where", arguments->where, "Keep rows with this text: COLUMN=TEXT");
-  const std::map<std::string, TableFormat> formats{
-      {"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"rows", TableFormat::rows}};
-  command->add_option("--format", arguments->format, "markdown, csv, or rows (the long table)")
-      ->transform(CLI::CheckedTransformer(formats).description("markdown|csv|rows"));
+  command->add_option("--where",
+                      arguments->where,
+                      "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated");
+  command->add_option("--alpha", arguments->alpha, "Level at which a best value is marked")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  const std::map<std::string, TableFormat> formats{{"markdown", TableFormat::markdown},
+                                                   {"terminal", TableFormat::terminal},
+                                                   {"latex", TableFormat::latex},
+                                                   {"csv", TableFormat::csv},
+                                                   {"json", TableFormat::json},
+                                                   {"rows", TableFormat::rows}};
+  command->add_option("--format", arguments->format, "How to print; rows is the long table")
+      ->transform(
+          CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json|rows"));
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }
 

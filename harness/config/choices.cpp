@@ -1,7 +1,9 @@
 #include "harness/config/choices.hpp"
 
 #include <algorithm>
+#include <map>
 
+#include "harness/config/calibration.hpp"
 #include "harness/config/grid.hpp"
 #include "harness/config/method_text.hpp"
 #include "harness/suggest.hpp"
@@ -153,8 +155,17 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   if (const std::string why = refuses_stages(stages); !why.empty()) {
     throw input_error(file, entry.line, text + ": " + why);
   }
+  std::map<std::string, std::vector<Setting>> calibrated;
+  if (const YamlNode* node = entry.find("calibration")) {
+    if (node->type != YamlNode::Type::scalar) {
+      throw input_error(file, node->line, "calibration: expected the name of a file");
+    }
+    std::vector<std::string> names;
+    for (const MethodEntry* stage : stages) names.push_back(stage->name);
+    calibrated = read_calibration(to_text(node->scalar), names, file, node->line);
+  }
   std::vector<MethodChoice> out;
-  for (const GridPoint& point : spread(entry, {"method", "label"}, file)) {
+  for (const GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
     MethodChoice choice{label_of(text, label, point), {}};
     for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     std::vector<std::vector<Setting>> by_stage(stages.size());
@@ -163,6 +174,11 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       by_stage[stage].push_back({name, setting.value, setting.line});
     }
     for (std::size_t i = 0; i < stages.size(); ++i) {
+      for (const Setting& learnt : calibrated[stages[i]->name]) {  // what the entry says goes first
+        if (std::ranges::count(by_stage[i], learnt.name, &Setting::name) == 0) {
+          by_stage[i].push_back(learnt);
+        }
+      }
       choice.stages[i].options = to_params(by_stage[i]);
       located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
         stages[i]->make(choice.stages[i].options);

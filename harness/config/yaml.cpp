@@ -1,9 +1,11 @@
 #include "harness/config/yaml.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <charconv>
 #include <optional>
+#include <sstream>
 
 #include "datasets/core/error.hpp"
 
@@ -80,15 +82,71 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
   return out;
 }
 
+/// Refuses bytes that are no UTF-8: yaml-cpp 0.7 reads some of them without end.
+void expect_utf8(const std::string& text, const std::string& file) {
+  std::size_t line = 1;
+  int more = 0;  // bytes that the character begun still needs
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_rest = (byte & 0xC0U) == 0x80U;
+    const bool is_start = byte < 0x80U || (byte >= 0xC2U && byte < 0xF5U);
+    if (more > 0 ? !is_rest : !is_start) {
+      throw input_error(file, line, "is not UTF-8 text, expected YAML");
+    }
+    if (more > 0) {
+      --more;
+    } else if (byte >= 0xC2U) {
+      more = byte < 0xE0U ? 1 : (byte < 0xF0U ? 2 : 3);
+    }
+    line += c == '\n' ? 1 : 0;
+  }
+  if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
+}
+
+/// Looks for a second document. LoadAll must not: yaml-cpp 0.7 finds documents without end behind a
+/// comma that nothing stands before.
+class Documents final : public YAML::EventHandler {
+ public:
+  std::size_t count = 0;
+
+  void OnDocumentStart(const YAML::Mark&) override { ++count; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&,
+                const std::string&,
+                YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&,
+                       const std::string&,
+                       YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&,
+                  const std::string&,
+                  YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+void expect_one_document(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  Documents documents;
+  while (documents.count < 2 && parser.HandleNextDocument(documents)) {
+  }
+  if (documents.count == 0) throw InputError(file + ": is empty, expected a map of settings");
+  if (documents.count > 1) throw InputError(file + ": holds more than one YAML document");
+}
+
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
+  expect_utf8(text, file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty()) throw InputError(file + ": is empty, expected a map of settings");
-    if (documents.size() > 1) throw InputError(file + ": holds more than one YAML document");
+    expect_one_document(text, file);
     Budget budget;
-    return convert(documents.front(), file, budget);
+    return convert(YAML::Load(text), file, budget);
   } catch (const YAML::Exception& error) {
     const auto line = error.mark.is_null() ? 0 : static_cast<std::size_t>(error.mark.line + 1);
     throw input_error(file, line, "not valid YAML: " + error.msg);

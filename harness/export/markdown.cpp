@@ -1,92 +1,72 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
+#include <cctype>
 
 #include "harness/export/text.hpp"
 
 namespace loopbench {
 namespace {
 
+/// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
+/// or a sign: names like uniform_position and p < 0.05 stay readable.
 std::string escaped(const std::string& text) {
+  const std::string line = one_line(text);
+  const auto is_word = [&](std::size_t i) {
+    return i < line.size() && std::isalnum(static_cast<unsigned char>(line[i])) != 0;
+  };
   std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const bool is_tag =
+        i + 1 < line.size() &&
+        (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
+    const bool opens = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
+    if (c == '<' && is_tag) {
+      out += "&lt;";
+    } else if (c == '&' && is_tag) {
+      out += "&amp;";
+    } else {
+      if (opens || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
+      out += c;
+    }
   }
   return out;
 }
 
-/// Columns on a terminal: code points, not bytes.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+std::string marked(const SheetEntry& entry) {
+  const char* around = entry.mark == Mark::best ? "**" : entry.mark == Mark::second ? "_" : "";
+  return around + escaped(entry.text) + around;
 }
 
-std::string padded(const std::string& text, std::size_t columns, bool left) {
-  const std::string gap(columns - std::min(columns, width(text)), ' ');
-  return left ? text + gap : gap + text;
-}
-
-std::string shown(const TableCell& cell, int digits) {
-  if (cell.value) {
-    const std::string text = fmt::format("{:.{}f}", *cell.value, digits);
-    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-    return is_zero && text[0] == '-' ? text.substr(1) : text;  // -0.00 says nothing
-  }
-  return cell.status.empty() ? "-" : cell.status;
+std::string line_of(const std::vector<std::string>& texts, const std::vector<std::size_t>& wide) {
+  std::string out = "|";
+  for (std::size_t c = 0; c < texts.size(); ++c)
+    out += " " + padded(texts[c], wide[c], c == 0) + " |";
+  return out + "\n";
 }
 
 }  // namespace
 
-int decimals(double largest) {
-  if (!(largest > 0.0) || !std::isfinite(largest)) return 4;
-  const int whole_digits = static_cast<int>(std::floor(std::log10(largest))) + 1;
-  return std::clamp(4 - whole_digits, 1, 4);
-}
-
-std::string markdown(const Table& table) {
-  std::vector<std::vector<std::string>> grid;  // by column, heading first
-  grid.push_back({escaped(table.corner)});
-  for (const std::string& row : table.rows) grid.back().push_back(escaped(row));
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    double largest = 0.0;
-    bool all_whole = true;
-    for (const auto& row : table.cells) {
-      const double value = row[c].value.value_or(0.0);
-      largest = std::max(largest, std::abs(value));
-      all_whole = all_whole && value == std::round(value);
-    }
-    const int digits = all_whole && largest > 0.0 ? 0 : decimals(largest);
-    grid.push_back({escaped(table.columns[c])});
-    for (const auto& row : table.cells) grid.back().push_back(shown(row[c], digits));
+std::string markdown(const Sheet& sheet) {
+  std::vector<std::vector<std::string>> grid(1);
+  for (const std::string& heading : sheet.headings) grid[0].push_back(escaped(heading));
+  for (const auto& line : sheet.lines) {
+    grid.emplace_back();
+    for (const SheetEntry& entry : line) grid.back().push_back(marked(entry));
   }
-  std::vector<std::size_t> widths;
-  for (const auto& column : grid) {
-    std::size_t widest = 3;
-    for (const std::string& text : column) widest = std::max(widest, width(text));
-    widths.push_back(widest);
+  const std::vector<std::size_t> wide = widths(grid);
+  std::string out = sheet.title.empty() ? "" : "### " + escaped(sheet.title) + "\n\n";
+  out += line_of(grid[0], wide);
+  std::vector<std::string> rule;
+  for (std::size_t c = 0; c < wide.size(); ++c) {
+    rule.push_back(c == 0 ? std::string(wide[c], '-') : std::string(wide[c] - 1, '-') + ":");
   }
-
-  std::string out = table.title.empty() ? "" : "### " + escaped(table.title) + "\n\n";
-  for (std::size_t line = 0; line <= table.rows.size(); ++line) {
-    out += "|";
-    for (std::size_t c = 0; c < grid.size(); ++c) {
-      out += " " + padded(grid[c][line], widths[c], c == 0) + " |";
-    }
-    out += "\n";
-    if (line > 0) continue;
-    out += "|";
-    for (std::size_t c = 0; c < grid.size(); ++c) {
-      out += c == 0 ? " " + std::string(widths[c], '-') + " |"
-                    : " " + std::string(widths[c] - 1, '-') + ": |";
-    }
-    out += "\n";
-  }
-  if (!table.notes.empty()) out += "\n";
-  for (const std::string& note : table.notes) out += "- " + escaped(note) + "\n";
+  out += line_of(rule, wide);
+  for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
+  if (!sheet.notes.empty()) out += "\n";
+  for (const std::string& note : sheet.notes) out += "- " + escaped(note) + "\n";
   return out;
 }
+
+std::string markdown(const Table& table) { return markdown(sheet(table)); }
 
 std::string markdown(const std::vector<Table>& tables) {
   std::string out;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
+#include "harness/export/better.hpp"
 #include "harness/export/notes.hpp"
 
 namespace loopbench {
@@ -38,11 +39,18 @@ class Order {
   std::vector<std::string> names_;
 };
 
+/// What is compared where the best is marked.
+struct Contest {
+  ByRun runs;
+  Better better = Better::neither;
+};
+
 struct Builder {
   Order rows;
   Order columns;
   std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
   std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
+  std::map<std::pair<std::size_t, std::size_t>, Contest> contests;
   std::size_t most = 1;                           // records averaged into one cell
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
   std::vector<Missing> missing;
@@ -89,10 +97,50 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   const double sum = cell.value.value_or(0.0) * static_cast<double>(cell.records);
   ++cell.records;
   table.most = std::max(table.most, cell.records);
-  cell.value = (sum + value(record, spec.value)) / static_cast<double>(cell.records);
+  const double own_value = value(record, spec.value);
+  cell.value = (sum + own_value) / static_cast<double>(cell.records);
+  Contest& contest = table.contests[{row, column}];
+  if (record.oracle) return;  // who was shown the reference does not compete
+  contest.runs[record.sequence + "\n" + std::to_string(record.repeat)] = own_value;
+  contest.better = better(record);
 }
 
-Table finish(const Builder& table, const std::string& title, const TableSpec& spec) {
+/// Marks the best along every column (or every row) of the finished table.
+void mark(Table& out, const Builder& table, bool along_columns, double alpha) {
+  const std::size_t lanes = along_columns ? out.columns.size() : out.rows.size();
+  const std::size_t entries = along_columns ? out.rows.size() : out.columns.size();
+  bool is_marked = false;
+  std::string why_none;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    std::vector<ByRun> competitors(entries);
+    Better way = Better::neither;
+    const auto at = [&](std::size_t i) {
+      return along_columns ? std::pair{i, lane} : std::pair{lane, i};
+    };
+    for (std::size_t i = 0; i < entries; ++i) {
+      const auto found = table.contests.find(at(i));
+      if (found == table.contests.end()) continue;
+      competitors[i] = found->second.runs;
+      way = found->second.better;
+    }
+    if (way == Better::neither) continue;
+    const Marks marks = mark_best(competitors, way == Better::higher, alpha);
+    if (!marks.why_none.empty()) why_none = marks.why_none;
+    for (std::size_t i = 0; i < entries; ++i) {
+      out.cells[at(i).first][at(i).second].mark = marks.marks[i];
+      is_marked = is_marked || marks.marks[i] != Mark::none;
+    }
+  }
+  if (is_marked) {
+    out.notes.insert(out.notes.begin(),
+                     "marked: best, and second best, where paired Wilcoxon tests over the runs "
+                     "tell it from all others (Holm over all pairs)");
+  } else if (!why_none.empty()) {
+    out.notes.push_back("no best is marked: " + why_none);
+  }
+}
+
+Table finish(const Builder& table, const std::string& title, const TableSpec& spec, double alpha) {
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
@@ -112,6 +160,9 @@ Table finish(const Builder& table, const std::string& title, const TableSpec& sp
     }
     out.cells.push_back(std::move(line));
   }
+  // Methods compete; a best sequence means nothing.
+  if (std::ranges::count(spec.rows, "method") > 0) mark(out, table, true, alpha);
+  if (spec.columns == std::vector<std::string>{"method"}) mark(out, table, false, alpha);
   return out;
 }
 
@@ -134,7 +185,7 @@ TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& rec
 
 }  // namespace
 
-std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& given) {
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& given, double alpha) {
   const TableSpec spec = telling_protocols_apart(given, records);
   Order titles;
   std::vector<Builder> builders;
@@ -166,7 +217,7 @@ std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& gi
   if (builders.empty()) throw InputError("the table is empty: no row is left to show");
   std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.push_back(finish(builders[t], titles.names()[t], spec));
+    out.push_back(finish(builders[t], titles.names()[t], spec, alpha));
   }
   return out;
 }

@@ -256,6 +256,10 @@ class IsolatedSweep {
       if (loading && !idle) result.why += ", while loading its sequence";
     }
     result.worker = {true, context_.sweep.serial, context_.sweep.serial};
+    const std::vector<Choice>& stages = context_.sweep.methods[cell.method].stages;
+    result.oracle_method = std::ranges::any_of(stages, [&](const Choice& stage) {
+      return find_oracle(context_.catalogue, stage.name) != nullptr;
+    });
     finish(result, first.cell);
   }
 

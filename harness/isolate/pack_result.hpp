@@ -1,6 +1,8 @@
 /// The members of what travels from a worker to the sweep, each list once for both directions.
 #pragma once
 
+#include <concepts>
+
 #include "harness/isolate/pack.hpp"
 #include "harness/run/result.hpp"
 
@@ -33,7 +35,7 @@ void walk(Archive& a, T& file) { a(file.path)(file.bytes)(file.hash); }
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
-  a(facts.inputs)(facts.closures)(facts.oracle_closures);
+  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 

@@ -124,6 +124,30 @@ void judge(CellResult& result,
   }
 }
 
+/// What can be said from the problem alone; once, since neither pairs nor times play a part.
+void judge_without_reference(CellResult& result,
+                             const Sweep& sweep,
+                             const Sequence& sequence,
+                             const Curve& curve,
+                             const Catalogue& catalogue) {
+  const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
+  for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+    Evaluation evaluation;
+    evaluation.protocol = sweep.protocols[p].rules;
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          Times::keyframes,
+                          evaluation.protocol};
+    const ScoreResult row{p, Times::keyframes, "", {}, {}, Status::ok, ""};
+    for (const MetricChoice& choice : sweep.metrics) {
+      if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
+      score(result, choice, row, evaluation, catalogue);
+    }
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<const Method> make_method(const MethodChoice& choice,
@@ -166,6 +190,7 @@ CellResult run_cell(const Cell& cell,
         timed(result, *method, sequence.problem, sweep.timing);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
+      judge_without_reference(result, sweep, sequence, *curve, catalogue);
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {

@@ -18,6 +18,13 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
   out.inputs = hashed_inputs(sequence.provenance.inputs);
   out.closures = sequence.provenance.closures;
   out.oracle_closures = sequence.provenance.oracle_closures;
+  const auto count = [](const auto& items) { return static_cast<std::int64_t>(items.size()); };
+  const Problem& problem = sequence.problem;
+  out.size = {count(problem.keyframes),
+              count(problem.odometry),
+              count(problem.closures),
+              count(problem.frames),
+              count(sequence.reference)};
   if (with_trace) out.trace = sequence_trace(sequence);
   return out;
 }

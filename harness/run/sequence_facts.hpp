@@ -16,11 +16,21 @@ struct InputFile {
   std::string hash;  ///< of its content, see provenance/hash.hpp
 };
 
+/// How much a method is given.
+struct SequenceSize {
+  std::int64_t keyframes = 0;
+  std::int64_t odometry = 0;  ///< edges
+  std::int64_t closures = 0;
+  std::int64_t frames = 0;     ///< tracked between keyframes
+  std::int64_t reference = 0;  ///< poses the judge has
+};
+
 struct SequenceFacts {
   std::vector<InputFile> inputs;
   std::string closures;          ///< where the loop closures came from
   bool oracle_closures = false;  ///< they were measured in the reference
-  SequenceTrace trace;           ///< empty when the sweep keeps no traces
+  SequenceSize size;
+  SequenceTrace trace;  ///< empty when the sweep keeps no traces
 };
 
 /// Reads the inputs again to hash them. Throws InputError.

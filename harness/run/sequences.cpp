@@ -7,9 +7,24 @@
 namespace loopbench {
 namespace {
 
-const OptionInfo* seed_option(const DatasetEntry& entry) {
-  const auto found = std::ranges::find(entry.options, "seed", &OptionInfo::name);
-  return found == entry.options.end() ? nullptr : &*found;
+/// `seed`, and those of a part (`false_closures.seed`).
+bool is_seed(const OptionInfo& option) {
+  return option.name == "seed" || option.name.ends_with(".seed");
+}
+
+Params all_options(const DatasetChoice& choice, const DatasetEntry& entry) {
+  Params out;
+  for (const OptionInfo& option : entry.options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : choice.dataset.options) out.insert_or_assign(name, value);
+  return out;
+}
+
+/// Whether another seed makes other data: that of a part does only where the part has a share.
+bool decides(const OptionInfo& seed, const Params& options) {
+  if (!is_seed(seed)) return false;
+  const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");
+  if (share == options.end()) return true;
+  return share->second != Param{0.0} && share->second != Param{std::int64_t{0}};
 }
 
 }  // namespace
@@ -17,7 +32,10 @@ const OptionInfo* seed_option(const DatasetEntry& entry) {
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue) {
   std::vector<bool> out;
   for (const DatasetChoice& choice : sweep.datasets) {
-    out.push_back(seed_option(find_dataset(catalogue, choice.dataset.name)) != nullptr);
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    const Params options = all_options(choice, entry);
+    out.push_back(std::ranges::any_of(
+        entry.options, [&](const OptionInfo& option) { return decides(option, options); }));
   }
   return out;
 }
@@ -55,11 +73,10 @@ void Sequences::done(const Cell& cell) {
 }
 
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat) {
-  Params out;
-  for (const OptionInfo& option : entry.options) out.emplace(option.name, option.value);
-  for (const auto& [name, value] : choice.dataset.options) out.insert_or_assign(name, value);
-  if (seed_option(entry) != nullptr) {
-    out["seed"] = derived_seed(std::get<std::int64_t>(out.at("seed")), repeat);
+  Params out = all_options(choice, entry);
+  for (const OptionInfo& option : entry.options) {
+    if (!is_seed(option)) continue;
+    out[option.name] = derived_seed(std::get<std::int64_t>(out.at(option.name)), repeat);
   }
   return out;
 }
@@ -71,8 +88,9 @@ Sequence load_sequence(const Cell& cell,
   const DatasetChoice& choice = sweep.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
   Params options = choice.dataset.options;
-  if (seed_option(entry) != nullptr) {
-    options["seed"] = full_options(choice, entry, cell.repeat).at("seed");
+  const Params full = full_options(choice, entry, cell.repeat);
+  for (const OptionInfo& option : entry.options) {
+    if (is_seed(option)) options[option.name] = full.at(option.name);
   }
   Sequence sequence = entry.load(options, root);
   tell(choice.label, sequence);

@@ -158,6 +158,15 @@ void CellWriter::write_facts(const std::string& asked, const SequenceFacts& fact
         .bind(file.hash)
         .run();
   }
+  const SequenceSize& size = facts.size;
+  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?)")
+      .bind(asked)
+      .bind(size.keyframes)
+      .bind(size.odometry)
+      .bind(size.closures)
+      .bind(size.frames)
+      .bind(size.reference)
+      .run();
   const SequenceTrace& trace = facts.trace;
   if (!trace.keyframes.empty()) {
     database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?)")

@@ -97,10 +97,12 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
 std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
   Statement rows = database.prepare(
-      "SELECT id, position, key, build, sequence, repeat, method, dataset_options, method_options, "
-      "closures, oracle_closures, oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
-      "cpu_seconds_median, peak_memory, added_memory, allocations, status, signal, why FROM cell "
-      "WHERE position IS NOT NULL ORDER BY position");
+      "SELECT c.id, c.position, c.key, c.build, c.sequence, c.repeat, c.method, c.dataset_options, "
+      "c.method_options, c.closures, c.oracle_closures, c.oracle, s.keyframes, s.closures, "
+      "c.worker, c.runs, c.seconds_median, c.seconds_min, c.seconds_max, c.cpu_seconds_median, "
+      "c.peak_memory, c.added_memory, c.allocations, c.status, c.signal, c.why "
+      "FROM cell c LEFT JOIN sequence s ON s.asked = c.asked "
+      "WHERE c.position IS NOT NULL ORDER BY c.position");
   std::vector<CellRecord> out;
   std::vector<std::int64_t> ids;
   while (rows.step()) {
@@ -117,6 +119,8 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
     c.closures = rows.text();
     c.oracle_closures = rows.integer() != 0;
     c.oracle = rows.integer() != 0;
+    c.keyframes = rows.integer();
+    c.closure_count = rows.integer();
     c.worker = rows.text();
     c.runs = rows.integer();
     c.seconds = rows.real();

@@ -48,6 +48,8 @@ struct CellRecord {
   std::string closures;
   bool oracle_closures = false;
   bool oracle = false;
+  std::int64_t keyframes = 0;      ///< of the sequence; 0: it never finished loading
+  std::int64_t closure_count = 0;  ///< of the sequence
   std::string worker;  ///< "isolated", "in process"; ", serial", ", pinned" where it was
   std::int64_t runs = 0;
   double seconds = 0.0;  ///< median wall time of the method's verb, and its extremes

@@ -18,12 +18,20 @@ inline constexpr const char* kSchema = R"sql(
     bytes INTEGER NOT NULL,
     hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128)
     PRIMARY KEY (asked, number)) WITHOUT ROWID;
+  CREATE TABLE sequence (              -- how much a method is given
+    asked TEXT PRIMARY KEY,
+    keyframes INTEGER NOT NULL,
+    odometry INTEGER NOT NULL,         -- edges
+    closures INTEGER NOT NULL,
+    frames INTEGER NOT NULL,           -- tracked between keyframes
+    reference INTEGER NOT NULL         -- poses the judge has
+    ) WITHOUT ROWID;
   CREATE TABLE cell (
     id INTEGER PRIMARY KEY,            -- what other tables call cell
     position INTEGER,                  -- in the sweep; NULL: the config asks for it no more
     key TEXT NOT NULL,                 -- hash of input bytes, options, protocols, method and build
     build TEXT NOT NULL,               -- of the program that made it
-    asked TEXT NOT NULL,               -- its sequence in input and sequence_trace
+    asked TEXT NOT NULL,               -- its sequence in the tables of sequences
     sequence TEXT NOT NULL,            -- label of the dataset entry
     repeat INTEGER NOT NULL,           -- instance of a seeded dataset, from 0
     method TEXT NOT NULL,              -- label of the method entry

@@ -139,11 +139,15 @@ void Store::create() {
 }
 
 Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry) {
-  if (!database_) return {planned, 0, 0, 0, false};
+  if (!database_) return {planned, 0, 0, 0, false, false};
   Transaction transaction(*database_);
   Resumed out = match(*database_, keys_, all, planned, retry);
   out.unchanged = out.unchanged && config_of(*database_) == keys_.sweep().text;
+  Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
+  out.exported = out.unchanged && row.step();
+  row.reset();
   if (!out.unchanged) {
+    changes();
     say_run(*database_, keys_.sweep());
     say_provenance(*database_, provenance_, out.there == 0 && out.missing.size() == all.size());
   }
@@ -153,8 +157,17 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
 
 void Store::write(const CellResult& result) {
   if (!database_) create();
-  if (!writer_) writer_ = std::make_unique<Writer>(*database_);
+  if (!writer_) {
+    changes();
+    writer_ = std::make_unique<Writer>(*database_);
+  }
   writer_->write(result, keys_);
+}
+
+void Store::changes() { database_->execute("DELETE FROM run WHERE key = 'exported'"); }
+
+void Store::exported() {
+  database_->execute("INSERT OR REPLACE INTO run VALUES ('exported', 'yes')");
 }
 
 }  // namespace loopbench

@@ -34,7 +34,8 @@ struct Resumed {
   std::size_t there = 0;       ///< planned cells that need no run
   std::size_t failed = 0;      ///< of those, kept failures
   std::size_t incomplete = 0;  ///< of those, judged below min_coverage
-  bool unchanged = false;      ///< and the store holds exactly these cells of exactly this config
+  bool unchanged = false;      ///< the store holds exactly the sweep, of exactly this config
+  bool exported = false;       ///< and what is derived from it was written, see Store::exported()
 };
 
 class Store {
@@ -59,10 +60,14 @@ class Store {
   /// disk is full.
   void write(const CellResult& result);
 
+  /// Says that everything derived from it is written; forgotten by the next change.
+  void exported();
+
  private:
   struct Writer;
 
   void create();
+  void changes();
 
   std::filesystem::path file_;
   CellKeys& keys_;

@@ -23,7 +23,7 @@ namespace loopbench {
 class Dual final : public Corrector {
  public:
   struct Options {
-    int max_iterations = 20;
+    int max_iterations = 500;
     double tolerance = 1e-10;
     int max_closures = 300;
   };

@@ -6,6 +6,11 @@
 #include "methods/correctors/chain.hpp"
 
 namespace loopbench {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of a cost summed over a chain, relative
+
+}  // namespace
 
 ChainBelief stated_belief(const Problem& problem) {
   ChainBelief out;
@@ -84,7 +89,8 @@ bool LoopedChain::step() {
     }
     std::vector<Pose> poses = integrate(at.errors);
     const double cost = cost_of(at, poses);
-    if (cost < cost_) {
+    // Where the cost is flat to rounding, the full step still brings the poses nearer.
+    if (cost < cost_ || (length == 1.0 && cost <= cost_ * (1.0 + kRounding))) {
       errors_ = std::move(at.errors);
       drift_ = std::move(at.drift);
       poses_ = std::move(poses);

@@ -49,7 +49,8 @@ class LoopedChain {
   /// Exchanges the belief and keeps poses, errors and drift as they are.
   void believe(ChainBelief belief);
 
-  /// One Gauss-Newton step, halved until the cost falls. False when no step lowers it. Throws
+  /// One Gauss-Newton step, halved until the cost falls or, to rounding, stays. False when no
+  /// step does that. Throws
   /// std::runtime_error when the loop equations are not positive definite.
   /// Complexity O(edges + (6 closures)^3).
   bool step();

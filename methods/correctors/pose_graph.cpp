@@ -1,100 +1,131 @@
 #include "methods/correctors/pose_graph.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/consistency.hpp"
+#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench {
 namespace {
 
-using Gnc = PoseGraphOptimizer::Gnc;
+using Poses = PoseGraphOptimizer::Poses;
+using Start = PoseGraphOptimizer::Start;
 
-std::vector<Pose> initial(const Problem& problem, PoseGraphOptimizer::Start start) {
-  std::vector<Pose> out;
-  out.reserve(problem.keyframes.size());
-  for (const StampedPose& k : problem.keyframes) out.push_back(k.world_from_body);
-  if (start == PoseGraphOptimizer::Start::odometry) {
-    for (const Edge& edge : problem.odometry) {
-      out[edge.to] = normalized(out[edge.from] * edge.from_from_to);
-    }
+bool changes_scale(const Problem& problem) {
+  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
+  return std::ranges::any_of(problem.odometry, scaled) ||
+         std::ranges::any_of(problem.closures, scaled);
+}
+
+Group group_of(const Problem& problem, Poses wanted) {
+  if (wanted == Poses::se2) return Group::se2;
+  if (wanted == Poses::se3) return Group::se3;
+  if (wanted == Poses::sim3 || changes_scale(problem)) return Group::sim3;
+  return problem.planar ? Group::se2 : Group::se3;
+}
+
+std::vector<ScaledPose> initial(const Problem& problem, Start start, double scale_sigma) {
+  if (start == Start::chordal) return chordal_values(problem, scale_sigma);
+  std::vector<ScaledPose> out = tree_values(problem);
+  if (start == Start::keyframes) {  // scales stay: keyframes have none
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
   }
   return out;
 }
 
-std::vector<double> squared_errors(const Problem& problem, const std::vector<Pose>& poses) {
-  std::vector<double> out;
-  for (const Edge& loop : problem.closures) {
-    const Twist e = edge_error(loop, poses[loop.from], poses[loop.to]);
-    out.push_back(e.dot(loop.information * e));
-  }
-  return out;
+/// 99 % of a chi-squared variable with as many degrees of freedom as the group.
+double usual_chi2(Group group) {
+  if (group == Group::se2) return 11.345;
+  return group == Group::se3 ? 16.812 : 18.475;
 }
 
-/// A closure's weight at convexity mu (Yang et al., equations 14 and 12).
-double weight(Gnc kind, double squared, double c2, double mu) {
-  if (kind == Gnc::gm) {
-    const double w = mu * c2 / (squared + mu * c2);
-    return w * w;
-  }
-  if (squared <= mu / (mu + 1.0) * c2) return 1.0;
-  if (squared >= (mu + 1.0) / mu * c2) return 0.0;
-  return std::sqrt(c2 * mu * (mu + 1.0) / squared) - mu;
+/// 1 for those that agree with one another, or nothing where that cannot be told.
+std::optional<std::vector<double>> agreeing(const Problem& problem) {
+  const Consistency rules;
+  if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return std::nullopt;
+  if (!chain_fault(problem).empty() || changes_scale(problem)) return std::nullopt;
+  const ConsistentClosures found = consistent_closures(problem, rules);
+  if (found.kept.size() < 2) return std::nullopt;
+  std::vector<double> out(problem.closures.size(), 0.0);
+  for (const std::size_t k : found.kept) out[k] = 1.0;
+  return out;
 }
 
 }  // namespace
 
 std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
   if (problem.closures.empty()) return "no loop closure to spread";
-  if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+  if (options_.group == Poses::se2 && !problem.planar)
+    return "group is se2, the problem not planar";
+  if (const auto lost = first_unjoined(problem)) {
+    return "the graph is not connected: no edges join keyframe " + std::to_string(*lost) +
+           " to keyframe 0";
+  }
   return std::nullopt;
 }
 
 Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) const {
-  std::vector<Pose> poses = initial(problem, options_.start);
-  const PoseGraphSettings settings{
-      options_.loss, options_.loss_width, options_.max_iterations, options_.tolerance};
+  PoseGraphSettings settings{group_of(problem, options_.group),
+                             options_.scale_sigma,
+                             options_.loss,
+                             options_.loss_width,
+                             options_.max_iterations,
+                             options_.tolerance};
+  std::vector<ScaledPose> poses = report.time(
+      "initial values", [&] { return initial(problem, options_.start, options_.scale_sigma); });
   std::vector<double> weights(problem.closures.size(), 1.0);
-  const auto solve = [&] {
-    return solve_pose_graph(poses, problem.odometry, problem.closures, weights, settings);
+  int iterations = 0;
+  const auto solve = [&](const PoseGraphSettings& how) {
+    const PoseGraphSummary summary =
+        solve_pose_graph(poses, problem.odometry, problem.closures, weights, how);
+    iterations += summary.iterations;
+    return summary;
   };
-  PoseGraphSummary summary = solve();
-  int iterations = summary.iterations;
-  const double before = summary.cost_before;
-
+  double before = 0.0;
   if (options_.gnc != Gnc::off) {
-    const double c2 = options_.inlier_chi2;
-    std::vector<double> squared = squared_errors(problem, poses);
-    const double worst = *std::ranges::max_element(squared);
-    const bool is_tls = options_.gnc == Gnc::tls;
-    // Truncated least squares sharpens as mu grows, Geman-McClure as it shrinks to 1.
-    double mu = is_tls ? c2 / (2.0 * worst - c2) : 2.0 * worst / c2;
-    int rounds = 0;
-    constexpr int kMostRounds = 100;
-    bool settled = worst <= c2;
-    while (!settled && rounds < kMostRounds) {
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        weights[k] = weight(options_.gnc, squared[k], c2, mu);
+    // On the way only the weights are wanted, and they are forgiving.
+    PoseGraphSettings rough = settings;
+    rough.max_iterations = std::min(settings.max_iterations, 30);
+    rough.tolerance = std::max(settings.tolerance, 1e-6);
+    const double c2 = options_.inlier_chi2.value_or(usual_chi2(settings.group));
+    const auto squared = [&] { return squared_errors(poses, problem.closures, settings); };
+    std::vector<ScaledPose> start = poses;
+    std::optional<double> mu;
+    if (options_.gnc_start == GncStart::consistent) {
+      if (const auto first = report.time("check", [&] { return agreeing(problem); })) {
+        weights = *first;
+        // Past the convex stages, whose purpose is to find a start like this one.
+        mu = options_.gnc == Gnc::tls ? 1.0 : 10.0;
       }
-      summary = solve();
-      iterations += summary.iterations;
-      ++rounds;
-      squared = squared_errors(problem, poses);
-      settled = is_tls ? std::ranges::all_of(weights, [](double w) { return w == 0.0 || w == 1.0; })
-                       : mu <= 1.0;
-      mu = is_tls ? 1.4 * mu : std::max(1.0, mu / 1.4);
     }
-    report.count("gnc_rounds", rounds);
-    report.count(
-        "closures_kept",
-        static_cast<double>(std::ranges::count_if(squared, [&](double s) { return s <= c2; })));
+    const GncResult gnc = report.time("graduate", [&] {
+      before = solve(rough).cost_before;
+      if (mu) start = poses;
+      return graduate(options_.gnc, c2, squared(), mu, [&](const std::vector<double>& tried) {
+        weights = tried;
+        poses = start;  // false closures wind poses up; from there a minimum may not be found again
+        solve(rough);
+        return squared();
+      });
+    });
+    weights = gnc.weights;
+    report.count("gnc_rounds", gnc.rounds);
+    report.count("closures_kept",
+                 static_cast<double>(
+                     std::ranges::count_if(weights, [](double weight) { return weight > 0.5; })));
   }
+  const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
+  if (options_.gnc == Gnc::off) before = summary.cost_before;
   report.count("iterations", iterations);
   report.count("cost_before", before);
   report.count("cost", summary.cost);
+  if (!summary.converged) {
+    report.notes.push_back("the last solve stopped at max_iterations, not at the tolerance");
+  }
 
   Trajectory out = problem.keyframes;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].world_from_body = poses[i];
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].world_from_body = poses[i].pose;
   return out;
 }
 

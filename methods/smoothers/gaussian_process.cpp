@@ -1,5 +1,6 @@
 #include "methods/smoothers/gaussian_process.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "datasets/core/knot_span.hpp"
@@ -75,15 +76,24 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   auto states = posterior.first_guess();
   int iterations = 0, evaluations = 0;
   GpParameters parameters = report.time("evidence", [&] {
-    GpParameters best = first_parameters(keyframes, P, given);
-    constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds; ++round) {
-      iterations += posterior.solve(states, best);
-      const GpChosen chosen = chosen_parameters<P>(posterior, states, best, given);
+    GpParameters best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Criterion criterion : {Criterion::reml, Criterion::gcv}) {
+      const GpParameters start = first_parameters(keyframes, P, criterion, given);
+      auto trial = posterior.first_guess();
+      iterations += posterior.solve(trial, start);
+      const GpChosen chosen = chosen_parameters<P>(posterior, trial, start, given);
       evaluations += chosen.evaluations;
+      iterations += posterior.solve(trial, chosen.parameters);
+      const double evidence = posterior.negative_evidence(trial, chosen.parameters);
+      if (!(evidence < least - 1e-3)) continue;  // less is rounding or does not matter
+      least = evidence;
       best = chosen.parameters;
+      states = std::move(trial);
     }
-    return best;
+    const GpChosen chosen = chosen_parameters<P>(posterior, states, best, given);
+    evaluations += chosen.evaluations;
+    return chosen.parameters;
   });
   iterations += report.time("solve", [&] { return posterior.solve(states, parameters); });
   report.count("sigma_t", parameters.sigma_t);

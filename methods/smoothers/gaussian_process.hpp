@@ -12,10 +12,10 @@ namespace loopbench {
 /// WNOA, C2 for WNOJ but for terms of the order of the turn within an interval. In translation
 /// alone, WNOA is the smoothing spline.
 /// The noise of poses and motion, of translation and rotation each, comes from the marginal
-/// likelihood (Laplace, relinearised once) unless given. As with every smoother, drift that is slow
-/// against the keyframes looks like motion and stays.
-/// O(n): some 100 block tridiagonal eliminations, blocks of 12 (18), and 2 (5) kB a keyframe.
-/// Source: Anderson & Barfoot 2015 (WNOA); Tang, Yoon & Barfoot 2019 (WNOJ); Barfoot, ch. 11.
+/// likelihood (Laplace, relinearised once, from two starts) unless given. As with every smoother,
+/// drift that is slow against the keyframes looks like motion and stays. O(n): some 150 block
+/// tridiagonal eliminations, blocks of 12 (18), and 2 (5) kB a keyframe. Source: Anderson & Barfoot
+/// 2015 (WNOA); Tang, Yoon & Barfoot 2019 (WNOJ); Barfoot, ch. 11.
 class GaussianProcess final : public Smoother {
  public:
   enum class Prior { velocity, acceleration };

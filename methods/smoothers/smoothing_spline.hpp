@@ -9,16 +9,17 @@ namespace loopbench {
 /// Minimises sum |y_i - f(t_i)|^2 + lambda int |f''|^2 over position, and the same over attitude
 /// with great-arc distance and angular acceleration (unrolled.hpp: flattened, smoothed, rolled up
 /// until it stands still). lambda by generalised cross-validation or restricted maximum likelihood,
-/// for position and attitude apart. The curve is C2 in position, C1 in attitude. White noise on the
-/// keyframes is what it removes; of a slow drift both criteria see nothing.
-/// O(n) for each of some 35 values of lambda, O(1) amortised to ask.
-/// Source: Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
+/// for position and attitude apart. GCV is the default: on a motion that is smooth rather than a
+/// random walk of velocity, the likelihood smooths too little (Wahba 1985). The curve is C2 in
+/// position, C1 in attitude. White noise on the keyframes is what it removes; of a slow drift both
+/// criteria see nothing. O(n) for each of some 35 values of lambda, O(1) amortised to ask. Source:
+/// Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
 class SmoothingSpline final : public Smoother {
  public:
   enum class Axes { joint, each };
   enum class Turn { slerp, spline };
   struct Options {
-    Criterion criterion = Criterion::reml;
+    Criterion criterion = Criterion::gcv;
     std::optional<double> lambda_t = std::nullopt;  ///< [s^3]
     std::optional<double> lambda_r = std::nullopt;  ///< [s^3]
     Axes axes = Axes::joint;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
@@ -24,15 +25,21 @@ double extent_of(const std::vector<Vector3>& y) {
   return out;
 }
 
-double bic(const std::vector<Vector3>& y, const Trend::Fit& fit, double extent) {
+/// log of GCV, or BIC / N when the fit is not pulled by a penalty; less is better.
+double score(const std::vector<Vector3>& y, const Trend::Fit& fit, double extent, bool refitted) {
   double squares = 0.0;
   for (std::size_t i = 0; i < y.size(); ++i) squares += (y[i] - fit.values[i]).squaredNorm();
   const auto size = 3.0 * static_cast<double>(y.size());
-  const auto free = 3.0 * static_cast<double>(fit.kinks.size() + 2);
+  const auto used = 3.0 * static_cast<double>(fit.kinks.size() + 2) / size;
   // What is exact to rounding is exact: there, fewer kinks win.
   const double rounding = 1e-9 * extent;
-  return size * std::log(squares / size + rounding * rounding + 1e-300) + free * std::log(size);
+  const double fidelity = std::log(squares / size + rounding * rounding + 1e-300);
+  if (refitted) return fidelity + used * std::log(size);
+  if (used >= 1.0) return std::numeric_limits<double>::infinity();  // nothing is left to judge by
+  return fidelity - 2.0 * std::log(1.0 - used);
 }
+
+constexpr int kSteps = 24;  // of the path of lambda, four a decade
 
 /// The straight line of regression, which every lambda from `straight_from` up gives.
 Trend::Fit line(const Trend& trend, const std::vector<Vector3>& y) {
@@ -51,7 +58,7 @@ Chosen chosen(const Trend& trend,
 
   Trend::State state;
   Chosen best{line(trend, y), top};
-  double least = bic(y, best.fit, extent);
+  double least = score(y, best.fit, extent, options.refit);
   const auto fitted = [&](double lambda) {
     Trend::Fit fit = trend.fit(y, lambda, settings, state);
     best.iterations += fit.iterations;
@@ -64,13 +71,13 @@ Chosen chosen(const Trend& trend,
     best.fit = fitted(best.lambda);
     return best;
   }
-  for (int k = 1; k <= 16; ++k) {
+  for (int k = 1; k <= kSteps; ++k) {
     const double lambda = top * std::pow(10.0, -k / 4.0);
     Trend::Fit fit = fitted(lambda);
-    if (2 * fit.kinks.size() > y.size()) break;
-    const double score = bic(y, fit, extent);
-    if (score >= least) continue;
-    least = score;
+    if (options.refit && 2 * fit.kinks.size() > y.size()) break;
+    const double now = score(y, fit, extent, options.refit);
+    if (now >= least) continue;
+    least = now;
     best.lambda = lambda;
     best.fit = std::move(fit);
   }
@@ -100,21 +107,25 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   if (options_.rotation == Turn::filtered) {
     Chosen attitude;
     int rounds = 0;
-    // The first rounds move the data's flat image; then the kinks stand and the values settle.
-    const auto turned =
-        smoothed_rotations(attitudes(problem.keyframes), [&](const std::vector<Vector3>& flat) {
-          constexpr int kChoices = 2;
-          if (rounds++ < kChoices || !options_.refit) {
-            TrendFilter::Options same = options_;
-            if (rounds > kChoices) same.share = attitude.lambda / trend.straight_from(flat);
-            attitude = chosen(trend, flat, same);
-            iterations += attitude.iterations;
-            converged = converged && attitude.converged;
-          } else {
-            attitude.fit.values = trend.refitted(flat, attitude.fit.kinks);
-          }
-          return attitude.fit;
-        });
+    // The first rounds move the data's flat image; then lambda, or the kinks, stand.
+    Trend::State state;
+    const auto fit_points = [&](const std::vector<Vector3>& flat) {
+      constexpr int kChoices = 2;
+      if (rounds++ < kChoices) {
+        attitude = chosen(trend, flat, options_);
+        iterations += attitude.iterations;
+        converged = converged && attitude.converged;
+      } else if (options_.refit || attitude.fit.kinks.empty()) {
+        attitude.fit.values = trend.refitted(flat, attitude.fit.kinks);
+      } else {
+        attitude.fit =
+            trend.fit(flat, attitude.lambda, {options_.tolerance, options_.max_iterations}, state);
+        iterations += attitude.fit.iterations;
+      }
+      return attitude.fit;
+    };
+    const double still = options_.refit ? 1e-11 : 1e-2 * options_.tolerance;
+    const auto turned = smoothed_rotations(attitudes(problem.keyframes), fit_points, still);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].world_from_body.rotation = turned.path.rolled(i, 0.0, turned.fit.values[i]);
     }

@@ -8,18 +8,20 @@ namespace loopbench {
 /// Minimises 1/2 sum |y_i - x_i|^2 + lambda sum |change of velocity| over positions, and the same
 /// over attitudes with great arcs for straight lines (unrolled.hpp), then joins the keyframes so
 /// found by straight lines and great arcs: right for what stops, goes and turns on the spot.
-/// lambda: a share of the least one that gives a straight line; or, with none, of a path of 17
-/// values from that one down to 1e-4 of it the one with the least BIC = N log(RSS / N) + df log N,
-/// N = 3 n, df = 3 (kinks + 2), with one kink for two keyframes at most. By default the bends found
-/// are kept and the polyline refitted to the keyframes (the relaxed lasso), which undoes the pull
-/// towards the straight line. O(n) an iteration, some hundred iterations for each lambda.
-/// Source: Kim, Koh, Boyd & Gorinevsky 2009; Meinshausen 2007.
+/// lambda: a share of the least one that gives a straight line; or, with none, the best of a path
+/// from that one down to 1e-6 of it, four a decade, by GCV = (RSS / N) / (1 - df / N)^2, N = 3 n,
+/// df = 3 (kinks + 2). On a motion that is curved rather than piecewise straight, kinks are
+/// everywhere and steps are cut: other smoothers are better there.
+/// `refit` keeps the bends and fits the lines between them without penalty (the relaxed lasso), for
+/// motion known to be piecewise straight: chosen by BIC = N log(RSS / N) + df log N among fits with
+/// one kink for two keyframes at most. O(n) an iteration, some hundred iterations for each lambda.
+/// Source: Kim, Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
 class TrendFilter final : public Smoother {
  public:
   enum class Turn { slerp, filtered };
   struct Options {
     std::optional<double> share = std::nullopt;
-    bool refit = true;
+    bool refit = false;
     double tolerance = 1e-4;
     int max_iterations = 3000;
     Turn rotation = Turn::filtered;
@@ -43,7 +45,10 @@ inline auto choices(TrendFilter::Turn) {
 
 template <class Visit>
 void fields(TrendFilter::Options& o, Visit visit) {
-  visit("share", o.share, "of the lambda that gives a straight line; none: BIC", Between{1e-6, 1});
+  visit("share",
+        o.share,
+        "of the lambda that gives a straight line; none: by GCV or BIC",
+        Between{1e-6, 1});
   visit("refit", o.refit, "keep the bends found, fit the lines between them without penalty");
   visit("tolerance", o.tolerance, "of the residuals of ADMM, relative [-]", Between{1e-12, 0.1});
   visit("max_iterations", o.max_iterations, "of ADMM for each lambda", Between{1, 1e6});

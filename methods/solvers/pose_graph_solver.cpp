@@ -5,54 +5,50 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/groups/se2.hpp"
+#include "methods/solvers/groups/se3.hpp"
+#include "methods/solvers/groups/sim3.hpp"
+
 namespace loopbench {
 namespace {
 
-static_assert(sizeof(Pose) == 7 * sizeof(double), "a pose is Ceres's parameter block");
-
-Pose read(const double* block) {
-  return {Rotation(block[3], block[0], block[1], block[2]), {block[4], block[5], block[6]}};
-}
-
-void write(const Pose& pose, double* block) {
-  Eigen::Map<Eigen::Vector4d> rotation(block);
-  Eigen::Map<Vector3> translation(block + 4);
-  rotation = pose.rotation.coeffs();
-  translation = pose.translation;
-}
-
-/// X * Exp(d). Cost functions put their derivative by d into the first six columns of the ambient
+/// X * Exp(d). Cost functions put their derivative by d into the first columns of the ambient
 /// Jacobian, so that this one is a plain projection: no chain through quaternion entries.
+template <class G>
 class RightPerturbation final : public ceres::Manifold {
  public:
-  int AmbientSize() const override { return 7; }
-  int TangentSize() const override { return 6; }
+  int AmbientSize() const override { return G::kSize; }
+  int TangentSize() const override { return G::kDof; }
   bool Plus(const double* x, const double* d, double* out) const override {
-    write(normalized(read(x) * exp_se3(Eigen::Map<const Twist>(d))), out);
+    const Eigen::Map<const typename G::Tangent> twist(d);
+    G::write(G::compose(G::read(x), G::exp(twist)), out);
     return true;
   }
   bool PlusJacobian(const double*, double* jacobian) const override {
-    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> J(jacobian);
+    Eigen::Map<Eigen::Matrix<double, G::kSize, G::kDof, Eigen::RowMajor>> J(jacobian);
     J.setIdentity();
     return true;
   }
   bool Minus(const double* y, const double* x, double* d) const override {
-    Eigen::Map<Twist> twist(d);
-    twist = log_se3(read(x).inverse() * read(y));
+    Eigen::Map<typename G::Tangent> twist(d);
+    twist = G::log(G::compose(G::inverse(G::read(x)), G::read(y)));
     return true;
   }
   bool MinusJacobian(const double*, double* jacobian) const override {
-    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobian);
+    Eigen::Map<Eigen::Matrix<double, G::kDof, G::kSize, Eigen::RowMajor>> J(jacobian);
     J.setIdentity();
     return true;
   }
 };
 
-/// root * Log(Z^-1 X_i^-1 X_j) with Omega = root' root.
-class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
+/// root * e with Omega = root' root.
+template <class G>
+class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSize> {
  public:
-  EdgeCost(const Edge& edge, double weight) : to_from_from_(edge.from_from_to.inverse()) {
-    const Eigen::LLT<Matrix6> factor(weight * edge.information);
+  EdgeCost(const Edge& edge, double weight, double scale_sigma)
+      : back_(G::inverse(G::from(measured(edge)))) {
+    const Eigen::LLT<typename G::Square> factor(weight * G::information(edge, scale_sigma));
     if (factor.info() != Eigen::Success) {
       throw std::runtime_error("pose graph: information of edge " + std::to_string(edge.from) +
                                " - " + std::to_string(edge.to) + " is not positive definite");
@@ -61,27 +57,30 @@ class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
   }
 
   bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
-    const Pose i_from_j = read(x[0]).inverse() * read(x[1]);
-    const Twist error = log_se3(to_from_from_ * i_from_j);
-    Eigen::Map<Twist> out(residual);
-    out = root_ * error;
-    if (jacobians == nullptr) return true;
-    const Matrix6 by_j = root_ * inverse_right_jacobian_se3(error);
-    const auto fill = [](double* block, const Matrix6& J) {
-      if (block == nullptr) return;
-      Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> map(block);
-      map.leftCols<6>() = J;
-      map.col(6).setZero();
-    };
-    // X_i Exp(d): Exp(-d) X_i^-1 X_j = X_i^-1 X_j Exp(-Ad(X_j^-1 X_i) d).
-    fill(jacobians[0], -by_j * adjoint(i_from_j.inverse()));
-    fill(jacobians[1], by_j);
+    Eigen::Map<typename G::Tangent> out(residual);
+    const auto from = G::read(x[0]);
+    const auto to = G::read(x[1]);
+    if (jacobians == nullptr) {
+      out = root_ * edge_error_in<G>(back_, G::compose(G::inverse(from), to));
+      return true;
+    }
+    const EdgeResidual<G> at = edge_residual<G>(back_, from, to);
+    out = root_ * at.error;
+    fill(jacobians[0], at.by_from);
+    fill(jacobians[1], at.by_to);
     return true;
   }
 
  private:
-  Pose to_from_from_;
-  Matrix6 root_;
+  void fill(double* block, const typename G::Square& J) const {
+    if (block == nullptr) return;
+    Eigen::Map<Eigen::Matrix<double, G::kDof, G::kSize, Eigen::RowMajor>> map(block);
+    map.setZero();
+    map.template leftCols<G::kDof>() = root_ * J;
+  }
+
+  typename G::Element back_;
+  typename G::Square root_;
 };
 
 /// rho and its two derivatives; x is the squared residual.
@@ -133,47 +132,118 @@ std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& settings
   return nullptr;
 }
 
-}  // namespace
+ceres::Solver::Options solver_options(const PoseGraphSettings& settings) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = settings.max_iterations;
+  options.function_tolerance = settings.tolerance;
+  // The cost decides when to stop: a gradient's size depends on units, a step's on the way's
+  // length.
+  options.gradient_tolerance = 1e-16;
+  options.parameter_tolerance = 1e-16;
+  // Long chains have directions a billion times weaker than their diagonal: Ceres's usual damping
+  // of 1e-4 would crawl along them. A step that fails shrinks the region soon enough.
+  options.initial_trust_region_radius = 1e12;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
 
-PoseGraphSummary solve_pose_graph(std::vector<Pose>& poses,
-                                  const std::vector<Edge>& odometry,
-                                  const std::vector<Edge>& closures,
-                                  const std::vector<double>& weights,
-                                  const PoseGraphSettings& settings) {
-  RightPerturbation manifold;
+/// Everything is seen from pose 0: far from the world's origin costs no digits, and a plane that
+/// is tilted in the world is none here.
+template <class G>
+PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
+                          const std::vector<Edge>& odometry,
+                          const std::vector<Edge>& closures,
+                          const std::vector<double>& weights,
+                          const PoseGraphSettings& settings) {
+  const ScaledPose world_from_first = poses.front();
+  const ScaledPose first_from_world = world_from_first.inverse();
+  RightPerturbation<G> manifold;
   const auto loss = make_loss(settings);
   ceres::Problem::Options ours;
   ours.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ours.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ours.disable_all_safety_checks = true;
   ceres::Problem problem(ours);
-  std::vector<std::array<double, 7>> blocks(poses.size());
+  std::vector<std::array<double, static_cast<std::size_t>(G::kSize)>> blocks(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    write(poses[i], blocks[i].data());
-    problem.AddParameterBlock(blocks[i].data(), 7, &manifold);
+    G::write(G::from(first_from_world * poses[i]), blocks[i].data());
+    problem.AddParameterBlock(blocks[i].data(), G::kSize, &manifold);
   }
   const auto add = [&](const Edge& edge, double weight, ceres::LossFunction* rho) {
-    problem.AddResidualBlock(
-        new EdgeCost(edge, weight), rho, blocks[edge.from].data(), blocks[edge.to].data());
+    problem.AddResidualBlock(new EdgeCost<G>(edge, weight, settings.scale_sigma),
+                             rho,
+                             blocks[edge.from].data(),
+                             blocks[edge.to].data());
   };
   for (const Edge& edge : odometry) add(edge, 1.0, nullptr);
   for (std::size_t k = 0; k < closures.size(); ++k) {
     if (weights[k] > 0.0) add(closures[k], weights[k], loss.get());
   }
-  if (!blocks.empty()) problem.SetParameterBlockConstant(blocks.front().data());
+  problem.SetParameterBlockConstant(blocks.front().data());
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = settings.max_iterations;
-  options.function_tolerance = settings.tolerance;
-  options.gradient_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  ceres::Solve(solver_options(settings), &problem, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("pose graph: " + summary.message);
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = read(blocks[i].data());
-  return {static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    poses[i] = normalized(world_from_first * G::to_scaled_pose(G::read(blocks[i].data())));
+  }
+  return {summary.num_linear_solves,
+          summary.initial_cost,
+          summary.final_cost,
+          summary.termination_type == ceres::CONVERGENCE};
+}
+
+template <class G>
+std::vector<double> squared_in(const std::vector<ScaledPose>& poses,
+                               const std::vector<Edge>& edges,
+                               double scale_sigma) {
+  std::vector<double> out;
+  out.reserve(edges.size());
+  const ScaledPose first_from_world = poses.front().inverse();
+  const auto place = [&](std::size_t i) { return G::from(first_from_world * poses[i]); };
+  for (const Edge& edge : edges) {
+    const auto back = G::inverse(G::from(measured(edge)));
+    const auto from_from_to = G::compose(G::inverse(place(edge.from)), place(edge.to));
+    const typename G::Tangent e = edge_error_in<G>(back, from_from_to);
+    out.push_back(e.dot(G::information(edge, scale_sigma) * e));
+  }
+  return out;
+}
+
+}  // namespace
+
+PoseGraphSummary solve_pose_graph(std::vector<ScaledPose>& poses,
+                                  const std::vector<Edge>& odometry,
+                                  const std::vector<Edge>& closures,
+                                  const std::vector<double>& weights,
+                                  const PoseGraphSettings& settings) {
+  if (poses.empty()) return {};
+  switch (settings.group) {
+    case Group::se2:
+      return solve_in<Se2>(poses, odometry, closures, weights, settings);
+    case Group::se3:
+      return solve_in<Se3>(poses, odometry, closures, weights, settings);
+    case Group::sim3:
+      return solve_in<Sim3>(poses, odometry, closures, weights, settings);
+  }
+  return {};
+}
+
+std::vector<double> squared_errors(const std::vector<ScaledPose>& poses,
+                                   const std::vector<Edge>& edges,
+                                   const PoseGraphSettings& settings) {
+  if (edges.empty()) return {};
+  switch (settings.group) {
+    case Group::se2:
+      return squared_in<Se2>(poses, edges, settings.scale_sigma);
+    case Group::se3:
+      return squared_in<Se3>(poses, edges, settings.scale_sigma);
+    case Group::sim3:
+      return squared_in<Sim3>(poses, edges, settings.scale_sigma);
+  }
+  return {};
 }
 
 }  // namespace loopbench

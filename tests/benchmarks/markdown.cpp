@@ -57,8 +57,11 @@ class Table final : public benchmark::ConsoleReporter {
     out += " exponent |" + rule + "---:|\n";
     for (const Row& row : rows_) {
       out += "| " + row.name + " |";
-      for (const auto& [size, time] : row.seconds)
-        out += fmt::format(" {:.1f} |", 1e9 * time / size);
+      for (const auto& [size, _] : rows_.front().seconds) {
+        const auto found = row.seconds.find(size);
+        out += found == row.seconds.end() ? " |"
+                                          : fmt::format(" {:.1f} |", 1e9 * found->second / size);
+      }
       out += row.seconds.size() < 2 ? " |\n" : fmt::format(" {:.2f} |\n", exponent(row.seconds));
     }
     return out;

@@ -118,10 +118,66 @@ TEST(PoseGraphDataset, KeepsOnlyListedClosures) {
   EXPECT_THAT(refusal("117 x\n"), HasSubstr("bad.txt:1: "));
 }
 
+TEST(PoseGraphDataset, TakesAGraphWithAGapWhenNoPoseIsLeftOut) {
+  PoseGraph gap = small_graph(true);
+  gap.edges.erase(gap.edges.begin() + 6);
+  const Problem problem = derive_problem(gap, every(1), "gap.g2o");
+  check(problem, "gap");
+  ASSERT_EQ(problem.odometry.size(), 18u);
+  EXPECT_EQ(problem.odometry[5].from, 5u);
+  EXPECT_EQ(problem.odometry[6].from, 7u);
+}
+
+TEST(PoseGraphDataset, AddsFalseClosuresBySeed) {
+  PoseGraph graph;
+  const Trajectory walk = random_walk(60, 9, 1.0, 0.3);
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    graph.ids.push_back(static_cast<std::int64_t>(i));
+    graph.vertices.push_back(walk[i].world_from_body);
+  }
+  graph.edges = odometry_edges(walk, {});
+  for (std::size_t k = 0; k < 7; ++k) {
+    graph.edges.push_back({k, 50 + k, kAside, isotropic_information(1.0, 2.0)});
+  }
+  PoseGraphOptions options;
+  const std::vector<Edge> honest = derive_problem(graph, options, "g").closures;
+  options.false_closures = {0.3, 1};
+  const Problem problem = derive_problem(graph, options, "g");
+  check(problem, "g");
+  ASSERT_EQ(problem.closures.size(), 10u);  // 3 of 10 are 30 %
+  std::size_t kept = 0;
+  for (const Edge& edge : problem.closures) {
+    EXPECT_EQ(edge.from_from_to.translation, kAside.translation);
+    EXPECT_GE(edge.to - edge.from, 3u);  // a twentieth of the chain
+    for (const Edge& one : honest) kept += one.from == edge.from && one.to == edge.to ? 1 : 0;
+  }
+  EXPECT_EQ(kept, 7u);
+  const auto ends = [&](std::int64_t seed) {
+    options.false_closures.seed = seed;
+    std::vector<std::size_t> out;
+    for (const Edge& edge : derive_problem(graph, options, "g").closures) {
+      out.insert(out.end(), {edge.from, edge.to});
+    }
+    return out;
+  };
+  EXPECT_EQ(ends(1), ends(1));
+  EXPECT_NE(ends(1), ends(2));
+}
+
+TEST(PoseGraphDataset, ReadsInformationOfAnglesAsWritten) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("one.g2o",
+                                "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 "
+                                "4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 8 0 0 8 0 8\n");
+  EXPECT_EQ(read_g2o(file).edges[0].information(5, 5), 2.0);
+  EXPECT_EQ(read_g2o(file, TurnInformation::angles).edges[0].information(5, 5), 8.0);
+  EXPECT_EQ(read_g2o(file, TurnInformation::angles).edges[0].information(0, 0), 4.0);
+}
+
 TEST(PoseGraphDataset, RefusesGapsAndBlindEdges) {
   PoseGraph gap = small_graph(true);
   gap.edges.erase(gap.edges.begin() + 6);
-  EXPECT_THAT(refusal_of([&] { derive_problem(gap, {}, "gap.g2o"); }),
+  EXPECT_THAT(refusal_of([&] { derive_problem(gap, every(2), "gap.g2o"); }),
               HasSubstr("gap.g2o: found no edge between 106 and 107"));
   PoseGraph blind = small_graph(true);
   blind.edges[8].information.setZero();

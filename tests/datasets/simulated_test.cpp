@@ -240,5 +240,27 @@ TEST(Simulated, OptionsAreRefusedByRule) {
   EXPECT_NE(refusal({{"keyframe", std::int64_t{5}}}).find("unknown option"), std::string::npos);
 }
 
+TEST(Simulated, ShakesEveryFrameAndNothingElse) {
+  const Params still{{"path", std::string("room")}};
+  Params shaken = still;
+  shaken["shake.sigma_t"] = 0.02;
+  shaken["shake.sigma_r"] = 0.005;
+  const Sequence before = entry().load(still, {}), after = entry().load(shaken, {});
+  EXPECT_TRUE(same_bits(before.problem.odometry, after.problem.odometry));
+  EXPECT_TRUE(same_bits(before.problem.closures, after.problem.closures));
+  EXPECT_TRUE(same_bits(before.reference, after.reference));
+  const Trajectory& frames = before.problem.frames;
+  double metres = 0.0, radians = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Twist moved =
+        log_se3(frames[i].world_from_body.inverse() * after.problem.frames[i].world_from_body);
+    metres += moved.head<3>().squaredNorm();
+    radians += moved.tail<3>().squaredNorm();
+  }
+  const double draws = 3.0 * static_cast<double>(frames.size());
+  EXPECT_NEAR(std::sqrt(metres / draws), 0.02, 1e-3);  // 4400 draws: 1 % each
+  EXPECT_NEAR(std::sqrt(radians / draws), 0.005, 2.5e-4);
+}
+
 }  // namespace
 }  // namespace loopbench

@@ -66,7 +66,8 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
             "| a\\|b   |   12.50 |\n"
             "| bad    |  failed |\n"
             "\n"
-            "- bad: failed: no such luck\n");
+            "- bad: failed: no such luck\n"
+            "- no best is marked: 1 run a cell cannot show a difference at 0.05 (least p 1)\n");
 }
 
 TEST(Notes, SayAReasonOnce) {

@@ -117,7 +117,7 @@ TEST(Oracle, RowsOfTablesAreMarked) {
   plain.times = "dense";
   Record leaky = plain;
   leaky.method = "paper_oracle";
-  leaky.oracle_method = true;
+  leaky.oracle = true;
   const std::vector<Table> tables = pivot({plain, leaky}, {});
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].rows, (std::vector<std::string>{"dm", "paper_oracle (oracle)"}));
@@ -133,8 +133,10 @@ TEST(Oracle, TheStoreKeepsTheFlag) {
   sweep.metrics = {{"ate", {"ate", {}}}};
   const auto file = folder.path() / "results.sqlite";
   {
-    Store store(file, sweep);
-    store.write(sweep, run_cell({}, sweep, parabola(), catalogue({})));
+    const Catalogue known = catalogue({});
+    CellKeys keys(sweep, known, {}, "build");
+    Store store(file, keys, {}, true);
+    store.write(run_cell({}, sweep, parabola(), known));
   }
   const std::vector<Record> records = read_records(file);
   ASSERT_FALSE(records.empty());

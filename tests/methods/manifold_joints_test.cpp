@@ -62,6 +62,18 @@ TEST(Joint, ReachesNoFurtherThanAPiecesOwnLastStep) {
   EXPECT_EQ(joint_between(nodes, {{1, 3}, {1, 2}}, {{2, 4}, {2, 4}}).end, 3.0);
 }
 
+TEST(Joint, OfSlidingWindowsIsAsWideAsTheySpeakFor) {
+  const Nodes nodes(wandering(6, 1));
+  const Window line{{1, 2}, {1, 2}}, three{{1, 3}, {2, 3}}, next{{2, 4}, {3, 4}};
+  const Joint around_nodes = sliding_joint(nodes, three, next, 3);
+  EXPECT_EQ(around_nodes.begin, nodes.stamps[2]);
+  EXPECT_EQ(around_nodes.end, nodes.stamps[3]);
+  // A straight line hands over around the node: on the whole edge before it would be extrapolated.
+  const Joint after_line = sliding_joint(nodes, line, three, 3);
+  EXPECT_NEAR(after_line.begin, 0.5 * (nodes.stamps[1] + nodes.stamps[2]), 1e-12);
+  EXPECT_NEAR(after_line.end, 0.5 * (nodes.stamps[2] + nodes.stamps[3]), 1e-12);
+}
+
 TEST(Strip, BlendsNeighboursAndLeavesTheMiddleToItsPiece) {
   const Nodes nodes(through(std::vector<Vector3>(9, Vector3::Zero())));
   const std::vector<Window> windows{{{0, 4}, {0, 4}}, {{4, 8}, {4, 8}}};

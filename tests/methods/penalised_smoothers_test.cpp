@@ -274,7 +274,7 @@ Trajectory stop_and_go() {
 TEST(TrendFilter, RecoversPiecewiseStraightMotion) {
   const Trajectory truth = stop_and_go();
   Report report;
-  const auto curve = smooth<TrendFilter>(truth, {}, &report);
+  const auto curve = smooth<TrendFilter>(truth, {{"refit", true}}, &report);
   EXPECT_TRUE(report.notes.empty());
   EXPECT_EQ(count(report, "kinks_t"), 2.0);
   EXPECT_EQ(count(report, "kinks_r"), 1.0);
@@ -289,12 +289,25 @@ TEST(TrendFilter, FindsTheBendsUnderNoiseAndBeatsTheKeyframes) {
     const Trajectory truth = stop_and_go();
     const Trajectory keyframes = shaken(truth, 0.02, seed);
     Report report;
-    const auto curve = smooth<TrendFilter>(keyframes, {}, &report);
+    const auto curve = smooth<TrendFilter>(keyframes, {{"refit", true}}, &report);
     before += rms_error(Polyline(keyframes), truth);
     after += rms_error(*curve, truth);
     EXPECT_LE(count(report, "kinks_t"), 8.0);
   }
   EXPECT_LT(after, 0.6 * before);
+}
+
+TEST(TrendFilter, TakesOffNoiseFromACurvedPathToo) {
+  double before = 0.0, after = 0.0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Trajectory truth = hand_held_truth(120);
+    const Trajectory keyframes = shaken(truth, 0.02, seed);
+    Report report;
+    before += rms_error(Polyline(keyframes), truth);
+    after += rms_error(*smooth<TrendFilter>(keyframes, {}, &report), truth);
+    EXPECT_TRUE(report.notes.empty());
+  }
+  EXPECT_LT(after, 0.9 * before);
 }
 
 TEST(TrendFilter, KinkOfThreePointsIsSoftThresholdedAsWorkedByHand) {

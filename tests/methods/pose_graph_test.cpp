@@ -6,6 +6,8 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
+#include "methods/solvers/initial_values.hpp"
+#include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
@@ -106,7 +108,7 @@ Problem partly_false(std::uint64_t seed) {
 }
 
 TEST(PoseGraph, GraduatedNonConvexityLetsGoOfFalseClosures) {
-  for (const auto kind : {PoseGraphOptimizer::Gnc::tls, PoseGraphOptimizer::Gnc::gm}) {
+  for (const auto kind : {Gnc::tls, Gnc::gm}) {
     const Problem problem = partly_false(7);
     const Trajectory truth = walk(7, 120, 0.0).keyframes;
     Report report;
@@ -127,8 +129,7 @@ TEST(PoseGraph, KeepsEveryClosureWhenAllAreTrue) {
   Problem problem = partly_false(3);
   std::erase_if(problem.closures, [](const Edge& e) { return e.to - e.from == 101; });
   Report report;
-  const Trajectory gnc =
-      PoseGraphOptimizer({.gnc = PoseGraphOptimizer::Gnc::tls}).correct(problem, report);
+  const Trajectory gnc = PoseGraphOptimizer({.gnc = Gnc::tls}).correct(problem, report);
   EXPECT_LT(worst_difference(gnc, corrected(problem)), 1e-9);
 }
 
@@ -149,6 +150,105 @@ TEST(PoseGraph, BoundedLossesPullLess) {
   EXPECT_LT(moved(Loss::cauchy), moved(Loss::huber));
   EXPECT_LT(moved(Loss::dcs), 0.01 * plain);
   EXPECT_LT(moved(Loss::switchable), 0.01 * plain);
+}
+
+double count(const Report& report, const std::string& name) {
+  return std::ranges::find(report.counts, name, &Count::name)->value;
+}
+
+/// Three keyframes on a line, steps measured as 1 m, the whole way as 2.3 m, all equally sure.
+Problem three_on_a_line() {
+  const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
+  Problem problem;
+  for (int i = 0; i < 3; ++i) problem.keyframes.push_back({double(i), at(i)});
+  problem.odometry = {{0, 1, at(1.0)}, {1, 2, at(1.0)}};
+  problem.closures = {{0, 2, at(2.3)}};
+  return problem;
+}
+
+TEST(PoseGraph, SharesOutThreeTenthsByHand) {
+  // 0.3 m over three equal variances: 0.1 m each, cost 1/2 * 3 * 0.01. In every group.
+  for (const char* group : {"se2", "se3", "sim3"}) {
+    Problem problem = three_on_a_line();
+    problem.planar = true;
+    Report report;
+    const Options options = with(Options{}, {{"group", std::string(group)}, {"scale_sigma", 1e-9}});
+    const Trajectory out = PoseGraphOptimizer(options).correct(problem, report);
+    EXPECT_NEAR(out[1].world_from_body.translation.x(), 1.1, 1e-9) << group;
+    EXPECT_NEAR(out[2].world_from_body.translation.x(), 2.2, 1e-9) << group;
+    EXPECT_NEAR(count(report, "cost"), 0.015, 1e-12) << group;
+    EXPECT_NEAR(count(report, "cost_before"), 0.045, 1e-12) << group;
+  }
+}
+
+TEST(PoseGraph, SpreadsAChangeOfScaleEvenly) {
+  // Four steps that saw no change of scale, and a closure that saw one of 16: five edges, equally
+  // sure, take a fifth of its logarithm each, so steps grow by q = 16^(1/5). The closure's length
+  // is that of such a path: then nothing but scales is wrong.
+  const double q = std::pow(16.0, 0.2);
+  const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
+  Problem problem;
+  for (int i = 0; i < 5; ++i) {
+    problem.keyframes.push_back({double(i), at(i)});
+    if (i > 0) problem.odometry.push_back({std::size_t(i - 1), std::size_t(i), at(1.0)});
+  }
+  problem.closures.push_back({0, 4, at(1.0 + q + q * q + q * q * q)});
+  problem.closures[0].scale = 16.0;
+  Report report;
+  const Trajectory out =
+      PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal}).correct(problem, report);
+  double x = 0.0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    EXPECT_NEAR(out[i].world_from_body.translation.x(), x, 1e-6) << i;
+    x += std::pow(q, static_cast<double>(i));
+  }
+  const double share = std::log(q) / 0.01;  // scale_sigma
+  EXPECT_NEAR(count(report, "cost"), 0.5 * 5.0 * share * share, 1e-6);
+}
+
+TEST(PoseGraph, TakesAnyConnectedGraphAndDeclinesAnother) {
+  Problem problem = walk(6, 30, 0.0);
+  problem.odometry.erase(problem.odometry.begin() + 20);
+  const PoseGraphOptimizer method({});
+  EXPECT_EQ(method.declines(problem), std::nullopt);  // a closure leads to the other part
+  std::mt19937_64 random(1);
+  const Trajectory truth = walk(6, 30, 0.0).keyframes;
+  for (std::size_t i = 21; i < 30; ++i) {  // all of the other part is out of place
+    Pose& pose = problem.keyframes[i].world_from_body;
+    pose = pose * exp_se3(random_twist(random, 0.1, 0.05));
+  }
+  EXPECT_LT(worst_difference(corrected(problem), truth), 1e-6);
+  for (const auto start :
+       {PoseGraphOptimizer::Start::odometry, PoseGraphOptimizer::Start::chordal}) {
+    EXPECT_LT(worst_difference(corrected(problem, {.start = start}), truth), 1e-6);
+  }
+  std::erase_if(problem.closures, [](const Edge& e) { return e.from < 21 && e.to >= 21; });
+  ASSERT_FALSE(problem.closures.empty());
+  EXPECT_EQ(method.declines(problem),
+            "the graph is not connected: no edges join keyframe 21 to keyframe 0");
+}
+
+TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
+  const Pose tilted{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
+  const Problem problem = test::moved_by(tilted, test::planar());
+  Report in_plane, in_space;
+  const Trajectory a = PoseGraphOptimizer({}).correct(problem, in_plane);
+  const Trajectory b =
+      PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se3}).correct(problem, in_space);
+  EXPECT_LT(worst_difference(a, b), 1e-7);
+  EXPECT_NEAR(count(in_plane, "cost"), count(in_space, "cost"), 1e-9 * count(in_space, "cost"));
+  Problem spatial = problem;
+  spatial.planar = false;
+  EXPECT_EQ(PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se2}).declines(spatial),
+            "group is se2, the problem not planar");
+}
+
+TEST(PoseGraph, ChordalValuesAreExactWhenMeasurementsAre) {
+  const Problem problem = walk(8, 40, 0.0);
+  const std::vector<ScaledPose> values = chordal_values(problem, 0.01);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_TRUE(is_close(values[i].pose, problem.keyframes[i].world_from_body, 1e-8, 1e-8)) << i;
+  }
 }
 
 TEST(PoseGraph, RefusesInformationThatIsNone) {

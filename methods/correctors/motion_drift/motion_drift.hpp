@@ -25,7 +25,7 @@ namespace loopbench {
 /// replace the guesses, and with `fit: false` they are kept as they are.
 ///
 /// Complexity O(edges + (6 closures)^3 + (6 fit_closures)^3), times some ten and some hundred
-/// rounds. Source: design notes, methods 5; variance components: Zhou et al., 2019.
+/// rounds. Cause: design notes, methods 5; variance components: Zhou et al., 2019.
 class MotionDrift final : public Corrector {
  public:
   /// What errors grow with, each including those before it. `drift` adds steady drift to
@@ -43,7 +43,7 @@ class MotionDrift final : public Corrector {
     int fit_closures = 40;
     int fit_rounds = 4;
     int max_iterations = 20;
-    double tolerance = 1e-10;
+    double tolerance = 1e-14;
     int max_closures = 300;
     std::array<Values, 2> noise{};                    ///< by Half; variances
     std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates

@@ -16,12 +16,15 @@ struct Scalar {
 };
 
 /// Noise and power of one kind of axis, from the smoothing spline.
-Scalar first_of(const std::vector<double>& times, const std::vector<Vector3>& y, int P) {
+Scalar first_of(const std::vector<double>& times,
+                const std::vector<Vector3>& y,
+                int P,
+                Criterion criterion) {
   double extent = 1e-3;
   for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
   const Reinsch reinsch(times);
   // Beyond, the normal equations run out of digits.
-  const double lambda = std::min(chosen_lambda(reinsch, times, y, Criterion::reml), 1e6);
+  const double lambda = std::min(chosen_lambda(reinsch, times, y, criterion), 1e6);
   const double energy = reinsch.fit(y, lambda).energy.sum();
   const double freedom = 3.0 * static_cast<double>(y.size() - 2);
   const double sigma = on_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
@@ -33,7 +36,10 @@ Scalar first_of(const std::vector<double>& times, const std::vector<Vector3>& y,
 
 }  // namespace
 
-GpParameters first_parameters(const Trajectory& measured, int P, const GpGiven& given) {
+GpParameters first_parameters(const Trajectory& measured,
+                              int P,
+                              Criterion criterion,
+                              const GpGiven& given) {
   std::vector<double> times = stamps(measured);
   const double first = times.front();
   const double interval = (times.back() - first) / static_cast<double>(times.size() - 1);
@@ -42,8 +48,8 @@ GpParameters first_parameters(const Trajectory& measured, int P, const GpGiven& 
   const Unrolled path(turned);
   std::vector<Vector3> flat;
   for (std::size_t i = 0; i < turned.size(); ++i) flat.push_back(path.flattened(i, turned[i]));
-  const Scalar t = first_of(times, places(measured), P);
-  const Scalar r = first_of(times, flat, P);
+  const Scalar t = first_of(times, places(measured), P, criterion);
+  const Scalar r = first_of(times, flat, P, criterion);
   return {given.sigma_t.value_or(t.sigma),
           given.sigma_r.value_or(r.sigma),
           given.power_t.value_or(t.power),

@@ -22,9 +22,13 @@ Joint joint_between(const Nodes& nodes, const Window& before, const Window& afte
           nodes.stamps[node] + forth * nodes.duration(node)};
 }
 
-Joint sliding_joint(const Nodes& nodes, const Window& after, std::size_t size) {
+Joint sliding_joint(const Nodes& nodes,
+                    const Window& before,
+                    const Window& after,
+                    std::size_t size) {
   const std::size_t node = after.owned.first;
-  if (size % 2 == 1) return {nodes.stamps[node - 1], nodes.stamps[node]};
+  const bool has_line = before.fitted.nodes() == 2 || after.fitted.nodes() == 2;
+  if (size % 2 == 1 && !has_line) return {nodes.stamps[node - 1], nodes.stamps[node]};
   return {nodes.stamps[node] - 0.5 * nodes.duration(node - 1),
           nodes.stamps[node] + 0.5 * nodes.duration(node)};
 }

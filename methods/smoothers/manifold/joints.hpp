@@ -54,7 +54,11 @@ struct Joint {
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after);
 
 /// The joint between two windows of one edge each. Windows around nodes (`size` odd) blend over the
-/// whole earlier edge, from its one node to the other; windows around edges from middle to middle.
-Joint sliding_joint(const Nodes& nodes, const Window& after, std::size_t size);
+/// whole earlier edge, from its one node to the other; windows around edges from middle to middle,
+/// and so does a straight line between two nodes, which says nothing about the edges beside it.
+Joint sliding_joint(const Nodes& nodes,
+                    const Window& before,
+                    const Window& after,
+                    std::size_t size);
 
 }  // namespace loopbench::manifold

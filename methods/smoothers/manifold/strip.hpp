@@ -91,7 +91,7 @@ Strip<Piece, Value> laid(const Nodes& nodes,
     if (meet != Meet::overlap_blend) {
       out.joints.push_back({now, now});
     } else if (laying.scheme == Scheme::sliding_blend) {
-      out.joints.push_back(sliding_joint(nodes, windows[k], laying.size));
+      out.joints.push_back(sliding_joint(nodes, windows[k - 1], windows[k], laying.size));
     } else {
       out.joints.push_back(joint_between(nodes, windows[k - 1], windows[k]));
     }

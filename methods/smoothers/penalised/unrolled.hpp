@@ -71,12 +71,14 @@ struct SmoothedRotations {
 /// Flattens the rotations about a base, lets `fit` smooth the points (it returns a struct with
 /// `values`, one a rotation), rolls them up as the next base, and so on until the base stands
 /// still: there the fit is that of the manifold, its penalty taken along its own path. Linear
-/// convergence, faster the smaller the noise; `settled` is false when `most` rounds were not
-/// enough.
+/// convergence, faster the smaller the noise; `settled` is false when after 30 rounds a rotation
+/// still moves by more than `still` [rad].
 template <class FitPoints>
-auto smoothed_rotations(const std::vector<Rotation>& rotations, FitPoints fit_points, int most = 30)
+auto smoothed_rotations(const std::vector<Rotation>& rotations,
+                        FitPoints fit_points,
+                        double still = 1e-11)
     -> SmoothedRotations<decltype(fit_points(std::vector<Vector3>{}))> {
-  constexpr double kStill = 1e-11;  // [rad]
+  constexpr int kMost = 30;
   Unrolled path(rotations);
   for (int round = 1;; ++round) {
     std::vector<Vector3> points;
@@ -92,8 +94,8 @@ auto smoothed_rotations(const std::vector<Rotation>& rotations, FitPoints fit_po
       next.push_back(path.rolled(i, 0.0, fit.values[i]));
       change = std::max(change, angle_between(path.base()[i], next[i]));
     }
-    const bool settled = change <= kStill;
-    if (settled || round == most) return {std::move(path), std::move(fit), round, settled};
+    const bool settled = change <= still;
+    if (settled || round == kMost) return {std::move(path), std::move(fit), round, settled};
     path = Unrolled(std::move(next));
   }
 }

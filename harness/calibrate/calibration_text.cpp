@@ -1,0 +1,94 @@
+#include "harness/calibrate/calibration_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "harness/version.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Double-quoted, as YAML reads it back.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const std::string& name : names) out.push_back(quoted(name));
+  return fmt::format("[{}]", fmt::join(out, ", "));
+}
+
+std::string told(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3f}", *value) : "none";
+}
+
+}  // namespace
+
+std::string calibration_yaml(const Calibration& c) {
+  std::vector<std::string> trained;
+  for (const Residuals& s : c.sequences) trained.push_back(s.label);
+  std::string out = fmt::format(
+      "# Written by loopbench {} calibrate {}. Take it over in a config:\n"
+      "#   - {{method: motion_drift, calibration: THIS_FILE}}\n"
+      "trained_on: {}\nnot_trained_on: {}\nedges_as_one: {}\n",
+      kVersion,
+      c.config,
+      list(trained),
+      list(c.not_trained_on),
+      c.every);
+
+  out +=
+      "# Root mean square errors of stretches of so many edges, and what power of the stretch "
+      "they\n"
+      "# grow with since the row before: 0.5 is noise, 1 is steady drift.\n";
+  for (std::size_t i = 0; i < c.stretches.size(); ++i) {
+    const Calibration::Stretch& s = c.stretches[i];
+    out += fmt::format("# {:4} edges {:.3g} m {:.3g} rad", s.edges, s.rms[0], s.rms[1]);
+    if (i > 0) {
+      const Calibration::Stretch& before = c.stretches[i - 1];
+      const double longer = std::log(double(s.edges) / double(before.edges));
+      out += fmt::format("; powers {:.2f} {:.2f}",
+                         std::log(s.rms[0] / before.rms[0]) / longer,
+                         std::log(s.rms[1] / before.rms[1]) / longer);
+    }
+    out += "\n";
+  }
+  out += "# Correlations of what errors may grow with; near 1, two cannot be told apart.\n";
+  for (std::size_t a = 1; a < kGrowths.size(); ++a) {
+    for (std::size_t b = a + 1; b < kGrowths.size(); ++b) {
+      const double r = correlation(kGrowths[a], kGrowths[b], c.sequences);
+      out += fmt::format("#   {} {}: {}\n",
+                         name_of(kGrowths[a]),
+                         name_of(kGrowths[b]),
+                         std::isfinite(r) ? fmt::format("{:.2f}", r) : "one never changes");
+    }
+  }
+  out += "# Log likelihood per error of sequences left out of the fit: translation, rotation.\n";
+  for (const Rung& rung : c.rungs) {
+    out += fmt::format(
+        "#   {:22} {} {}\n", rung.method, told(rung.held_out[0]), told(rung.held_out[1]));
+  }
+  for (std::size_t r = 0; r < c.rungs.size(); ++r) {
+    out += c.rungs[r].method + ":\n";
+    const auto options = options_of(c.rungs[r]);
+    for (std::size_t j = 0; j < options.size(); ++j) {
+      const Interval& interval = c.intervals[r][j];
+      out += fmt::format("  {}: {:.6g}  # 90 %: {:.2g} .. {:.2g}\n",
+                         options[j].first,
+                         options[j].second,
+                         interval.low,
+                         interval.high);
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,149 @@
+#include "harness/calibrate/ladder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace loopbench {
+namespace {
+
+struct Shape {
+  const char* method;
+  std::vector<Growth> noise;
+  std::vector<Growth> drift[2];  ///< by Half
+};
+
+/// As the methods of these names in the catalogue have it.
+std::vector<Shape> shapes() {
+  using enum Growth;
+  return {{"motion_drift_const", {edge}, {}},
+          {"motion_drift_time", {time}, {}},
+          {"motion_drift_distance", {time, distance}, {}},
+          {"motion_drift_rotation", {time, distance, rotation}, {}},
+          {"motion_drift_speed", {time, distance, rotation, speed}, {}},
+          {"motion_drift", {time, distance, rotation}, {{distance}, {time, distance, rotation}}}};
+}
+
+constexpr Half kHalves[] = {Half::translation, Half::rotation};
+
+std::vector<Residuals> redrawn(const std::vector<Residuals>& sequences,
+                               std::size_t segment,
+                               std::mt19937_64& random) {
+  std::vector<Residuals> out;
+  for (const Residuals& s : sequences) {
+    Residuals drawn{s.label, s.planar, {}};
+    const std::size_t length = std::min(segment, s.edges.size());
+    while (drawn.edges.size() < s.edges.size()) {
+      const std::size_t begin = random() % (s.edges.size() - length + 1);
+      const auto from = s.edges.begin() + static_cast<std::ptrdiff_t>(begin);
+      drawn.edges.insert(drawn.edges.end(), from, from + static_cast<std::ptrdiff_t>(length));
+    }
+    drawn.edges.resize(s.edges.size());
+    out.push_back(std::move(drawn));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Rung> climb(const std::vector<Residuals>& sequences) {
+  std::vector<Rung> out;
+  for (const Shape& shape : shapes()) {
+    Rung rung{shape.method, {}, {}};
+    for (const Half half : kHalves) {
+      const auto h = static_cast<std::size_t>(half);
+      rung.rates[h] = fit_rates(half, shape.noise, shape.drift[h], sequences);
+      if (sequences.size() < 2) continue;
+      double sum = 0.0;
+      for (std::size_t left_out = 0; left_out < sequences.size(); ++left_out) {
+        std::vector<Residuals> others = sequences;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+        sum += log_likelihood(fit_rates(half, shape.noise, shape.drift[h], others),
+                              {sequences[left_out]});
+      }
+      rung.held_out[h] = sum / count(half, sequences);
+    }
+    out.push_back(std::move(rung));
+  }
+  return out;
+}
+
+std::vector<std::pair<std::string, double>> options_of(const Rung& rung) {
+  std::vector<std::pair<std::string, double>> out;
+  for (const Half half : kHalves) {
+    const Rates& rates = rung.rates[static_cast<std::size_t>(half)];
+    for (std::size_t j = 0; j < rates.noise.size(); ++j) {
+      const double value = rates.noise_variance[j];
+      out.emplace_back(name_of(Term{Cause::noise, half, rates.noise[j]}),
+                       value > 1e-20 ? value : 0.0);
+    }
+    for (std::size_t j = 0; j < rates.drift.size(); ++j) {
+      const double value = std::sqrt(rates.drift_variance[j]);
+      out.emplace_back(name_of(Term{Cause::drift, half, rates.drift[j]}),
+                       value > 1e-10 ? value : 0.0);
+    }
+  }
+  return out;
+}
+
+std::vector<Interval> bootstrap(const Rung& rung,
+                                const std::vector<Residuals>& sequences,
+                                std::size_t segment,
+                                int draws,
+                                std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<double>> values;  // by option
+  for (int draw = 0; draw < draws; ++draw) {
+    const std::vector<Residuals> drawn = redrawn(sequences, segment, random);
+    Rung again = rung;
+    for (const Half half : kHalves) {
+      Rates& rates = again.rates[static_cast<std::size_t>(half)];
+      rates = fit_rates(half, rates.noise, rates.drift, drawn);
+    }
+    const auto options = options_of(again);
+    values.resize(options.size());
+    for (std::size_t j = 0; j < options.size(); ++j) values[j].push_back(options[j].second);
+  }
+  std::vector<Interval> out;
+  for (std::vector<double>& of : values) {
+    std::ranges::sort(of);
+    const auto at = [&](double share) {
+      return of[static_cast<std::size_t>(share * static_cast<double>(of.size() - 1))];
+    };
+    out.push_back({at(0.05), at(0.95)});
+  }
+  return out;
+}
+
+double root_mean_square(Half half, const std::vector<Residuals>& sequences) {
+  double sum = 0.0;
+  for (const Residuals& s : sequences) {
+    for (const EdgeResidual& edge : s.edges) {
+      if (half == Half::translation) {
+        sum += edge.error.head(s.planar ? 2 : 3).squaredNorm();
+      } else {
+        sum += edge.error.tail(s.planar ? 1 : 3).squaredNorm();
+      }
+    }
+  }
+  return std::sqrt(sum / count(half, sequences));
+}
+
+double correlation(Growth a, Growth b, const std::vector<Residuals>& sequences) {
+  double n = 0.0, sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
+  for (const Residuals& s : sequences) {
+    for (const EdgeResidual& edge : s.edges) {
+      const double x = edge.grown[static_cast<std::size_t>(a)];
+      const double y = edge.grown[static_cast<std::size_t>(b)];
+      n += 1.0;
+      sa += x;
+      sb += y;
+      saa += x * x;
+      sbb += y * y;
+      sab += x * y;
+    }
+  }
+  return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
+}
+
+}  // namespace loopbench

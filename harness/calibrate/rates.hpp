@@ -1,0 +1,41 @@
+/// Maximum likelihood of an error model's variances on edges whose errors are known.
+#pragma once
+
+#include <vector>
+
+#include "harness/calibrate/residuals.hpp"
+#include "methods/correctors/motion_drift/model.hpp"
+
+namespace loopbench {
+
+/// The terms of one half, translation or rotation, and what they are worth.
+struct Rates {
+  Half half = Half::translation;
+  std::vector<Growth> noise;
+  std::vector<Growth> drift;
+  std::vector<double> noise_variance;  ///< [m^2/unit] or [rad^2/unit]
+  std::vector<double> drift_variance;  ///< of a rate on an axis [(m/unit)^2] or [(rad/unit)^2]
+};
+
+/// Log density of the errors: on every axis e = sum_j phi_j b_j + w, w_i ~ N(0, sum_j a_j phi_ij),
+/// b_j ~ N(0, v_j) drawn once a sequence. O(edges terms^2).
+double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequences);
+
+/// Errors counted: edges times axes of that half.
+double count(Half half, const std::vector<Residuals>& sequences);
+
+/// Raises log_likelihood in every one of `iterations` rounds, coefficients never negative: with C
+/// the covariance of an axis, Q_j a term's share of it and alpha = C^-1 e,
+///
+///     a_j <- a_j sqrt(sum alpha' Q_j alpha / sum tr(C^-1 Q_j)).
+///
+/// Without drift these are the Itakura-Saito updates of nonnegative matrix factorisation. C is
+/// inverted through the drift terms (Woodbury). O(iterations edges terms^2). Sources: Zhou et al.,
+/// MM algorithms for variance components models, 2019; Fevotte, Bertin, Durrieu, 2009.
+Rates fit_rates(Half half,
+                const std::vector<Growth>& noise,
+                const std::vector<Growth>& drift,
+                const std::vector<Residuals>& sequences,
+                int iterations = 500);
+
+}  // namespace loopbench

@@ -1,0 +1,38 @@
+#include "harness/calibrate/residuals.hpp"
+
+#include "datasets/derive/poses_at.hpp"
+#include "methods/correctors/chain.hpp"
+#include "metrics/position_only.hpp"
+
+namespace loopbench {
+
+Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every) {
+  const Problem& problem = sequence.problem;
+  if (sequence.reference.empty()) throw InputError(label + ": has no reference to learn from");
+  if (const std::string fault = chain_fault(problem); !fault.empty()) {
+    throw InputError(label + ": " + fault);
+  }
+  if (is_position_only(sequence.reference)) {
+    throw InputError(label + ": the reference holds positions only, expected attitudes as well");
+  }
+  const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), Reach{});
+  const std::vector<EdgeMotion> moved = motions(problem);
+  Residuals out{label, problem.planar, {}};
+  for (std::size_t begin = 0; begin + every <= moved.size(); begin += every) {
+    const std::size_t end = begin + every;
+    if (!truth[begin] || !truth[end]) continue;
+    EdgeResidual edge;
+    Pose measured;
+    for (std::size_t i = begin; i < end; ++i) {
+      measured = normalized(measured * problem.odometry[i].from_from_to);
+      for (const Growth growth : kGrowths) {
+        edge.grown[static_cast<std::size_t>(growth)] += grown(growth, moved[i]);
+      }
+    }
+    edge.error = log_se3(measured.inverse() * (truth[begin]->inverse() * *truth[end]));
+    out.edges.push_back(edge);
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "datasets/core/error.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/commands/tables.hpp"
+#include "harness/compare/along_intervals.hpp"
+#include "harness/export/comparison.hpp"
+#include "harness/export/text.hpp"
+#include "harness/export/where.hpp"
+#include "harness/store/read.hpp"
+#include "harness/store/traces.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+enum class Format { markdown, terminal, latex, csv, json };
+
+struct CompareArguments {
+  std::string store;
+  std::string metric = "ate";
+  std::vector<std::string> where;
+  CompareOptions options;
+  Format format = Format::markdown;
+};
+
+/// The scores of one metric, by its label or its short name with axis ("error x").
+void keep_metric(std::vector<Record>& records, const std::string& metric) {
+  std::vector<std::string> known;
+  std::vector<std::string> scores;
+  for (const Record& r : records) {
+    if (r.metric.empty()) continue;
+    for (const std::string& name : {r.metric, field(r, "score")}) {
+      if (std::ranges::count(known, name) == 0) known.push_back(name);
+    }
+  }
+  if (std::ranges::count(known, metric) == 0) {
+    throw InputError("--metric: " + unknown_name("metric", metric, known));
+  }
+  std::erase_if(records, [&](const Record& r) {
+    return !r.metric.empty() && r.metric != metric && field(r, "score") != metric;
+  });
+}
+
+/// Intervals along the runs from the traces that the store keeps of the first protocol.
+void use_traces(std::vector<Comparison>& comparisons,
+                const std::vector<Record>& records,
+                const std::string& store) {
+  Traces traces(store);
+  std::map<std::string, std::int64_t> cells;
+  std::string protocol;
+  for (const Record& r : records) {
+    cells.emplace(r.method + "\n" + run_name(r), r.cell);
+    if (protocol.empty()) protocol = r.protocol;
+  }
+  for (Comparison& comparison : comparisons) {
+    if (comparison.kind.protocol != protocol) continue;
+    add_intervals_along_runs(comparison, [&](const std::string& method, const std::string& run) {
+      StampedErrors out;
+      const auto found = cells.find(method + "\n" + run);
+      if (found == cells.end()) return out;
+      const std::optional<CellTrace> trace = traces.cell(found->second);
+      if (!trace || to_text(trace->times) != comparison.kind.times) return out;
+      for (const TraceSample& sample : trace->samples) {
+        out.stamps.push_back(sample.estimate.stamp);
+        out.errors.push_back(std::hypot(sample.error_x, sample.error_y, sample.error_z));
+      }
+      return out;
+    });
+  }
+}
+
+int print_comparison(CompareArguments arguments) {
+  std::vector<Record> records = all_records(arguments.store);
+  const std::vector<Record> whole = records;
+  keep_where(records, arguments.where);
+  if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
+    throw InputError(arguments.store + ": no score is left to compare" +
+                     (arguments.where.empty() ? "" : " after --where"));
+  }
+  keep_metric(records, arguments.metric);
+  if (arguments.options.baseline.empty()) {
+    arguments.options.baseline = read_run(arguments.store).at("baseline");
+  }
+  if (arguments.options.baseline.empty()) {
+    throw InputError(arguments.store + ": the sweep has no baseline; --baseline METHOD names one");
+  }
+  std::vector<Comparison> comparisons = compare(records, arguments.options);
+  use_traces(comparisons, whole, arguments.store);
+  if (arguments.format == Format::csv) {
+    fmt::print("{}", csv(comparisons));
+  } else if (arguments.format == Format::json) {
+    fmt::print("{}", json(comparisons));
+  } else {
+    const auto text = arguments.format == Format::latex ? latex
+                      : arguments.format == Format::terminal
+                          ? terminal
+                          : static_cast<std::string (*)(const Sheet&)>(markdown);
+    bool is_first = true;
+    for (const Comparison& comparison : comparisons) {
+      fmt::print("{}{}", is_first ? "" : "\n", text(sheet(comparison)));
+      is_first = false;
+    }
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Which method is best, and is the difference real");
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+      ->required();
+  command
+      ->add_option("--baseline", arguments->options.baseline, "Method that others are set against")
+      ->type_name("METHOD");
+  command->add_option("--metric", arguments->metric, "Label of a metric, or a score: ate, error x")
+      ->capture_default_str();
+  command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
+      ->capture_default_str();
+  command->add_option("--alpha", arguments->options.alpha, "Level of tests and intervals")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str();
+  const std::map<std::string, Over> units{{"runs", Over::runs}, {"sequences", Over::sequences}};
+  command
+      ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
+      ->transform(CLI::CheckedTransformer(units).description("runs|sequences"));
+  command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
+  const std::map<std::string, Format> formats{{"markdown", Format::markdown},
+                                              {"terminal", Format::terminal},
+                                              {"latex", Format::latex},
+                                              {"csv", Format::csv},
+                                              {"json", Format::json}};
+  command->add_option("--format", arguments->format, "How to print")
+      ->transform(CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json"));
+  command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,69 @@
+#include "harness/profile/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <regex>
+
+#include "harness/commands/commands.hpp"
+#include "harness/store/read.hpp"
+
+namespace loopbench {
+namespace {
+
+struct ProfileArguments {
+  std::string store;
+  std::string only;
+  std::string format = "markdown";
+  Accuracy accuracy;
+};
+
+int print_profile(const ProfileArguments& arguments) {
+  std::regex wanted;
+  try {
+    wanted = std::regex(arguments.only);
+  } catch (const std::regex_error&) {
+    throw InputError("--only: '" + arguments.only + "' is not a regular expression");
+  }
+  std::vector<CellRecord> cells = read_cells(arguments.store);
+  std::erase_if(cells, [&](const CellRecord& cell) {
+    return !std::regex_search(cell.sequence + " / " + cell.method, wanted);
+  });
+  if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
+  value(Record{}, arguments.accuracy.value);  // refuses a wrong name before anything is printed
+  bool first = true;
+  for (const Listing& listing :
+       {costs(cells),
+        reported(cells),
+        scaling(cells),
+        pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
+    if (!first) fmt::print("\n");
+    first = false;
+    fmt::print("{}", arguments.format == "csv" ? csv(listing) : markdown(listing));
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_profile(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ProfileArguments>();
+  CLI::App* command = app.add_subcommand(
+      "profile", "Time, memory, growth with size, and accuracy against time of a sweep's methods");
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+      ->required();
+  command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
+      ->type_name("REGEX");
+  command->add_option("--metric", arguments->accuracy.metric, "What stands for accuracy: its label")
+      ->capture_default_str();
+  command->add_option("--relation", arguments->accuracy.relation)->capture_default_str();
+  command->add_option("--axis", arguments->accuracy.axis)->capture_default_str();
+  command->add_option("--value", arguments->accuracy.value, "rmse mean median std min max")
+      ->capture_default_str();
+  command->add_option("--format", arguments->format)
+      ->check(CLI::IsMember({"markdown", "csv"}))
+      ->capture_default_str();
+  command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,87 @@
+#include "harness/verify/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+
+#include "harness/commands/commands.hpp"
+#include "harness/commands/data_root.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "harness/run/progress.hpp"
+#include "harness/run/sequences.hpp"
+
+namespace loopbench {
+namespace {
+
+struct VerifyArguments {
+  std::string config;
+  std::string only;
+  std::string data;
+  std::vector<std::filesystem::path> plugins;
+};
+
+std::atomic<bool> interrupted = false;
+
+void interrupt(int) { interrupted = true; }
+
+int run_verify(const VerifyArguments& arguments) {
+  const Catalogue known = catalogue(arguments.plugins);
+  Sweep sweep = read_sweep(arguments.config, known);
+  sweep.timing = 1;  // times are not compared
+  sweep.serial = false;
+  sweep.traces = true;
+  const DataRoot root = data_root(sweep, arguments.data);
+  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
+  if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
+  // The first twice: a method may differ from run to run alone.
+  const std::vector<Manner> manners{
+      {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  std::vector<Difference> found;
+  {
+    Progress progress(planned.size() * manners.size());
+    found =
+        verify(sweep, planned, known, root, manners, interrupted, [&](const std::string& label) {
+          progress.step(label);
+        });
+  }
+  if (interrupted) return kExitInterrupted;
+  for (const Difference& difference : found) {
+    const Cell& cell = planned[difference.cell];
+    fmt::print("{} / {}{}: other {} with {} than with {} before\n",
+               sweep.datasets[cell.dataset].label,
+               sweep.methods[cell.method].label,
+               cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "",
+               difference.part,
+               difference.manner,
+               manners.front().name());
+  }
+  std::string names;
+  for (const Manner& manner : manners) names += (names.empty() ? "" : ", ") + manner.name();
+  fmt::print("{} cells run with {}: {}\n",
+             planned.size(),
+             names,
+             found.empty() ? "the same bits" : fmt::format("{} differences", found.size()));
+  return found.empty() ? kExitOk : kExitSomeCellsFailed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command = app.add_subcommand(
+      "verify", "Run a sweep on different numbers of workers and demand the same bits");
+  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
+      ->type_name("REGEX");
+  command->add_option("--data", arguments->data, "Folder with real data")
+      ->envname("LOOPBENCH_DATA")
+      ->type_name("DIR");
+  command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
+      ->type_name("FILE");
+  command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
+}
+
+}  // namespace loopbench

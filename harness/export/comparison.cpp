@@ -1,0 +1,157 @@
+#include "harness/export/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "harness/export/text.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string title(const Comparison& c) {
+  std::string out;
+  const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
+  const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
+  for (const std::string& word : {c.kind.metric, relation, axis, c.options.value}) {
+    if (!word.empty()) out += (out.empty() ? "" : " ") + word;
+  }
+  return out + ", " + c.kind.times + ", " + c.kind.protocol;
+}
+
+std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", p); }
+
+}  // namespace
+
+Sheet sheet(const Comparison& c) {
+  const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
+  Sheet out{title(c),
+            {"method",
+             "median" + unit,
+             "ratio",
+             fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
+             "better/worse/equal",
+             "p",
+             "effect",
+             "d_z",
+             "rank",
+             "group"},
+            {},
+            {verdict(c)}};
+  double largest = 0.0;
+  for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
+  for (const MethodVerdict& m : c.methods) {
+    const bool is_baseline = m.method == c.options.baseline;
+    const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
+    out.lines.push_back(
+        {{m.method},
+         {fixed(m.median, decimals(largest))},
+         {m.ratio ? fixed(m.ratio->estimate, 4) : "-"},
+         {unless_baseline(
+             m.has_interval ? fmt::format("{:.4f} .. {:.4f}", m.ratio->low, m.ratio->high) : "-")},
+         {unless_baseline(fmt::format("{}/{}/{}", m.wins, m.losses, m.ties))},
+         {unless_baseline(p_text(m.p))},
+         {unless_baseline(fixed(m.rank_biserial, 2))},
+         {unless_baseline(m.dz ? fixed(*m.dz, 2) : "-")},
+         {fixed(m.average_rank, 2)},
+         {m.groups}});
+  }
+  for (const std::string& remark : remarks(c)) out.notes.push_back(remark);
+  return out;
+}
+
+std::string csv(const std::vector<Comparison>& comparisons) {
+  std::string out =
+      "protocol,times,metric,relation,axis,unit,value,baseline,observations,method,median,ratio,"
+      "ratio_low,ratio_high,better,worse,equal,p,rank_biserial,d_z,average_rank,p_best,groups\n";
+  for (const Comparison& c : comparisons) {
+    for (const MethodVerdict& m : c.methods) {
+      const auto bound = [&](double Interval::*end) {
+        return m.has_interval ? fmt::format("{}", (*m.ratio).*end) : "";
+      };
+      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                         quoted(c.kind.protocol),
+                         c.kind.times,
+                         quoted(c.kind.metric),
+                         c.kind.relation,
+                         c.kind.axis,
+                         c.kind.unit,
+                         c.options.value,
+                         quoted(c.options.baseline),
+                         c.observations,
+                         quoted(m.method),
+                         m.median,
+                         m.ratio ? fmt::format("{}", m.ratio->estimate) : "",
+                         bound(&Interval::low),
+                         bound(&Interval::high),
+                         m.wins,
+                         m.losses,
+                         m.ties,
+                         m.p,
+                         m.rank_biserial,
+                         m.dz ? fmt::format("{}", *m.dz) : "",
+                         m.average_rank,
+                         m.p_best,
+                         m.groups);
+    }
+  }
+  return out;
+}
+
+std::string json(const std::vector<Comparison>& comparisons) {
+  using Json = nlohmann::ordered_json;
+  Json out = Json::array();
+  for (const Comparison& c : comparisons) {
+    Json entry{{"protocol", c.kind.protocol},
+               {"protocol_version", c.kind.protocol_version},
+               {"times", c.kind.times},
+               {"metric", c.kind.metric},
+               {"relation", c.kind.relation},
+               {"axis", c.kind.axis},
+               {"unit", c.kind.unit},
+               {"value", c.options.value},
+               {"higher_is_better", c.higher_is_better},
+               {"baseline", c.options.baseline},
+               {"alpha", c.options.alpha},
+               {"over", c.options.over == Over::runs ? "runs" : "sequences"},
+               {"observations", c.observations},
+               {"possible", c.possible},
+               {"verdict", verdict(c)},
+               {"remarks", remarks(c)},
+               {"friedman_p", c.friedman_p},
+               {"critical_difference", c.critical_difference},
+               {"methods", Json::array()},
+               {"gaps", Json::array()}};
+    for (const MethodVerdict& m : c.methods) {
+      Json ratio = nullptr;
+      if (m.ratio) ratio = m.ratio->estimate;
+      Json interval = nullptr;
+      if (m.has_interval) interval = {m.ratio->low, m.ratio->high};
+      entry["methods"].push_back({{"method", m.method},
+                                  {"median", m.median},
+                                  {"ratio", ratio},
+                                  {"interval", interval},
+                                  {"better", m.wins},
+                                  {"worse", m.losses},
+                                  {"equal", m.ties},
+                                  {"p", m.p},
+                                  {"rank_biserial", m.rank_biserial},
+                                  {"d_z", m.dz ? Json(*m.dz) : Json(nullptr)},
+                                  {"average_rank", m.average_rank},
+                                  {"p_best", m.p_best},
+                                  {"groups", m.groups}});
+    }
+    for (const Gap& gap : c.gaps) {
+      entry["gaps"].push_back({{"method", gap.method},
+                               {"missing", gap.missing},
+                               {"why", gap.why},
+                               {"ranked", gap.is_ranked}});
+    }
+    out.push_back(std::move(entry));
+  }
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace loopbench

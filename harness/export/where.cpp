@@ -1,0 +1,78 @@
+#include "harness/export/where.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+struct Condition {
+  std::string field;
+  std::string text;
+  bool is_wanted = true;  // false: field!=text
+  std::optional<std::regex> pattern;
+};
+
+/// At commas outside of brackets: labels like `evo (align=se3, first=10)` stay whole.
+std::vector<std::string> split(const std::string& rule) {
+  std::vector<std::string> parts{""};
+  int depth = 0;
+  for (const char c : rule) {
+    if (c == '(' || c == '[' || c == '{') ++depth;
+    if (c == ')' || c == ']' || c == '}') --depth;
+    if (c == ',' && depth <= 0) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+Condition condition(const std::string& part) {
+  const std::size_t at = part.find_first_of("=!~");
+  const bool is_not = at != std::string::npos && part[at] == '!';
+  if (at == std::string::npos || (is_not && part.compare(at, 2, "!=") != 0)) {
+    throw InputError("where: '" + part +
+                     "' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
+  }
+  Condition out{part.substr(0, at), part.substr(at + (is_not ? 2 : 1)), !is_not, std::nullopt};
+  try {
+    field(Record{}, out.field);
+    if (part[at] == '~') out.pattern.emplace(out.text);
+  } catch (const InputError& error) {
+    throw InputError("where: '" + part + "': " + error.what());
+  } catch (const std::regex_error&) {
+    throw InputError("where: '" + out.text + "' is not a regular expression");
+  }
+  return out;
+}
+
+bool holds(const Condition& condition, const Record& record) {
+  const std::string text = field(record, condition.field);
+  if (record.metric.empty() && text.empty()) return true;
+  if (condition.pattern) return std::regex_search(text, *condition.pattern);
+  return (text == condition.text) == condition.is_wanted;
+}
+
+}  // namespace
+
+std::function<bool(const Record&)> where(const std::vector<std::string>& rules) {
+  std::vector<Condition> conditions;
+  for (const std::string& rule : rules) {
+    for (const std::string& part : split(rule)) conditions.push_back(condition(part));
+  }
+  return [conditions = std::move(conditions)](const Record& record) {
+    return std::ranges::all_of(conditions, [&](const Condition& c) { return holds(c, record); });
+  };
+}
+
+void keep_where(std::vector<Record>& records, const std::vector<std::string>& rules) {
+  const auto kept = where(rules);
+  std::erase_if(records, [&](const Record& record) { return !kept(record); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,21 @@
+/// Which records to keep, as typed by people.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/store/record.hpp"
+
+namespace loopbench {
+
+/// Each rule is `field=text`, `field!=text` or `field~regex` (ECMAScript, found anywhere), or
+/// several of them separated by commas outside of brackets; all must hold. Fields are those of
+/// `field` in record.hpp. A cell that left no score passes rules about fields it does not have:
+/// its reason belongs into every table. Throws InputError naming the rule.
+std::function<bool(const Record&)> where(const std::vector<std::string>& rules);
+
+/// Drops the records that `where` does not keep.
+void keep_where(std::vector<Record>& records, const std::vector<std::string>& rules);
+
+}  // namespace loopbench

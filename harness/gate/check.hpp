@@ -1,0 +1,39 @@
+/// Is it still as good as it was?
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/gate/baseline.hpp"
+
+namespace loopbench {
+
+struct Finding {
+  enum class Kind {
+    regression,   ///< worse beyond a limit, failed newly, vanished
+    improvement,  ///< better beyond a limit, or works where it did not
+    added         ///< not in the baseline
+  };
+  Kind kind = Kind::regression;
+  std::string cell;   ///< as `name` has it; a method where the finding is over all its runs
+  std::string score;  ///< empty: the cell as a whole
+  std::string what;   ///< what was and what is, with the limit
+};
+
+struct GateReport {
+  std::size_t cells = 0;           ///< of the baseline
+  std::size_t scores = 0;          ///< compared
+  std::vector<std::string> names;  ///< of the baseline's cells, in order
+  std::vector<Finding> findings;   ///< in the order of the baseline; over all runs last
+
+  std::size_t count(Finding::Kind kind) const;
+  bool passes() const { return count(Finding::Kind::regression) == 0; }
+};
+
+/// Throws InputError when the baseline's numbers were made from other inputs or by other rules,
+/// saying which. A sequence that is gone is not another input: its cells vanished. O(n log n) and
+/// a test per method and score.
+GateReport check(const Baseline& baseline, const Snapshot& now);
+
+}  // namespace loopbench

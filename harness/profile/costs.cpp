@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "harness/profile/grouping.hpp"
+#include "harness/profile/profile.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+std::string milliseconds(double seconds) { return fmt::format("{:.4g}", 1e3 * seconds); }
+
+/// Median over the cells that know the value, as text; a dash when none does.
+template <class Get, class Text>
+std::string median_text(const std::vector<const CellRecord*>& cells, Get get, Text text) {
+  std::vector<double> values;
+  for (const CellRecord* cell : cells) {
+    if (const auto value = get(*cell)) values.push_back(static_cast<double>(*value));
+  }
+  return values.empty() ? "-" : text(median_of(std::move(values)));
+}
+
+template <class Get>
+std::string largest_megabytes(const std::vector<const CellRecord*>& cells, Get get) {
+  std::optional<std::int64_t> out;
+  for (const CellRecord* cell : cells) {
+    if (const auto value = get(*cell)) out = std::max(out.value_or(0), *value);
+  }
+  return out ? fmt::format("{:.1f}", static_cast<double>(*out) / kMegabyte) : "-";
+}
+
+std::optional<double> iterations(const CellRecord& cell) {
+  const auto found = std::ranges::find(cell.counts, "iterations", &Count::name);
+  return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
+}
+
+std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& cells) {
+  std::vector<const CellRecord*> out;
+  std::ranges::copy_if(cells, std::back_inserter(out), [](const auto* c) { return is_timed(*c); });
+  return out;
+}
+
+std::string plain(double value) { return fmt::format("{:.6g}", value); }
+
+/// Medians by name, names in the order in which they first come.
+class ByName {
+ public:
+  void add(const std::string& name, double value) {
+    if (!values_.contains(name)) names_.push_back(name);
+    values_[name].push_back(value);
+  }
+  template <class Text>
+  void add_rows(Listing& out, const std::string& method, const std::string& what, Text text) const {
+    for (const std::string& name : names_) {
+      out.rows.push_back({method, what, name, text(median_of(values_.at(name)))});
+    }
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<double>> values_;
+};
+
+}  // namespace
+
+Listing costs(const std::vector<CellRecord>& cells) {
+  Listing out{"costs",
+              {"method",
+               "cells",
+               "failed",
+               "wall [ms]",
+               "CPU [ms]",
+               "peak memory [MB]",
+               "added [MB]",
+               "allocations",
+               "iterations"},
+              {},
+              {}};
+  bool shared = false;
+  bool alone = false;
+  for (const auto& [method, all] : by_method(cells)) {
+    const std::vector<const CellRecord*> timed = timed_of(all);
+    std::size_t failed = 0;
+    for (const CellRecord* cell : all) {
+      if (!is_timed(*cell) && cell->status != "declined") ++failed;
+      (cell->worker.find("serial") == std::string::npos ? shared : alone) = true;
+    }
+    out.rows.push_back(
+        {method,
+         std::to_string(all.size()),
+         std::to_string(failed),
+         median_text(
+             timed, [](const auto& c) { return std::optional(c.seconds); }, milliseconds),
+         median_text(
+             timed, [](const auto& c) { return c.cpu_seconds; }, milliseconds),
+         largest_megabytes(timed, [](const auto& c) { return c.peak_memory; }),
+         largest_megabytes(timed, [](const auto& c) { return c.added_memory; }),
+         median_text(
+             timed, [](const auto& c) { return c.allocations; }, plain),
+         median_text(timed, iterations, plain)});
+  }
+  out.notes.push_back(
+      "medians over cells; memory: the largest of the whole process while the "
+      "method ran, and what it added to it (memory that an earlier cell gave back "
+      "to the allocator is used again unseen)");
+  if (shared) {
+    out.notes.push_back(std::string(alone ? "some" : "all") +
+                        " cells ran beside others: `timing: true` in the config runs them alone");
+  }
+  return out;
+}
+
+Listing reported(const std::vector<CellRecord>& cells) {
+  Listing out{"what methods report of themselves", {"method", "what", "name", "median"}, {}, {}};
+  for (const auto& [method, all] : by_method(cells)) {
+    ByName phases;
+    ByName counts;
+    for (const CellRecord* cell : timed_of(all)) {
+      for (const Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
+      for (const Count& count : cell->counts) counts.add(count.name, count.value);
+    }
+    phases.add_rows(out, method, "phase [ms]", milliseconds);
+    counts.add_rows(out, method, "count", plain);
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "harness/profile/grouping.hpp"
+#include "harness/profile/profile.hpp"
+
+namespace loopbench {
+
+Listing scaling(const std::vector<CellRecord>& cells) {
+  Listing out{"scaling: time ~ keyframes^exponent",
+              {"method", "sizes", "keyframes", "exponent", "standard error", "R2", "largest [ms]"},
+              {},
+              {}};
+  for (const auto& [method, all] : by_method(cells)) {
+    std::map<std::int64_t, std::vector<double>> by_size;
+    for (const CellRecord* cell : all) {
+      if (is_timed(*cell) && cell->keyframes > 0) by_size[cell->keyframes].push_back(cell->seconds);
+    }
+    std::vector<double> sizes;
+    std::vector<double> times;
+    for (const auto& [size, seconds] : by_size) {
+      sizes.push_back(static_cast<double>(size));
+      times.push_back(median_of(seconds));
+    }
+    const auto law = power_law(sizes, times);
+    if (!law) continue;
+    out.rows.push_back({method,
+                        std::to_string(sizes.size()),
+                        fmt::format("{} to {}", by_size.begin()->first, by_size.rbegin()->first),
+                        fmt::format("{:.2f}", law->exponent),
+                        fmt::format("{:.2f}", law->error),
+                        fmt::format("{:.3f}", law->r2),
+                        fmt::format("{:.4g}", 1e3 * times.back())});
+  }
+  if (out.rows.empty()) {
+    out.notes.push_back(
+        "none: it takes three numbers of keyframes, the largest four times the "
+        "smallest, for example `sweep: {keyframes: [100, 1000, 10000]}`");
+  }
+  return out;
+}
+
+}  // namespace loopbench

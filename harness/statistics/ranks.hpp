@@ -1,0 +1,16 @@
+/// Ranks in which equals share.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace loopbench {
+
+/// Two numbers that no computation tells apart: |a - b| <= tie * max(|a|, |b|).
+bool tied(double a, double b, double tie);
+
+/// 1 for the smallest; ties get the mean of the ranks they span. Neighbours in order that are
+/// `tied` share, and so do chains of them; 0 ties only equals. No NaN. O(n log n).
+std::vector<double> midranks(std::span<const double> values, double tie = 0.0);
+
+}  // namespace loopbench

@@ -1,0 +1,216 @@
+#include "harness/store/merge.hpp"
+
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+#include "datasets/core/error.hpp"
+#include "harness/run/result.hpp"
+#include "harness/store/cell_writer.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/schema.hpp"
+
+namespace loopbench {
+namespace {
+
+struct MergedCell {
+  std::int64_t id = 0;
+  std::int64_t position = 0;
+  std::string key;
+  std::string build;
+  std::string sequence;
+  std::int64_t repeat = 0;
+  std::string method;
+  bool failed = false;
+};
+
+constexpr const char* kCellColumns =
+    "key, build, asked, sequence, repeat, method, dataset_options, method_options, closures, "
+    "oracle_closures, oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
+    "cpu_seconds_median, peak_memory, added_memory, allocations, status, signal, why, "
+    "failed_scores";
+
+/// The tables that belong to a cell, and their columns but `cell`.
+constexpr std::pair<const char*, const char*> kDetails[] = {
+    {"score",
+     "protocol, protocol_version, times, metric, relation, axis, unit, count, rmse, mean, median, "
+     "std, min, max, sse, pairs, possible, span, status, why"},
+    {"phase", "name, seconds"},
+    {"count", "name, value"},
+    {"note", "text"},
+    {"trace", "times, samples"}};
+
+class Merge {
+ public:
+  Merge(const std::filesystem::path& file, bool mixed_builds)
+      : database_(file, Database::Mode::create), mixed_builds_(mixed_builds) {
+    database_.execute(kSchema);
+    database_.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  }
+
+  void add(const std::filesystem::path& store) {
+    store_ = store_file(store).string();
+    { open_store(store_); }  // checks it, and takes up what a kill has left
+    database_.prepare("ATTACH ? AS source").bind(store_).run();
+    {
+      Transaction transaction(database_);
+      for (MergedCell& cell : source_cells()) add(cell);
+      add_sequences();
+      add_texts();
+      transaction.commit();
+    }
+    database_.execute("DETACH source");
+  }
+
+  Merged done() const { return {by_key_.size(), twice_}; }
+
+ private:
+  std::vector<MergedCell> source_cells() {
+    Statement rows = database_.prepare(
+        "SELECT id, position, key, build, sequence, repeat, method, status, failed_scores FROM "
+        "source.cell WHERE position IS NOT NULL ORDER BY position");
+    std::vector<MergedCell> out;
+    while (rows.step()) {
+      MergedCell& cell = out.emplace_back();
+      cell.id = rows.integer();
+      cell.position = rows.integer();
+      cell.key = rows.text();
+      cell.build = rows.text();
+      cell.sequence = rows.text();
+      cell.repeat = rows.integer();
+      cell.method = rows.text();
+      const Status status = from_text<Status>(rows.text()).value_or(Status::failed);
+      cell.failed = rows.integer() > 0 || is_failure(status);
+    }
+    return out;
+  }
+
+  void add(MergedCell& cell) {
+    if (build_.empty()) build_ = cell.build;
+    if (cell.build != build_ && !mixed_builds_) {
+      throw InputError(store_ + ": was made by build " + cell.build + ", the stores before it by " +
+                       build_ + "; --mixed-builds merges them all the same");
+    }
+    if (const auto same = by_key_.find(cell.key); same != by_key_.end()) {
+      ++twice_;
+      if (!same->second.failed || cell.failed) return;
+      remove_cell(database_, same->second.id);
+      cell.position = same->second.position;
+      cell.method = same->second.method;
+      cell.id = copy(cell);
+      same->second = cell;
+      return;
+    }
+    const std::string method = cell.method;
+    if (!labels_.emplace(cell.sequence, cell.repeat, cell.method).second) {
+      cell.method += " (build " + cell.build.substr(0, 8) + ")";
+      if (cell.build == build_ ||
+          !labels_.emplace(cell.sequence, cell.repeat, cell.method).second) {
+        throw InputError(store_ + ": " + cell.sequence + " / " + method +
+                         " is in an earlier store too, with other options, inputs or protocols");
+      }
+    }
+    if (!positions_.insert(cell.position).second) {
+      cell.position = *positions_.rbegin() + 1;
+      positions_.insert(cell.position);
+    }
+    cell.id = copy(cell);
+    by_key_.emplace(cell.key, cell);
+  }
+
+  std::int64_t copy(const MergedCell& cell) {
+    const std::string columns = kCellColumns;
+    database_
+        .prepare("INSERT INTO main.cell (position, " + columns + ") SELECT ?, " + columns +
+                 " FROM source.cell WHERE id = ?")
+        .bind(cell.position)
+        .bind(cell.id)
+        .run();
+    const std::int64_t id = database_.last_row();
+    database_.prepare("UPDATE main.cell SET method = ? WHERE id = ?")
+        .bind(cell.method)
+        .bind(id)
+        .run();
+    for (const auto& [table, fields] : kDetails) {
+      const std::string name = table;
+      const std::string list = fields;
+      database_
+          .prepare("INSERT INTO main." + name + " (cell, " + list + ") SELECT ?, " + list +
+                   " FROM source." + name + " WHERE cell = ? ORDER BY rowid")
+          .bind(id)
+          .bind(cell.id)
+          .run();
+    }
+    return id;
+  }
+
+  void add_sequences() {
+    Statement other = database_.prepare(
+        "SELECT s.path FROM source.input s JOIN main.input m ON s.asked = m.asked AND "
+        "s.number = m.number WHERE s.hash <> m.hash LIMIT 1");
+    if (other.step()) {
+      throw InputError(store_ + ": read another " + other.text() + " than the stores before it");
+    }
+    other.reset();
+    for (const char* table : {"input", "sequence", "sequence_trace"}) {
+      const std::string name = table;
+      database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
+                        " WHERE asked IN (SELECT asked FROM main.cell)");
+    }
+  }
+
+  /// What differs is told one below the other; the baseline is the first store's.
+  void add_texts() {
+    const std::string add =
+        " WHERE key <> 'exported' ON CONFLICT (key) DO UPDATE SET value = value || char(10) "
+        "|| excluded.value WHERE excluded.key <> 'baseline' AND "
+        "instr(char(10) || value || char(10), "
+        "char(10) || excluded.value || char(10)) = 0";
+    for (const char* table : {"run", "provenance"}) {
+      const std::string name = table;
+      database_.execute("INSERT INTO main." + name + " SELECT key, value FROM source." + name +
+                        add);
+    }
+  }
+
+  Database database_;
+  bool mixed_builds_;
+  std::string store_;  ///< being added
+  std::string build_;  ///< of the first cell
+  std::unordered_map<std::string, MergedCell> by_key_;
+  std::set<std::tuple<std::string, std::int64_t, std::string>> labels_;
+  std::set<std::int64_t> positions_;
+  std::size_t twice_ = 0;
+};
+
+}  // namespace
+
+Merged merge_stores(const std::vector<std::filesystem::path>& stores,
+                    const std::filesystem::path& out,
+                    bool mixed_builds) {
+  if (std::filesystem::exists(out)) {
+    throw InputError(out.string() + ": is there already; merge writes a new store");
+  }
+  const std::filesystem::path partial = out.string() + ".partial";
+  std::error_code none;
+  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path(), none);
+  std::filesystem::remove(partial, none);
+  try {
+    Merged merged;
+    {
+      Merge merge(partial, mixed_builds);
+      for (const std::filesystem::path& store : stores) merge.add(store);
+      merged = merge.done();
+    }
+    std::filesystem::rename(partial, out);
+    return merged;
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw InputError(out.string() + ": cannot be written: " + error.code().message());
+  } catch (...) {
+    std::filesystem::remove(partial, none);
+    throw;
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,64 @@
+/// Any corrector, given only those closures that agree with one another.
+#pragma once
+
+#include "methods/correctors/chain.hpp"
+#include "methods/correctors/consistency.hpp"
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+template <class Base>
+struct CheckedOptions {
+  typename Base::Options base;
+  Consistency check;
+};
+
+template <class Base, class Visit>
+void fields(CheckedOptions<Base>& o, Visit visit) {
+  fields(o.base, visit);
+  consistency_fields(o.check, visit);
+}
+
+/// consistent_closures() first, then `Base` on what is left; keyframes stay where they are when no
+/// two closures agree. Frames are not passed on.
+template <class Base>
+class Checked final : public Corrector {
+ public:
+  using Options = CheckedOptions<Base>;
+  explicit Checked(const Options& options) : check_(options.check), base_(options.base) {}
+
+  std::optional<std::string> declines(const Problem& problem) const override {
+    if (problem.closures.empty()) return "no loop closure to spread";
+    if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+    if (problem.closures.size() > static_cast<std::size_t>(check_.max_closures)) {
+      return std::to_string(problem.closures.size()) +
+             " closures, more than pcm.max_closures = " + std::to_string(check_.max_closures);
+    }
+    return std::nullopt;
+  }
+
+  /// Counts of `Base`, and `closures_consistent`. Throws what `Base` throws, and std::runtime_error
+  /// with its reason when it declines what is left.
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    Problem believed{problem.keyframes, problem.odometry, {}, {}, problem.planar};
+    const ConsistentClosures found =
+        report.time("check", [&] { return consistent_closures(problem, check_); });
+    for (const std::size_t k : found.kept) believed.closures.push_back(problem.closures[k]);
+    report.count("closures_consistent", static_cast<double>(found.kept.size()));
+    if (!found.is_largest) {
+      report.notes.push_back("the search for the largest consistent set stopped at its bound");
+    }
+    if (believed.closures.empty()) {
+      report.notes.push_back("no two closures agree: keyframes left as they were");
+      return problem.keyframes;
+    }
+    if (const auto why = base_.declines(believed)) throw std::runtime_error(*why);
+    return base_.correct(believed, report);
+  }
+
+ private:
+  Consistency check_;
+  Base base_;
+};
+
+}  // namespace loopbench

@@ -1,0 +1,41 @@
+/// The largest set of vertices that are all joined to one another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace loopbench {
+
+/// Undirected, as rows of bits.
+class BitGraph {
+ public:
+  explicit BitGraph(std::size_t size)
+      : size_(size), words_((size + 63) / 64), bits_(size * words_, 0) {}
+
+  std::size_t size() const { return size_; }
+  std::size_t words() const { return words_; }
+  const std::uint64_t* row(std::size_t a) const { return bits_.data() + a * words_; }
+  bool joined(std::size_t a, std::size_t b) const { return (row(a)[b / 64] >> (b % 64)) & 1U; }
+  void join(std::size_t a, std::size_t b) {
+    bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
+    bits_[b * words_ + a / 64] |= std::uint64_t{1} << (a % 64);
+  }
+
+ private:
+  std::size_t size_;
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+struct Clique {
+  std::vector<std::size_t> members;  ///< ascending
+  bool is_largest = false;           ///< proved; else the best that greed and the search found
+};
+
+/// Greedy from every vertex first, O(size^2 size / 64); then branch and bound with greedy colouring
+/// (Tomita and Seki 2003; San Segundo et al. 2011) for at most `most_steps` steps, exponential at
+/// worst. The same graph gives the same clique.
+Clique max_clique(const BitGraph& graph, std::size_t most_steps);
+
+}  // namespace loopbench

@@ -1,0 +1,44 @@
+#include "methods/joint/spline_fit.hpp"
+
+#include "methods/correctors/chain.hpp"
+#include "methods/smoothers/spline/curve.hpp"
+#include "methods/smoothers/spline/knots.hpp"
+#include "methods/solvers/spline_solver.hpp"
+
+namespace loopbench {
+
+std::optional<std::string> SplineFit::declines(const Problem& problem) const {
+  if (problem.keyframes.size() < static_cast<std::size_t>(options_.order)) {
+    return "fewer keyframes than the order, " + std::to_string(options_.order);
+  }
+  if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
+  return std::nullopt;
+}
+
+std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report& report) const {
+  const Trajectory& keyframes = problem.keyframes;
+  const SplineBasis basis = basis_among(
+      static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
+  // The cost knows no world: near the origin no digits are lost.
+  const Pose world_from_start = keyframes.front().world_from_body;
+  std::vector<Pose> controls = controls_along(basis, keyframes);
+  for (Pose& control : controls) control = normalized(world_from_start.inverse() * control);
+  SplineProblem fit;
+  fit.hold_start = true;
+  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+    for (const Edge& edge : *edges) {
+      fit.edges.push_back({keyframes[edge.from].stamp, keyframes[edge.to].stamp, edge});
+    }
+  }
+  const SplineSummary summary =
+      fit_controls(basis, controls, fit, {.max_iterations = options_.max_iterations});
+  for (Pose& control : controls) control = normalized(world_from_start * control);
+  report.count("controls", static_cast<double>(controls.size()));
+  report.count("iterations", summary.iterations);
+  report.count("cost_before", summary.cost_before);
+  report.count("cost", summary.cost);
+  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
+  return std::make_unique<CumulativeCurve>(basis, controls);
+}
+
+}  // namespace loopbench

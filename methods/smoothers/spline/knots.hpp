@@ -1,0 +1,39 @@
+/// Fewer functions than keyframes, and where their controls start.
+#pragma once
+
+#include <cmath>
+
+#include "datasets/core/polyline.hpp"
+#include "methods/smoothers/spline/basis.hpp"
+
+namespace loopbench {
+
+/// A basis with `share` functions a keyframe, at least k and at most n: its sites lie evenly among
+/// the n >= k keyframes by count, so knots are dense where keyframes are. share = 1: for_sites.
+inline SplineBasis basis_among(std::size_t order, const std::vector<double>& stamps, double share) {
+  const std::size_t n = stamps.size();
+  const auto wanted = static_cast<std::size_t>(std::lround(share * static_cast<double>(n)));
+  const std::size_t count = std::clamp(wanted, order, n);
+  std::vector<double> sites{stamps.front()};
+  for (std::size_t j = 1; j + 1 < count; ++j) {
+    const std::size_t place = j * (n - 1);
+    const std::size_t i = place / (count - 1);
+    const double u = static_cast<double>(place % (count - 1)) / static_cast<double>(count - 1);
+    sites.push_back(u > 0.0 ? stamps[i] + u * (stamps[i + 1] - stamps[i]) : stamps[i]);
+  }
+  sites.push_back(stamps.back());
+  return SplineBasis::for_sites(order, sites);
+}
+
+/// The keyframes' polyline at the Greville abscissae: exact for uniform motion.
+inline std::vector<Pose> controls_along(const SplineBasis& basis, const Trajectory& keyframes) {
+  std::vector<double> times;
+  for (std::size_t j = 0; j < basis.size(); ++j) times.push_back(basis.greville(j));
+  times.front() = keyframes.front().stamp;
+  times.back() = keyframes.back().stamp;
+  std::vector<Pose> out(times.size());
+  Polyline(keyframes).sample(times, out);
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,36 @@
+#include "methods/smoothers/spline_regression.hpp"
+
+#include "methods/smoothers/spline/curve.hpp"
+#include "methods/smoothers/spline/knots.hpp"
+#include "methods/solvers/spline_solver.hpp"
+
+namespace loopbench {
+
+std::optional<std::string> SplineRegression::declines(const Problem& problem) const {
+  if (problem.keyframes.size() >= static_cast<std::size_t>(options_.order)) return std::nullopt;
+  return "fewer keyframes than the order, " + std::to_string(options_.order);
+}
+
+std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
+                                                      Report& report) const {
+  const Trajectory& keyframes = problem.keyframes;
+  const SplineBasis basis = basis_among(
+      static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
+  std::vector<Pose> controls = controls_along(basis, keyframes);
+  SplineProblem fit;
+  // Near the origin, so that a far world costs no digits.
+  const Vector3 origin = keyframes.front().world_from_body.translation;
+  for (Pose& control : controls) control.translation -= origin;
+  for (const auto& [stamp, pose] : keyframes) {
+    fit.poses.push_back({stamp, {pose.rotation, pose.translation - origin}});
+  }
+  const SplineSummary summary = fit_controls(basis, controls, fit, {});
+  for (Pose& control : controls) control.translation += origin;
+  report.count("controls", static_cast<double>(controls.size()));
+  report.count("iterations", summary.iterations);
+  report.count("cost", summary.cost);
+  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
+  return std::make_unique<CumulativeCurve>(basis, controls);
+}
+
+}  // namespace loopbench

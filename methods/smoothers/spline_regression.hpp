@@ -1,0 +1,36 @@
+/// A cumulative B-spline with fewer controls than keyframes, fitted to them by least squares.
+#pragma once
+
+#include "methods/method.hpp"
+
+namespace loopbench {
+
+/// Minimises sum |p(t_i) - p_i|^2 and sum |Log(R_i' R(t_i))|^2 over the controls of the spline of
+/// order k on SO(3) x R^3 (spline/curve.hpp). Its knots, `knots_per_keyframe` of them, are all that
+/// smooths: a motion that they cannot follow is cut off, whatever the noise. 1 is `b_spline`.
+/// O(n k^2) an iteration, a handful of iterations; O(k^2) amortised to ask.
+/// Source: de Boor, ch. XIV; Kim, Kim & Shin 1995; Sommer et al., CVPR 2020.
+class SplineRegression final : public Smoother {
+ public:
+  struct Options {
+    int order = 4;
+    double knots_per_keyframe = 0.5;
+  };
+  explicit SplineRegression(const Options& options) : options_(options) {}
+
+  std::optional<std::string> declines(const Problem& problem) const override;
+
+  /// Counts: `controls`, `iterations`, `cost` (half the sum of both [m^2, rad^2]).
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
+
+ private:
+  Options options_;
+};
+
+template <class Visit>
+void fields(SplineRegression::Options& o, Visit visit) {
+  visit("order", o.order, "of the spline, its degree plus one", Between{2, 6});
+  visit("knots_per_keyframe", o.knots_per_keyframe, "1 interpolates", Between{0.01, 1.0});
+}
+
+}  // namespace loopbench

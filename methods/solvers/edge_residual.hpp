@@ -1,0 +1,37 @@
+/// What a pose graph's edge says about its two ends, and its derivatives, in any group.
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "methods/solvers/groups/scaled_pose.hpp"
+
+namespace loopbench {
+
+/// e = Log(Z^-1 X_i^-1 X_j), and its derivatives by d in X Exp(d).
+template <class G>
+struct EdgeResidual {
+  typename G::Tangent error;
+  typename G::Square by_from;
+  typename G::Square by_to;
+};
+
+template <class G>
+typename G::Tangent edge_error_in(const typename G::Element& to_from_measured_from,
+                                  const typename G::Element& from_from_to) {
+  return G::log(G::compose(to_from_measured_from, from_from_to));
+}
+
+/// `back` is Z^-1. X_i Exp(d): Exp(-d) X_i^-1 X_j = X_i^-1 X_j Exp(-Ad(X_j^-1 X_i) d).
+template <class G>
+EdgeResidual<G> edge_residual(const typename G::Element& back,
+                              const typename G::Element& from,
+                              const typename G::Element& to) {
+  const typename G::Element from_from_to = G::compose(G::inverse(from), to);
+  EdgeResidual<G> out;
+  out.error = edge_error_in<G>(back, from_from_to);
+  out.by_to = G::inverse_right_jacobian(out.error);
+  out.by_from = -out.by_to * G::adjoint(G::inverse(from_from_to));
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,37 @@
+/// A similarity of space: a pose and the length unit of what it places.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+
+namespace loopbench {
+
+/// x -> scale R x + t. The scale is the unit of the placed frame over that of the frame it is
+/// placed in; 1 makes it a rigid motion.
+struct ScaledPose {
+  Pose pose;
+  double scale = 1.0;
+
+  ScaledPose inverse() const {
+    const Rotation back = pose.rotation.conjugate();
+    return {{back, (back * pose.translation) / -scale}, 1.0 / scale};
+  }
+};
+
+inline ScaledPose operator*(const ScaledPose& a_from_b, const ScaledPose& b_from_c) {
+  const Pose& a = a_from_b.pose;
+  const Pose& b = b_from_c.pose;
+  return {{a.rotation * b.rotation, a_from_b.scale * (a.rotation * b.translation) + a.translation},
+          a_from_b.scale * b_from_c.scale};
+}
+
+inline ScaledPose normalized(ScaledPose x) {
+  x.pose.rotation.normalize();
+  return x;
+}
+
+/// What an edge measured, its scale included.
+inline ScaledPose measured(const Edge& edge) { return {edge.from_from_to, edge.scale}; }
+
+}  // namespace loopbench

@@ -1,0 +1,98 @@
+/// Planar motions and their tangent space. A twist is [x, y, yaw]: metres, radians.
+#pragma once
+
+#include "methods/solvers/groups/scaled_pose.hpp"
+
+namespace loopbench {
+
+/// The operations a pose-graph solver needs; Se3 and Sim3 have the same. Elements act on the left,
+/// perturbations stand on the right: a * exp(twist). Source: Sola, Deray, Atchuthan, A micro Lie
+/// theory, 2018, section IV; the Jacobian as B(ad) = ad / (e^ad - 1), which 2 x 2 blocks close.
+struct Se2 {
+  static constexpr int kDof = 3;
+  static constexpr int kSize = 3;  ///< doubles an element is stored in: x, y, yaw
+  using Tangent = Eigen::Matrix<double, 3, 1>;
+  using Square = Eigen::Matrix<double, 3, 3>;
+  struct Element {
+    double x = 0.0, y = 0.0;  ///< [m]
+    double yaw = 0.0;         ///< [rad], any turn
+  };
+
+  static Element read(const double* from) { return {from[0], from[1], from[2]}; }
+  static void write(const Element& e, double* to) { to[0] = e.x, to[1] = e.y, to[2] = e.yaw; }
+
+  static Element compose(const Element& a, const Element& b) {
+    const double c = std::cos(a.yaw);
+    const double s = std::sin(a.yaw);
+    return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, a.yaw + b.yaw};
+  }
+  static Element inverse(const Element& a) {
+    const double c = std::cos(a.yaw);
+    const double s = std::sin(a.yaw);
+    return {-c * a.x - s * a.y, s * a.x - c * a.y, -a.yaw};
+  }
+  static Element exp(const Tangent& xi) {
+    const double angle = xi[2];
+    const double half = 0.5 * angle;
+    const double half_sinc =
+        std::abs(half) < kSmallAngle ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+    // V = sinc(half) R(half): the chord of the arc.
+    const double c = half_sinc * std::cos(half);
+    const double s = half_sinc * std::sin(half);
+    return {c * xi[0] - s * xi[1], s * xi[0] + c * xi[1], angle};
+  }
+  static Tangent log(const Element& a) {
+    const double angle = std::remainder(a.yaw, 2.0 * M_PI);
+    const double along = half_cotangent(angle);
+    const double across = 0.5 * angle;
+    return {along * a.x + across * a.y, along * a.y - across * a.x, angle};
+  }
+  static Square adjoint(const Element& a) {
+    const double c = std::cos(a.yaw);
+    const double s = std::sin(a.yaw);
+    Square out;
+    out << c, -s, a.y, s, c, -a.x, 0.0, 0.0, 1.0;
+    return out;
+  }
+  /// exp(xi + d) ~ exp(xi) exp(J d): the inverse of J.
+  static Square inverse_right_jacobian(const Tangent& xi) {
+    const double angle = xi[2];
+    const double along = half_cotangent(angle);
+    const double across = 0.5 * angle;
+    // (along - 1) / angle, without the cancellation.
+    const double small = std::abs(angle) < 1e-2 ? -angle / 12.0 - angle * angle * angle / 720.0
+                                                : (along - 1.0) / angle;
+    Square out;
+    out << along, -across, 0.5 * xi[1] - small * xi[0],  //
+        across, along, -0.5 * xi[0] - small * xi[1],     //
+        0.0, 0.0, 1.0;
+    return out;
+  }
+
+  /// The part in the plane z = roll = pitch = 0.
+  static Element from(const ScaledPose& a) {
+    const Rotation& q = a.pose.rotation;
+    return {a.pose.translation.x(), a.pose.translation.y(), 2.0 * std::atan2(q.z(), q.w())};
+  }
+  static ScaledPose to_scaled_pose(const Element& a) {
+    return {{exp_so3({0.0, 0.0, a.yaw}), {a.x, a.y, 0.0}}, 1.0};
+  }
+  static Square information(const Edge& edge, double) {
+    constexpr int axes[] = {0, 1, 5};
+    Square out;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) out(i, j) = edge.information(axes[i], axes[j]);
+    }
+    return out;
+  }
+
+ private:
+  /// (angle / 2) cot(angle / 2).
+  static double half_cotangent(double angle) {
+    const double half = 0.5 * angle;
+    if (std::abs(half) < kSmallAngle) return 1.0 - half * half / 3.0;
+    return half * std::cos(half) / std::sin(half);
+  }
+};
+
+}  // namespace loopbench

@@ -1,0 +1,136 @@
+#include "methods/solvers/spline_solver.hpp"
+
+#include <ceres/ceres.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace loopbench {
+namespace {
+
+using Block = std::array<double, 7>;
+
+Pose read(const double* block) {
+  return {Rotation(block[3], block[0], block[1], block[2]), {block[4], block[5], block[6]}};
+}
+
+void write(const Pose& pose, double* block) {
+  Eigen::Map<Eigen::Vector4d> rotation(block);
+  Eigen::Map<Vector3> translation(block + 4);
+  rotation = pose.rotation.coeffs();
+  translation = pose.translation;
+}
+
+/// [p + d; Exp(a) R]. Cost functions put their derivative by [d; a] into the first six columns of
+/// the ambient Jacobian, so that this one is a plain projection.
+class SplitPerturbation final : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return 6; }
+  bool Plus(const double* x, const double* d, double* out) const override {
+    const Pose pose = read(x);
+    const Vector3 turn(d[3], d[4], d[5]);
+    write({(exp_so3(turn) * pose.rotation).normalized(),
+           pose.translation + Vector3(d[0], d[1], d[2])},
+          out);
+    return true;
+  }
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* d) const override {
+    const Pose to = read(y), from = read(x);
+    Eigen::Map<Twist> out(d);
+    out =
+        twist(to.translation - from.translation, log_so3(to.rotation * from.rotation.conjugate()));
+    return true;
+  }
+  bool MinusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+};
+
+/// root * e with Omega = root' root.
+class SplineCost final : public ceres::CostFunction {
+ public:
+  SplineCost(SplineFactor factor, const Matrix6& root) : factor_(std::move(factor)), root_(root) {
+    set_num_residuals(6);
+    mutable_parameter_block_sizes()->assign(factor_.controls().size(), 7);
+  }
+
+  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
+    std::vector<Pose> controls(factor_.controls().size());
+    for (std::size_t k = 0; k < controls.size(); ++k) controls[k] = read(x[k]);
+    const SplineFactor::Residual here = factor_.evaluate(controls);
+    Eigen::Map<Twist> out(residual);
+    out = root_ * here.error;
+    for (std::size_t k = 0; jacobians != nullptr && k < controls.size(); ++k) {
+      if (jacobians[k] == nullptr) continue;
+      Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[k]);
+      J.leftCols<6>() = root_ * here.by_control[k];
+      J.col(6).setZero();
+    }
+    return true;
+  }
+
+ private:
+  SplineFactor factor_;
+  Matrix6 root_;
+};
+
+Matrix6 root_of(const Edge& edge) {
+  const Eigen::LLT<Matrix6> factor(edge.information);
+  if (factor.info() != Eigen::Success) {
+    throw std::runtime_error("spline fit: information of edge " + std::to_string(edge.from) +
+                             " - " + std::to_string(edge.to) + " is not positive definite");
+  }
+  return factor.matrixU();
+}
+
+}  // namespace
+
+SplineSummary fit_controls(const SplineBasis& basis,
+                           std::vector<Pose>& controls,
+                           const SplineProblem& problem,
+                           const SplineSettings& settings) {
+  SplitPerturbation manifold;
+  ceres::Problem::Options ours;
+  ours.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem least_squares(ours);
+  std::vector<Block> blocks(controls.size());
+  for (std::size_t j = 0; j < blocks.size(); ++j) {
+    write(controls[j], blocks[j].data());
+    least_squares.AddParameterBlock(blocks[j].data(), 7, &manifold);
+  }
+  const auto add = [&](SplineFactor factor, const Matrix6& root) {
+    std::vector<double*> named;
+    for (const std::size_t j : factor.controls()) named.push_back(blocks[j].data());
+    least_squares.AddResidualBlock(new SplineCost(std::move(factor), root), nullptr, named);
+  };
+  for (const PoseAt& pose : problem.poses) add({basis, pose}, Matrix6::Identity());
+  for (const EdgeBetween& edge : problem.edges) add({basis, edge}, root_of(edge.edge));
+  if (problem.hold_start) least_squares.SetParameterBlockConstant(blocks.front().data());
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = settings.max_iterations;
+  options.function_tolerance = settings.tolerance;
+  options.gradient_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-14;
+  // Starts are good: nearly undamped steps converge quadratically, and to the last digits.
+  options.initial_trust_region_radius = 1e8;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &least_squares, &summary);
+  if (!summary.IsSolutionUsable()) throw std::runtime_error("spline fit: " + summary.message);
+  for (std::size_t j = 0; j < blocks.size(); ++j) controls[j] = read(blocks[j].data());
+  return {static_cast<int>(summary.iterations.size()),
+          summary.initial_cost,
+          summary.final_cost,
+          summary.termination_type == ceres::CONVERGENCE};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,102 @@
+// Maximum likelihood on chains with nine loops, as KITTI 00 has: the closed form against sparse
+// least squares, from a thousand keyframes to a million.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "tests/benchmarks/markdown.hpp"
+
+namespace loopbench {
+namespace {
+
+/// A car's path wound up ten times whatever n is, with the drift of one KITTI run over all of it:
+/// 1 % of the way at worst, 0.1 rad. Nine loops, one a winding.
+Problem chain(std::size_t n) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double steps = static_cast<double>(n);
+  const double length = 3700.0 / steps;  // [m] a step
+  const double sigma_t = 2.0 / std::sqrt(steps);
+  const double sigma_r = 0.1 / std::sqrt(steps);
+  const auto noise = [&](double t, double r) {
+    Twist out;
+    for (int i = 0; i < 6; ++i) out[i] = (i < 3 ? t : r) * unit(random);
+    return out;
+  };
+  const auto information = [](double t, double r) {
+    Matrix6 out = Matrix6::Zero();
+    out.diagonal().head<3>().setConstant(1.0 / (t * t));
+    out.diagonal().tail<3>().setConstant(1.0 / (r * r));
+    return out;
+  };
+  const Pose step = exp_se3(twist({length, 0.0, 0.0}, {0.0, 0.0, 20.0 * M_PI / steps}));
+  Problem out;
+  std::vector<Pose> truth(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Pose pose;
+    if (i > 0) {
+      truth[i] = normalized(truth[i - 1] * step);
+      const Pose measured = normalized(step * exp_se3(noise(sigma_t, sigma_r)));
+      out.odometry.push_back({i - 1, i, measured, information(sigma_t, sigma_r)});
+      pose = normalized(out.keyframes.back().world_from_body * measured);
+    }
+    out.keyframes.push_back({0.1 * static_cast<double>(i), pose});
+  }
+  for (std::size_t k = 1; k <= 9; ++k) {
+    const std::size_t from = (k - 1) * n / 10;
+    const std::size_t to = k * n / 10 + n / 50;
+    const Pose seen = truth[from].inverse() * truth[to] * exp_se3(noise(0.1, 0.01));
+    out.closures.push_back({from, to, normalized(seen), information(0.1, 0.01)});
+  }
+  return out;
+}
+
+const Problem& kept_chain(std::size_t n) {
+  static std::map<std::size_t, Problem> kept;
+  if (!kept.contains(n)) {
+    kept.clear();  // one size at a time is large enough
+    kept[n] = chain(n);
+  }
+  return kept[n];
+}
+
+template <class Method>
+void correct(std::size_t n, benchmark::State& state) {
+  const Problem& problem = kept_chain(n);
+  const Method method({});
+  double iterations = 0.0;
+  for (auto _ : state) {
+    Report report;
+    benchmark::DoNotOptimize(method.correct(problem, report));
+    for (const Count& count : report.counts) {
+      if (count.name == "iterations") iterations = count.value;
+    }
+  }
+  state.counters["iterations"] = iterations;
+}
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int argc, char** argv) {
+  using namespace loopbench;
+  const auto time = [](const char* name, void (*run)(std::size_t, benchmark::State&)) {
+    benchmark::RegisterBenchmark(name,
+                                 [run](benchmark::State& state) {
+                                   run(static_cast<std::size_t>(state.range(0)), state);
+                                   state.SetComplexityN(state.range(0));
+                                 })
+        ->RangeMultiplier(10)
+        ->Range(1'000, 1'000'000)
+        ->MeasureProcessCPUTime()
+        ->Unit(benchmark::kMillisecond)
+        ->Complexity();
+  };
+  time("dual", correct<Dual>);
+  time("pose_graph", correct<PoseGraphOptimizer>);
+  return test::run_benchmarks(argc, argv);
+}

@@ -1,0 +1,136 @@
+// A whole pose-graph solve beside one sparse factorisation of its normal equations, on the public
+// graphs in $LOOPBENCH_DATA: solve time, iterations, their ratio, and the memory either needs.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/SparseCholesky>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include "datasets/pose_graph_dataset.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/groups/se2.hpp"
+#include "methods/solvers/groups/se3.hpp"
+
+namespace loopbench {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// J' Omega J at the keyframes, the first one held.
+template <class G>
+Sparse normal_equations(const Problem& problem) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto element = [&](std::size_t i) {
+    const Pose& first = problem.keyframes[0].world_from_body;
+    return G::from({first.inverse() * problem.keyframes[i].world_from_body, 1.0});
+  };
+  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+    for (const Edge& edge : *edges) {
+      const auto at = edge_residual<G>(
+          G::inverse(G::from(measured(edge))), element(edge.from), element(edge.to));
+      const auto W = G::information(edge, 1.0);
+      const std::size_t ends[] = {edge.from, edge.to};
+      const typename G::Square* J[] = {&at.by_from, &at.by_to};
+      for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b < 2; ++b) {
+          if (ends[a] == 0 || ends[b] == 0) continue;
+          const typename G::Square block = J[a]->transpose() * W * *J[b];
+          const auto row = static_cast<int>(ends[a] - 1) * G::kDof;
+          const auto column = static_cast<int>(ends[b] - 1) * G::kDof;
+          for (int r = 0; r < G::kDof; ++r) {
+            for (int c = 0; c < G::kDof; ++c)
+              entries.emplace_back(row + r, column + c, block(r, c));
+          }
+        }
+      }
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(problem.keyframes.size() - 1) * G::kDof;
+  Sparse H(size, size);
+  H.setFromTriplets(entries.begin(), entries.end());
+  return H;
+}
+
+/// Linux: most memory held since the last reset, and how to reset it. 0 where there is no /proc.
+double peak_megabytes() {
+  std::ifstream in("/proc/self/status");
+  for (std::string word; in >> word;) {
+    double kilobytes = 0.0;
+    if (word == "VmHWM:" && in >> kilobytes) return kilobytes / 1024.0;
+  }
+  return 0.0;
+}
+double reset_peak() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+  return peak_megabytes();
+}
+
+void factorise(const Problem& problem, benchmark::State& state) {
+  const Sparse H = problem.planar ? normal_equations<Se2>(problem) : normal_equations<Se3>(problem);
+  const double before = reset_peak();
+  for (auto _ : state) {
+    Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor(H);
+    if (factor.info() != Eigen::Success) state.SkipWithError("not positive definite");
+    benchmark::DoNotOptimize(factor);
+  }
+  state.counters["MB"] = peak_megabytes() - before;
+}
+
+void solve(const Problem& problem, benchmark::State& state) {
+  const PoseGraphOptimizer method({.start = PoseGraphOptimizer::Start::chordal});
+  Report report;
+  const double before = reset_peak();
+  for (auto _ : state) {
+    report = {};
+    benchmark::DoNotOptimize(method.correct(problem, report));
+  }
+  state.counters["MB"] = peak_megabytes() - before;
+  for (const Count& count : report.counts) {
+    if (count.name == "iterations") state.counters["iterations"] = count.value;
+    if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int argc, char** argv) {
+  using namespace loopbench;
+  benchmark::Initialize(&argc, argv);
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  std::map<std::string, Problem> problems;
+  for (const std::string name : {"intel",
+                                 "INTEL_1228_with_vertices",
+                                 "M3500_with_vertices",
+                                 "smallGrid3D",
+                                 "parking-garage",
+                                 "sphere2500",
+                                 "torus3D"}) {
+    if (root == nullptr) continue;
+    PoseGraphOptions options;
+    options.path = "pose_graphs/" + name + ".g2o";
+    try {
+      const Problem& problem =
+          problems.emplace(name, load_pose_graph(options, {{root}}).problem).first->second;
+      const auto time = [&](const char* step, auto run) {
+        benchmark::RegisterBenchmark(
+            (step + (" " + name)).c_str(),
+            [&problem, run](benchmark::State& state) { run(problem, state); })
+            ->MeasureProcessCPUTime()
+            ->Unit(benchmark::kMillisecond);
+      };
+      time("factorise", factorise);
+      time("pose_graph", solve);
+    } catch (const DataMissing& missing) {
+      std::cerr << missing.what() << '\n';
+    }
+  }
+  if (problems.empty()) std::cerr << "no pose graphs found: set LOOPBENCH_DATA\n";
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

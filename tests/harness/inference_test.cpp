@@ -1,0 +1,335 @@
+/// Tests and intervals against published examples and the values of R and scipy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "harness/statistics/average.hpp"
+#include "harness/statistics/block_length.hpp"
+#include "harness/statistics/bootstrap.hpp"
+#include "harness/statistics/chi_square.hpp"
+#include "harness/statistics/effect_size.hpp"
+#include "harness/statistics/friedman.hpp"
+#include "harness/statistics/holm.hpp"
+#include "harness/statistics/nemenyi.hpp"
+#include "harness/statistics/normal.hpp"
+#include "harness/statistics/ranks.hpp"
+#include "harness/statistics/studentized_range.hpp"
+
+namespace loopbench {
+namespace {
+
+using Numbers = std::vector<double>;
+
+Numbers differences(const Numbers& x, const Numbers& y) {
+  Numbers out;
+  for (std::size_t i = 0; i < x.size(); ++i) out.push_back(x[i] - y[i]);
+  return out;
+}
+
+SignedRank one_sided(const Numbers& d, Alternative alternative) {
+  return signed_rank(d, {.alternative = alternative});
+}
+
+/// Hamilton depression scale of 9 patients (Hollander and Wolfe 1973, p. 29; R's ?wilcox.test).
+Numbers depression() {
+  return differences({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30},
+                     {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29});
+}
+
+TEST(Average, IsWhatItsNameSays) {
+  EXPECT_DOUBLE_EQ(mean(Numbers{1.0, 2.0, 6.0}), 3.0);
+  EXPECT_DOUBLE_EQ(geometric_mean(Numbers{0.25, 4.0}), 1.0);
+  EXPECT_DOUBLE_EQ(sample_deviation(Numbers{2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0}),
+                   std::sqrt(32.0 / 7.0));
+  const Numbers sorted{1.0, 2.0, 3.0, 4.0};
+  EXPECT_DOUBLE_EQ(quantile(sorted, 0.25), 1.75);  // R: quantile(1:4)
+  EXPECT_DOUBLE_EQ(quantile(sorted, 1.0), 4.0);
+  EXPECT_THROW(geometric_mean(Numbers{1.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW(mean(Numbers{}), std::invalid_argument);
+  EXPECT_THROW(sample_deviation(Numbers{1.0}), std::invalid_argument);
+}
+
+TEST(Normal, AgreesWithItsTables) {
+  EXPECT_NEAR(normal_cdf(1.959963984540054), 0.975, 1e-15);
+  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);
+  EXPECT_NEAR(normal_quantile(1e-10), -6.361340902404056, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.5), 0.0, 1e-15);
+  EXPECT_TRUE(std::isinf(normal_quantile(0.0)) && std::isinf(normal_quantile(1.0)));
+  EXPECT_THROW(normal_quantile(-0.1), std::invalid_argument);
+}
+
+TEST(ChiSquare, AgreesWithItsTables) {
+  EXPECT_NEAR(chi_square_tail(3.841458820694124, 1), 0.05, 1e-14);
+  EXPECT_NEAR(chi_square_tail(5.991464547107979, 2), 0.05, 1e-14);
+  EXPECT_NEAR(chi_square_tail(7.814727903251179, 3), 0.05, 1e-14);
+  EXPECT_NEAR(chi_square_tail(18.307038053275146, 10), 0.05, 1e-13);
+  EXPECT_EQ(chi_square_tail(0.0, 4), 1.0);
+  EXPECT_THROW(chi_square_tail(1.0, 0), std::invalid_argument);
+}
+
+TEST(Ranks, AreSharedByEquals) {
+  EXPECT_EQ(midranks(Numbers{3.0, 1.0, 3.0, 2.0}), (Numbers{3.5, 1.0, 3.5, 2.0}));
+  const Numbers close{1.0, 1.0 + 1e-12, 2.0};
+  EXPECT_EQ(midranks(close), (Numbers{1.0, 2.0, 3.0}));
+  EXPECT_EQ(midranks(close, 1e-9), (Numbers{1.5, 1.5, 3.0}));
+}
+
+TEST(SignedRank, GivesTheExactValuesOfR) {
+  // R 4: wilcox.test(x, y, paired = TRUE, alternative = "greater"): V = 40, p-value = 0.01953.
+  const SignedRank depressed = one_sided(depression(), Alternative::greater);
+  EXPECT_EQ(depressed.positive, 40.0);
+  EXPECT_DOUBLE_EQ(depressed.p, 10.0 / 512.0);
+  // Differences of heights of maize (Darwin 1876), as in the documentation of scipy.stats.wilcoxon.
+  const SignedRank maize =
+      signed_rank(Numbers{6, 8, 14, 16, 23, 24, 28, 29, 41, -48, 49, 56, 60, -67, 75});
+  EXPECT_EQ(maize.negative, 24.0);
+  EXPECT_DOUBLE_EQ(maize.p, 0.041259765625);
+  // scipy/stats/tests/test_morestats.py, test_exact_pval: computed with R 3.4.1.
+  const Numbers ten =
+      differences({1.81, 0.82, 1.56, -0.48, 0.81, 1.28, -1.04, 0.23, -0.75, 0.14},
+                  {0.71, 0.65, -0.2, 0.85, -1.1, -0.45, -0.84, -0.24, -0.68, -0.76});
+  EXPECT_NEAR(signed_rank(ten).p, 0.1054688, 6e-8);
+  EXPECT_NEAR(one_sided(ten, Alternative::less).p, 0.9580078, 5e-8);
+  EXPECT_NEAR(one_sided(ten, Alternative::greater).p, 0.05273438, 5e-8);
+}
+
+TEST(SignedRank, GivesTheNormalValuesOfR) {
+  // test_accuracy_wilcoxon in the same file, for R's correct = FALSE and TRUE.
+  const Numbers twelve = differences({120, 114, 181, 188, 180, 146, 121, 191, 132, 113, 127, 112},
+                                     {133, 143, 119, 189, 112, 199, 198, 113, 115, 121, 142, 187});
+  EXPECT_NEAR(signed_rank(twelve, {.exact_up_to = 0, .continuity = false}).p, 0.6948866, 5e-8);
+  EXPECT_NEAR(signed_rank(twelve, {.exact_up_to = 0}).p, 0.7240817, 5e-8);
+  Numbers coarse;  // 56 integers from -4 to 4, 15 of them zero
+  const int times[] = {1, 4, 16, 15, 8, 4, 5, 1, 2};
+  for (int value = -4; value <= 4; ++value) coarse.insert(coarse.end(), times[value + 4], value);
+  const SignedRank pratt = signed_rank(coarse, {.exact_up_to = 0, .continuity = false});
+  EXPECT_EQ(pratt.positive, 423.0);
+  EXPECT_NEAR(pratt.p, 0.0031724568006762576, 1e-12);
+  const SignedRank wilcoxon =
+      signed_rank(coarse, {.zeros = Zeros::wilcoxon, .exact_up_to = 0, .continuity = false});
+  EXPECT_EQ(wilcoxon.positive, 327.0);
+  EXPECT_NEAR(wilcoxon.p, 0.00641346115861, 1e-13);
+}
+
+/// By going through every pattern of signs: the definition.
+double enumerated(const Numbers& ranks, double t) {
+  double lower = 0.0;
+  double upper = 0.0;
+  const std::size_t patterns = std::size_t{1} << ranks.size();
+  for (std::size_t pattern = 0; pattern < patterns; ++pattern) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < ranks.size(); ++i) sum += (pattern >> i & 1) != 0 ? ranks[i] : 0.0;
+    lower += sum <= t ? 1.0 : 0.0;
+    upper += sum >= t ? 1.0 : 0.0;
+  }
+  return std::min(1.0, 2.0 * std::min(lower, upper) / static_cast<double>(patterns));
+}
+
+TEST(SignedRank, IsExactWithTiesAndZeros) {
+  // Magnitudes 0 0 1 1 2 3 3 3: ranks 1.5 1.5 | 3.5 3.5 5 7 7 7, of which Pratt keeps the last six.
+  const Numbers d{0.0, 1.0, -1.0, 0.0, 2.0, 3.0, 3.0, 3.0};
+  const SignedRank test = signed_rank(d);
+  EXPECT_EQ(test.count, 6u);
+  EXPECT_EQ(test.zeros, 2u);
+  EXPECT_EQ(test.positive, 29.5);
+  EXPECT_EQ(test.negative, 3.5);
+  EXPECT_DOUBLE_EQ(test.p, enumerated({3.5, 3.5, 5, 7, 7, 7}, 29.5));
+  // Dropped first, the ranks are 1.5 1.5 3 5 5 5.
+  EXPECT_DOUBLE_EQ(signed_rank(d, {.zeros = Zeros::wilcoxon}).p,
+                   enumerated({1.5, 1.5, 3, 5, 5, 5}, 19.5));
+}
+
+TEST(SignedRank, OfNothingButTiesIsNoDifference) {
+  EXPECT_EQ(signed_rank(Numbers{0.0, 0.0, 0.0}).p, 1.0);
+  EXPECT_EQ(signed_rank(Numbers{}).p, 1.0);
+  EXPECT_EQ(rank_biserial(signed_rank(Numbers{0.0})), 0.0);
+}
+
+TEST(SignedRank, ReachesItsLeastP) {
+  EXPECT_DOUBLE_EQ(signed_rank(Numbers{1, 2, 3, 4, 5}).p, least_p(5));
+  EXPECT_DOUBLE_EQ(least_p(6), 0.03125);
+  EXPECT_EQ(least_p(0), 1.0);
+}
+
+TEST(SignedRank, IsContinuousFromExactToNormal) {
+  Numbers d;
+  for (int i = 1; i <= 50; ++i) d.push_back(i % 3 == 0 ? -i : i);
+  const SignedRank exact = signed_rank(d);
+  const SignedRank normal = signed_rank(d, {.exact_up_to = 49});
+  EXPECT_TRUE(exact.is_exact);
+  EXPECT_FALSE(normal.is_exact);
+  EXPECT_NEAR(exact.p, normal.p, 1e-3);
+}
+
+TEST(Holm, StepsDown) {
+  // R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm"); by hand 4 * 0.005, 3 * 0.01, 2 * 0.03, then
+  // 0.04 raised to the one before it.
+  const Numbers adjusted = holm(Numbers{0.01, 0.04, 0.03, 0.005});
+  const Numbers expected{0.03, 0.06, 0.06, 0.02};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
+  EXPECT_EQ(holm(Numbers{0.9, 0.8}), (Numbers{1.0, 1.0}));
+  EXPECT_TRUE(holm(Numbers{}).empty());
+}
+
+TEST(EffectSize, AgreesWithThePackageEffectsize) {
+  // R, effectsize: rank_biserial(depression$first, depression$second, paired = TRUE): 0.78.
+  EXPECT_NEAR(rank_biserial(signed_rank(depression())), 0.78, 0.005);
+  EXPECT_DOUBLE_EQ(rank_biserial(signed_rank(depression())), 35.0 / 45.0);
+  // Student's sleep data (R's ?sleep): t = -4.0621 with 9 degrees of freedom is d_z * sqrt(10);
+  // effectsize gives -1.17 after Hedges' factor 1 - 3 / (4 * 9 - 1).
+  const double dz = *cohen_dz(differences({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0},
+                                          {1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4}));
+  EXPECT_NEAR(dz * std::sqrt(10.0), -4.0621, 5e-5);
+  EXPECT_NEAR(dz * (1.0 - 3.0 / 35.0), -1.17, 0.005);
+  EXPECT_EQ(cohen_dz(Numbers{1.0, 1.0}), std::nullopt);
+  EXPECT_EQ(cohen_dz(Numbers{1.0}), std::nullopt);
+}
+
+/// Table 6 of Demsar (JMLR 7, 2006): AUC of four variants of C4.5 on 14 data sets, negated (rank 1
+/// is the smallest). On `voting` its third place is rounded to a tie that its ranks do not have.
+std::vector<Numbers> demsar() {
+  const std::vector<Numbers> variants{
+      {.763, .599, .954, .628, .882, .936, .661, .583, .775, 1, .940, .619, .972, .957},
+      {.768, .591, .971, .661, .888, .931, .668, .583, .838, 1, .962, .666, .981, .978},
+      {.771, .590, .968, .654, .886, .916, .609, .563, .866, 1, .965, .614, .9751, .946},
+      {.798, .569, .967, .657, .898, .931, .685, .625, .875, 1, .962, .669, .975, .970}};
+  std::vector<Numbers> blocks(14);
+  for (std::size_t b = 0; b < 14; ++b) {
+    for (const Numbers& variant : variants) blocks[b].push_back(-variant[b]);
+  }
+  return blocks;
+}
+
+TEST(Friedman, AgreesWithDemsarAndScipy) {
+  const Friedman test = friedman(demsar());
+  const Numbers printed{3.143, 2.000, 2.893, 1.964};
+  for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(test.average_ranks[j], printed[j], 5e-4) << j;
+  // Three pairs and one foursome of ties: the correction divides by 1 - 78 / 840.
+  EXPECT_NEAR(test.chi_square * (1.0 - 78.0 / 840.0), 9.28, 0.005);
+  // scipy/stats/tests/test_stats.py, test_friedmanchisquare.
+  EXPECT_NEAR(test.chi_square, 10.2283464566929, 1e-12);
+  EXPECT_NEAR(test.p, 0.0167215803284414, 1e-12);
+  // Zar, Biostatistical Analysis, example 12.6, there too.
+  const Friedman zar = friedman({{7.0, 5.3, 4.9, 8.8},
+                                 {9.9, 5.7, 7.6, 8.9},
+                                 {8.5, 4.7, 5.5, 8.1},
+                                 {5.1, 3.5, 2.8, 3.3},
+                                 {10.3, 7.7, 8.4, 9.1}});
+  EXPECT_NEAR(zar.chi_square, 10.68, 1e-12);
+  EXPECT_NEAR(zar.p, 0.0135882729582176, 1e-13);
+}
+
+TEST(Friedman, OfTiesAloneSaysNothingAndRefusesGaps) {
+  EXPECT_EQ(friedman({{1.0, 1.0}, {2.0, 2.0}}).p, 1.0);
+  EXPECT_THROW(friedman({{1.0, 2.0}, {1.0}}), std::invalid_argument);
+  EXPECT_THROW(friedman({}), std::invalid_argument);
+  EXPECT_THROW(friedman({{1.0}}), std::invalid_argument);
+}
+
+TEST(Nemenyi, AgreesWithDemsar) {
+  // His table 5a: critical values of the two-tailed Nemenyi test, 2 to 10 classifiers.
+  const Numbers q05{1.960, 2.343, 2.569, 2.728, 2.850, 2.949, 3.031, 3.102, 3.164};
+  const Numbers q10{1.645, 2.052, 2.291, 2.459, 2.589, 2.693, 2.780, 2.855, 2.920};
+  for (int k = 2; k <= 10; ++k) {
+    const auto i = static_cast<std::size_t>(k - 2);
+    EXPECT_NEAR(range_quantile(0.95, k) / std::sqrt(2.0), q05[i], 1e-3) << k;
+    EXPECT_NEAR(range_quantile(0.90, k) / std::sqrt(2.0), q10[i], 1e-3) << k;
+  }
+  EXPECT_NEAR(critical_difference(4, 14, 0.05), 1.25, 0.005);
+  EXPECT_NEAR(critical_difference(4, 14, 0.10), 1.12, 0.005);
+  // Two draws: their difference is normal with variance 2.
+  EXPECT_NEAR(range_cdf(2.0, 2), 2.0 * normal_cdf(std::sqrt(2.0)) - 1.0, 1e-12);
+}
+
+TEST(RankGroups, AreWhatNoOtherContains) {
+  using Groups = std::vector<std::vector<std::size_t>>;
+  const Numbers ranks{3.0, 1.0, 2.2, 3.9};
+  EXPECT_EQ(rank_groups(ranks, 1.25), (Groups{{1, 2}, {2, 0}, {0, 3}}));
+  EXPECT_EQ(rank_groups(ranks, 2.0), (Groups{{1, 2, 0}, {2, 0, 3}}));
+  EXPECT_EQ(rank_groups(ranks, 5.0), (Groups{{1, 2, 0, 3}}));
+  EXPECT_EQ(rank_groups(ranks, 0.5), Groups{});
+}
+
+Resampled mean_of(const Numbers& values) {
+  return [&values](std::span<const std::size_t> indices) {
+    double sum = 0.0;
+    for (const std::size_t i : indices) sum += values[i];
+    return sum / static_cast<double>(indices.size());
+  };
+}
+
+TEST(Bootstrap, AgreesWithThePackageBoot) {
+  // scipy/stats/tests/test_resampling.py, test_bootstrap_against_R: boot.ci with a million
+  // resamples; percentile (28.86, 84.21), BCa (32.31, 91.43). Half a percent there with a million
+  // resamples; a tenth of them leaves twice that of noise in the bias correction.
+  const Numbers x{10, 12, 12.5, 12.5, 13.9, 15, 21, 22, 23, 34, 50, 81, 89, 121, 134, 213};
+  const BootstrapOptions options{.resamples = 100000};
+  const Interval percentile = percentile_interval(x.size(), mean_of(x), options);
+  EXPECT_NEAR(percentile.low, 28.86, 0.005 * 28.86);
+  EXPECT_NEAR(percentile.high, 84.21, 0.005 * 84.21);
+  const Interval bca = bca_interval(x.size(), mean_of(x), options);
+  EXPECT_NEAR(bca.low, 32.31, 0.01 * 32.31);
+  EXPECT_NEAR(bca.high, 91.43, 0.01 * 91.43);
+  EXPECT_DOUBLE_EQ(bca.estimate, 863.9 / 16.0);
+}
+
+TEST(Bootstrap, IsTheSameTwiceAndDegenerateWhenNothingVaries) {
+  const Numbers x{1.0, 4.0, 2.0, 8.0, 5.0, 7.0};
+  const Interval a = bca_interval(6, mean_of(x));
+  const Interval b = bca_interval(6, mean_of(x));
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+  const BootstrapOptions few{.resamples = 50};
+  const BootstrapOptions other{.resamples = 50, .seed = 2};
+  EXPECT_NE(bca_interval(6, mean_of(x), few).low, bca_interval(6, mean_of(x), other).low);
+  const Numbers same(5, 0.25);
+  EXPECT_EQ(bca_interval(5, mean_of(same)).low, 0.25);
+  EXPECT_EQ(bca_interval(5, mean_of(same)).high, 0.25);
+  EXPECT_THROW(bca_interval(1, mean_of(same)), std::invalid_argument);
+  EXPECT_THROW(bca_interval(0, mean_of(same)), std::invalid_argument);
+  EXPECT_THROW(percentile_interval(5, mean_of(same), {.level = 1.0}), std::invalid_argument);
+}
+
+/// x[i] = rho x[i - 1] + uniform noise of unit variance.
+Numbers autoregressive(double rho, std::size_t n) {
+  std::mt19937_64 bits(7);
+  Numbers out{0.0};
+  while (out.size() < n) {
+    const double uniform = static_cast<double>(bits() >> 11) * 0x1p-53;
+    out.push_back(rho * out.back() + std::sqrt(12.0) * (uniform - 0.5));
+  }
+  return out;
+}
+
+TEST(BlockLength, IsNearItsClosedFormForAutoregression) {
+  // Politis and White 2004, section 3: G / g(0) = 2 rho / (1 - rho^2) for AR(1), so that the best
+  // circular block is (1.5 (2 rho / (1 - rho^2))^2 n)^(1/3): 49.1 for rho 0.8, n 4000.
+  EXPECT_NEAR(static_cast<double>(block_length(autoregressive(0.8, 4000))), 49.1, 0.35 * 49.1);
+  EXPECT_LE(block_length(autoregressive(0.0, 4000)), 6u);
+  // A half wave: the lags' sums cancel, but a third of the wave still goes together.
+  Numbers wave;
+  for (int i = 0; i < 90; ++i) wave.push_back(std::cos(i * 3.141592653589793 / 90.0));
+  EXPECT_GE(block_length(wave), 20u);
+  EXPECT_EQ(block_length(Numbers(10, 3.0)), 1u);
+  EXPECT_EQ(block_length(Numbers{1.0}), 1u);
+}
+
+TEST(BlockBootstrap, KnowsThatNeighboursRepeatEachOther) {
+  // The mean of AR(1) has variance 1 / ((1 - rho)^2 n): five times the standard error that
+  // independent draws would show for rho 0.8, 3 times in terms of the sample's own spread.
+  const Numbers x = autoregressive(0.8, 4000);
+  const double error = 1.0 / (0.2 * std::sqrt(4000.0));
+  const auto width = [](const Interval& i) { return (i.high - i.low) / (2.0 * 1.96); };
+  const BootstrapOptions options{.resamples = 1000};
+  EXPECT_NEAR(
+      width(block_interval(x.size(), block_length(x), mean_of(x), options)) / error, 1.0, 0.15);
+  EXPECT_NEAR(width(percentile_interval(x.size(), mean_of(x), options)) / error, 1.0 / 3.0, 0.05);
+  EXPECT_THROW(block_interval(5, 0, mean_of(x)), std::invalid_argument);
+  const Interval whole = block_interval(5, 9, mean_of(x));
+  EXPECT_EQ(whole.low, whole.high);
+}
+
+}  // namespace
+}  // namespace loopbench

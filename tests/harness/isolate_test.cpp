@@ -1,0 +1,304 @@
+/// Worker processes: what ends one costs its cell and nothing else.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+#include <thread>
+
+#include "harness/config/bytes.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "harness/isolate/cell_queue.hpp"
+#include "harness/isolate/isolated_sweep.hpp"
+#include "harness/isolate/pack_result.hpp"
+#include "harness/provenance/hash.hpp"
+#include "harness/run/run_sweep.hpp"
+#include "harness/verify/verify.hpp"
+#include "tests/support/tiny_catalogue.hpp"
+
+namespace loopbench {
+namespace {
+
+enum class Deed { nothing, abort, kill, exit, hang, flood, own_process };
+auto choices(Deed) {
+  return std::array{std::pair{"nothing", Deed::nothing},
+                    std::pair{"abort", Deed::abort},
+                    std::pair{"kill", Deed::kill},
+                    std::pair{"exit", Deed::exit},
+                    std::pair{"hang", Deed::hang},
+                    std::pair{"flood", Deed::flood},
+                    std::pair{"own_process", Deed::own_process}};
+}
+
+struct Misbehaving final : Corrector {
+  struct Options {
+    Deed deed = Deed::nothing;
+  };
+  explicit Misbehaving(const Options& o) : options(o) {}
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    std::vector<std::string> kept;
+    switch (options.deed) {
+      case Deed::abort:
+        std::abort();
+      case Deed::kill:
+        raise(SIGKILL);
+        break;
+      case Deed::exit:
+        _exit(7);
+      case Deed::hang:
+        for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+      case Deed::flood:
+        for (int i = 0; i < 40; ++i) kept.emplace_back(std::size_t{50} << 20, 'x');
+        break;
+      case Deed::own_process:
+        report.count("process", getpid());
+        break;
+      case Deed::nothing:
+        break;
+    }
+    return problem.keyframes;
+  }
+  Options options;
+};
+template <class Visit>
+void fields(Misbehaving::Options& o, Visit visit) {
+  visit("deed", o.deed, "what it does");
+}
+
+class Isolated : public testing::Test {
+ protected:
+  std::vector<CellResult> run(const std::string& text, int jobs) {
+    const Sweep sweep = parse_sweep(text, "c.yaml", known_);
+    return run(sweep, cells(sweep, seeded(sweep, known_), ""), jobs);
+  }
+  std::vector<CellResult> run(const Sweep& sweep, const std::vector<Cell>& planned, int jobs) {
+    std::vector<CellResult> out;
+    const std::atomic<bool> stop = false;
+    run_isolated(sweep, planned, known_, {}, jobs, stop, [&](const CellResult& result) {
+      out.push_back(result);
+    });
+    std::ranges::sort(out, {}, [](const CellResult& r) { return r.cell.index; });
+    return out;
+  }
+
+  Catalogue known_ = [] {
+    Catalogue out = tiny::catalogue();
+    out.methods.push_back(method<Misbehaving>("mis", "misbehaves"));
+    return out;
+  }();
+};
+
+const char* const kConfig =
+    "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2, 0.3]}}]\n"
+    "methods: [straight, shift, {method: shift, fail: true, label: f},\n"
+    "          {method: shift, decline: true, label: d}]\n"
+    "metrics: [ate, {metric: ate, power: 2, label: undefined}]\nrepeats: 3\n";
+
+std::string bytes(CellResult result) {
+  result.seconds.clear();
+  result.cpu_seconds.clear();
+  result.peak_memory = result.added_memory = std::nullopt;
+  result.worker = {};
+  for (Phase& phase : result.report.phases) phase.seconds = 0.0;
+  Packer pack;
+  pack(result.status)(result.why)(result.scores)(result.report.counts)(result.trace.samples);
+  pack(result.report.phases);
+  return pack.bytes();
+}
+
+TEST_F(Isolated, GivesTheSameBitsAsThreads) {
+  const Sweep sweep = parse_sweep(kConfig, "c.yaml", known_);
+  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
+  std::vector<std::string> in_process;
+  Sequences sequences(sweep, known_, {}, planned);
+  const std::atomic<bool> stop = false;
+  run_sweep(sweep, planned, known_, sequences, 1, stop, [&](const CellResult& result) {
+    in_process.push_back(bytes(result));
+  });
+  for (const int jobs : {1, 3, 10}) {
+    const std::vector<CellResult> isolated = run(sweep, planned, jobs);
+    ASSERT_EQ(isolated.size(), planned.size());
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+      EXPECT_EQ(bytes(isolated[i]), in_process[i]) << i;
+      EXPECT_TRUE(isolated[i].worker.isolated);
+      ASSERT_TRUE(isolated[i].facts);
+      EXPECT_EQ(isolated[i].facts->size.keyframes, 4);
+    }
+  }
+}
+
+TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
+  const std::vector<CellResult> results = run(
+      "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2]}}]\n"
+      "methods: [straight, {method: mis, sweep: {deed: [abort, kill, exit, hang, flood]}}, shift]\n"
+      "metrics: [ate]\nlimits: {seconds: 2, memory: 200MB}\n",
+      2);
+  ASSERT_EQ(results.size(), 14u);
+  const std::vector<std::pair<Status, std::string>> wanted{{Status::ok, ""},
+                                                           {Status::crashed, "SIGABRT"},
+                                                           {Status::crashed, "SIGKILL"},
+                                                           {Status::crashed, ""},
+                                                           {Status::timeout, "SIGKILL"},
+                                                           {Status::out_of_memory, "SIGKILL"},
+                                                           {Status::ok, ""}};
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto& [status, signal] = wanted[i % 7];
+    EXPECT_EQ(to_text(results[i].status), to_text(status)) << i << ": " << results[i].why;
+    // A flood that ended between two looks at it is told by its peak, without a signal.
+    if (status != Status::out_of_memory) {
+      EXPECT_EQ(results[i].signal, signal) << i;
+    }
+    EXPECT_EQ(results[i].why.empty(), status == Status::ok) << i;
+    EXPECT_TRUE(results[i].facts) << "the sequence was loaded";
+  }
+  EXPECT_NE(results[3].why.find("exit code 7"), std::string::npos) << results[3].why;
+  EXPECT_NE(results[4].why.find("limit of 2 s"), std::string::npos) << results[4].why;
+}
+
+TEST_F(Isolated, WorkersAreUsedAgainAndReplacedOnlyAfterAFailure) {
+  const std::vector<CellResult> results =
+      run("datasets: [line]\n"
+          "methods: [{method: mis, deed: own_process, label: a}, {method: mis, deed: own_process, "
+          "label: b},\n"
+          "          {method: mis, deed: abort}, {method: mis, deed: own_process, label: c}]\n"
+          "metrics: [ate]\n",
+          1);
+  ASSERT_EQ(results.size(), 4u);
+  const auto process = [&](std::size_t i) { return results[i].report.counts.at(0).value; };
+  EXPECT_EQ(process(0), process(1));
+  EXPECT_NE(process(1), process(3));
+  EXPECT_NE(process(0), getpid());
+}
+
+TEST_F(Isolated, TimedCellsRunAloneOnOneCore) {
+  const std::vector<CellResult> results =
+      run("datasets: [line]\nmethods: [straight, shift]\nmetrics: [ate]\ntiming: true\n", 2);
+  ASSERT_EQ(results.size(), 2u);
+  for (const CellResult& result : results) {
+    EXPECT_TRUE(result.worker.serial);
+    EXPECT_TRUE(result.worker.pinned);
+    EXPECT_EQ(result.seconds.size(), 5u);
+    EXPECT_EQ(result.cpu_seconds.size(), 5u);
+  }
+}
+
+TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "broken", "", [](const tiny::LineOptions&, const DataRoot&) -> Sequence {
+        throw InputError("broken.txt: no such file");
+      }));
+  std::size_t count = 0;
+  const Sweep sweep = parse_sweep(
+      "datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", "c.yaml", known_);
+  const std::atomic<bool> stop = false;
+  EXPECT_THROW(run_isolated(sweep,
+                            cells(sweep, seeded(sweep, known_), ""),
+                            known_,
+                            {},
+                            2,
+                            stop,
+                            [&](const CellResult&) { ++count; }),
+               InputError);
+  EXPECT_EQ(count, 0u);
+}
+
+TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "crash", "", [](const tiny::LineOptions&, const DataRoot&) -> Sequence { std::abort(); }));
+  const std::vector<CellResult> results =
+      run("datasets: [crash, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].status, Status::crashed);
+  EXPECT_NE(results[0].why.find("while loading"), std::string::npos) << results[0].why;
+  EXPECT_EQ(results[1].status, Status::crashed);
+  EXPECT_EQ(results[2].status, Status::ok);
+}
+
+TEST_F(Isolated, VerifyNamesTheCellThatDiffers) {
+  Sweep sweep = parse_sweep(
+      "datasets: [line]\nmethods: [straight, {method: mis, deed: own_process}]\nmetrics: [ate]\n",
+      "c.yaml",
+      known_);
+  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
+  const std::atomic<bool> stop = false;
+  const auto differing = verify(
+      sweep, planned, known_, {}, {{true, 1}, {true, 2}, {false, 3}}, stop, [](const auto&) {});
+  ASSERT_EQ(differing.size(), 2u);
+  EXPECT_EQ(differing[0].cell, 1u);
+  EXPECT_EQ(differing[0].part, "report");
+  EXPECT_EQ(differing[0].manner, "2 workers");
+  EXPECT_EQ(differing[1].manner, "3 threads");
+}
+
+TEST(CellQueue, KeepsAWorkerAtItsSequenceThenHelpsOut) {
+  // Sequences 0: cells 0 1 2, 1: cells 3 4.
+  std::vector<Cell> planned;
+  for (std::size_t i = 0; i < 5; ++i) planned.push_back({i, i < 3 ? 0u : 1u, i, 0});
+  CellQueue queue(planned);
+  EXPECT_EQ(queue.first_of_datasets(), (std::vector<std::size_t>{0, 3}));
+  std::optional<std::size_t> a;
+  std::optional<std::size_t> b;
+  EXPECT_EQ(queue.next(a), 0u);
+  EXPECT_EQ(queue.next(b), 3u);
+  EXPECT_EQ(queue.next(b), 4u);
+  EXPECT_EQ(queue.next(b), 1u);
+  queue.give_back(1);
+  EXPECT_EQ(queue.next(a), 1u);
+  EXPECT_EQ(queue.next(a), 2u);
+  EXPECT_EQ(queue.next(a), std::nullopt);
+  queue.give_back(4);
+  EXPECT_EQ(queue.next(a), 4u);
+  EXPECT_FALSE(queue.finish(3));
+  EXPECT_TRUE(queue.finish(4));
+}
+
+TEST(Pack, RefusesAMessageThatIsCutOff) {
+  CellResult result;
+  result.why = "because";
+  result.scores.resize(2);
+  result.trace.samples.resize(3);
+  Packer pack;
+  pack(result);
+  const std::string& whole = pack.bytes();
+  CellResult back;
+  Unpacker all(whole);
+  all(back);
+  EXPECT_EQ(back.why, "because");
+  EXPECT_EQ(back.scores.size(), 2u);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CellResult none;
+    Unpacker cut(std::string_view(whole).substr(0, size));
+    EXPECT_THROW(cut(none), std::runtime_error) << size;
+  }
+}
+
+TEST(Hash, IsMurmur3) {
+  // SMHasher's verification: keys {}, {0}, {0, 1}, ... with seeds 256, 255, ...; the hash of all
+  // their hashes begins with 0x6384BA69.
+  std::string key;
+  std::string hashes;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const Hash hash = hash_of(key, 256 - i);
+    hashes.append(reinterpret_cast<const char*>(&hash), sizeof hash);
+    key.push_back(static_cast<char>(i));
+  }
+  EXPECT_EQ(hash_of(hashes).low & 0xffffffffu, 0x6384BA69u);
+}
+
+TEST(Hash, FieldsDoNotRunTogether) {
+  EXPECT_NE(Fields().add("ab").add("c").hashed(), Fields().add("a").add("bc").hashed());
+  EXPECT_NE(Fields().add("").hashed(), Fields().hashed());
+}
+
+TEST(Bytes, ReadsSizesAsPeopleWriteThem) {
+  EXPECT_EQ(parse_bytes("2GiB"), 2147483648);
+  EXPECT_EQ(parse_bytes("1.5 kB"), 1500);
+  EXPECT_EQ(parse_bytes("4096"), 4096);
+  for (const char* wrong : {"", "GiB", "-1MB", "2 gigabytes", "nan", "0", "1e30GB"}) {
+    EXPECT_EQ(parse_bytes(wrong), std::nullopt) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,187 @@
+/// Sweeps that end before their time, from outside: killed, out of disk, in each other's way.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/support/command.hpp"
+#include "tests/support/store_text.hpp"
+
+namespace loopbench {
+namespace {
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kKills = 15;  // each start costs ten times as much
+#else
+constexpr int kKills = 100;
+#endif
+
+const char* const kConfig =
+    "datasets: [{dataset: simulated, path: room, keyframes: 40, label: a},\n"
+    "           {dataset: simulated, path: office, keyframes: 40, closures: {max: 0}, label: b}]\n"
+    "methods: [raw, uniform, cubic_spline, uniform + cubic_spline]\nmetrics: [ate, axis_error]\n"
+    "repeats: 6\n";
+
+class Ended : public testing::Test {
+ protected:
+  CommandResult run(const std::string& arguments) { return loopbench_command(arguments, folder_); }
+
+  /// `loopbench run c.yaml --out OUT` in the folder; the process, not a shell around it.
+  pid_t start(const std::string& out) {
+    const std::string config = (folder_.path() / "c.yaml").string();
+    const std::string target = (folder_.path() / out).string();
+    std::vector<std::string> words{LOOPBENCH_BINARY, "run", config, "--out", target, "--jobs", "3"};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
+    pid_t process = -1;
+    posix_spawn(&process, LOOPBENCH_BINARY, &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    return process;
+  }
+
+  /// Its exit code, or 128 and the signal.
+  static int wait(pid_t process) {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  std::filesystem::path store(const std::string& out) const {
+    return folder_.path() / out / "results.sqlite";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Ended, KilledAtAnyMomentItGoesOnToTheSameRows) {
+  folder_.file("c.yaml", kConfig);
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  ASSERT_EQ(wait(start("whole")), 0);
+  const std::chrono::duration<double> takes = Clock::now() - begin;
+  const std::string whole = store_text(store("whole"));
+  std::mt19937_64 random(5);
+  int kills = 0;
+  int wholes = 0;
+  for (int turn = 0; kills < kKills && turn < 50 * kKills; ++turn) {
+    const pid_t process = start("k");
+    const double share = static_cast<double>(random() % 1000) / 1000.0;
+    std::this_thread::sleep_for(share * takes);
+    ::kill(process, SIGKILL);
+    const int code = wait(process);
+    if (code == 128 + SIGKILL) {
+      ++kills;
+      continue;
+    }
+    ASSERT_EQ(code, 0) << "after " << kills << " kills";
+    ASSERT_EQ(store_text(store("k")), whole) << "after " << kills << " kills";
+    ++wholes;
+    std::filesystem::remove_all(folder_.path() / "k");
+  }
+  EXPECT_EQ(kills, kKills);
+  ASSERT_EQ(wait(start("k")), 0);
+  EXPECT_EQ(store_text(store("k")), whole);
+  RecordProperty("sweeps finished in between", wholes);
+}
+
+TEST_F(Ended, AFullDiskIsAClearErrorAndLeavesWholeCells) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out whole").exit_code, 0);
+  const std::string script = "cd '" + folder_.path().string() +
+                             "'; trap '' XFSZ; ulimit -f 300; exec '" LOOPBENCH_BINARY
+                             "' run c.yaml --out k >/dev/null 2>.err";  // [KiB]
+  setenv("SCRIPT", script.c_str(), 1);
+  const int status = std::system("bash -c \"$SCRIPT\"");
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  const std::string error = read_all(folder_.path() / ".err");
+  EXPECT_NE(error.find("results.sqlite: "), std::string::npos) << error;
+  EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
+  EXPECT_LT(read_cells(store("k")).size(), read_cells(store("whole")).size());
+  EXPECT_EQ(run("run c.yaml --out k").exit_code, 0);
+  EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
+}
+
+TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out k --only 'a / raw'").exit_code, 0);
+  const std::string line = "cd '" + folder_.path().string() +
+                           "' && '" LOOPBENCH_BINARY
+                           "' run c.yaml --out k --retry all >/dev/null 2>err$i; echo $? >code$i";
+  setenv("SCRIPT", ("for i in 1 2 3; do (" + line + ") & done; wait").c_str(), 1);
+  ASSERT_EQ(WEXITSTATUS(std::system("bash -c \"$SCRIPT\"")), 0);
+  int done = 0;
+  for (const char* i : {"1", "2", "3"}) {
+    const std::string code = read_all(folder_.path() / (std::string("code") + i));
+    const std::string error = read_all(folder_.path() / (std::string("err") + i));
+    if (code == "0\n") {
+      ++done;
+    } else {
+      EXPECT_EQ(code, "2\n");
+      EXPECT_NE(error.find("another sweep is writing its results here"), std::string::npos)
+          << error;
+    }
+  }
+  EXPECT_GE(done, 1);
+  ASSERT_EQ(run("run c.yaml --out whole").exit_code, 0);
+  EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
+}
+
+TEST_F(Ended, TenWorkersWriteWhatOneDoes) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out one --jobs 1").exit_code, 0);
+  ASSERT_EQ(run("run c.yaml --out ten --jobs 10").exit_code, 0);
+  EXPECT_EQ(store_text(store("one")), store_text(store("ten")));
+}
+
+TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out k --only 'a / '").exit_code, 0);
+  const CommandResult again = run("run c.yaml --out k");
+  EXPECT_NE(again.out.find("48 of 48 cells done (24 of them before), 0 failed"), std::string::npos)
+      << again.out;
+  const CommandResult third = run("run c.yaml --out k");
+  EXPECT_NE(third.out.find("(48 of them before)"), std::string::npos);
+  EXPECT_EQ(third.out.substr(0, 2000), again.out.substr(0, 2000)) << "the tables as they were";
+  const CommandResult fresh = run("run c.yaml --out k --fresh");
+  EXPECT_EQ(fresh.out.find("before"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "k/previous.sqlite"));
+}
+
+TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
+  folder_.file("c.yaml", kConfig);
+  const CommandResult result = run("run c.yaml --out /proc/self");  // root may write anywhere else
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("results.sqlite: cannot be opened"), std::string::npos) << result.err;
+}
+
+TEST_F(Ended, MergeAndProfileFromTheCommandLine) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out 1 --only 'a / '").exit_code, 0);
+  ASSERT_EQ(run("run c.yaml --out 2 --only 'b / '").exit_code, 0);
+  const CommandResult merged = run("merge 1 2 -o 3");
+  EXPECT_EQ(merged.out, "48 cells in 3/results.sqlite\n") << merged.err;
+  const CommandResult profile = run("profile 3");
+  EXPECT_EQ(profile.exit_code, 0) << profile.err;
+  for (const char* part : {"### costs", "### scaling", "### accuracy and time", "| raw "}) {
+    EXPECT_NE(profile.out.find(part), std::string::npos) << profile.out;
+  }
+  EXPECT_EQ(run("profile 3 --value nonsense").exit_code, 2);
+  EXPECT_EQ(run("merge 1 2 -o 3").exit_code, 2);
+  const CommandResult verified = run("verify c.yaml --only 'a / (raw|uniform)$'");
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+  EXPECT_NE(verified.out.find("the same bits"), std::string::npos) << verified.out;
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,115 @@
+/// What methods cost: worked by hand.
+#include "harness/profile/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace loopbench {
+namespace {
+
+TEST(PowerLaw, FindsAnExactExponent) {
+  const auto law = power_law({1, 2, 4, 8}, {3, 12, 48, 192});  // 3 x^2
+  ASSERT_TRUE(law);
+  EXPECT_NEAR(law->exponent, 2.0, 1e-12);
+  EXPECT_NEAR(law->error, 0.0, 1e-7);
+  EXPECT_NEAR(law->r2, 1.0, 1e-12);
+}
+
+TEST(PowerLaw, TellsHowSureItIs) {
+  // In units of log 2: x = 0 1 2, y = 0 2 1. Slope 1/2, left (1/2)^2 + 1 + (1/2)^2 = 3/2 of 2;
+  // error sqrt(3/2 / 1 / 2).
+  const auto law = power_law({1, 2, 4}, {1, 4, 2});
+  ASSERT_TRUE(law);
+  EXPECT_NEAR(law->exponent, 0.5, 1e-12);
+  EXPECT_NEAR(law->error, std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(law->r2, 0.25, 1e-12);
+}
+
+TEST(PowerLaw, NeedsThreePointsAndALever) {
+  EXPECT_FALSE(power_law({1, 10}, {1, 10}));
+  EXPECT_FALSE(power_law({1, 2, 3}, {1, 2, 3}));
+  EXPECT_FALSE(power_law({1, 2, 4}, {0, 2, 3}));
+}
+
+TEST(ParetoFront, KeepsWhatNothingBeatsInBoth) {
+  EXPECT_EQ(pareto_front({1, 2, 3, 2, 4}, {4, 2, 3, 3, 1}),
+            (std::vector<bool>{true, true, false, false, true}));
+  EXPECT_EQ(pareto_front({1, 1, 1}, {2, 2, 3}), (std::vector<bool>{true, true, false}))
+      << "equals do not beat each other";
+  EXPECT_EQ(pareto_front({1, 2}, {1, 1}), (std::vector<bool>{true, false}));
+}
+
+CellRecord cell(std::int64_t position,
+                const std::string& sequence,
+                const std::string& method,
+                std::int64_t keyframes,
+                double seconds) {
+  CellRecord out;
+  out.position = position;
+  out.sequence = sequence;
+  out.method = method;
+  out.keyframes = keyframes;
+  out.runs = 1;
+  out.seconds = seconds;
+  out.status = "ok";
+  out.worker = "isolated";
+  return out;
+}
+
+Record score(std::int64_t position, const std::string& times, double rmse) {
+  Record out;
+  out.cell = position;
+  out.protocol = "p";
+  out.times = times;
+  out.metric = "ate";
+  out.relation = "translation";
+  out.axis = "3d";
+  out.unit = "m";
+  out.statistics.rmse = rmse;
+  return out;
+}
+
+TEST(Scaling, OnePointPerSize) {
+  const std::vector<CellRecord> cells{cell(0, "s", "m", 100, 0.001),
+                                      cell(1, "s", "m", 100, 0.003),
+                                      cell(2, "t", "m", 200, 0.004),
+                                      cell(3, "u", "m", 400, 0.008),
+                                      cell(4, "u", "once", 400, 0.008)};
+  const Listing listing = scaling(cells);
+  ASSERT_EQ(listing.rows.size(), 1u);
+  EXPECT_EQ(listing.rows[0],
+            (std::vector<std::string>{"m", "3", "100 to 400", "1.00", "0.00", "1.000", "8"}));
+}
+
+TEST(Pareto, OverSequencesThatAllHave) {
+  const std::vector<CellRecord> cells{cell(0, "s", "slow", 9, 0.004),
+                                      cell(1, "t", "slow", 9, 0.001),
+                                      cell(2, "s", "fast", 9, 0.001),
+                                      cell(3, "t", "fast", 9, 0.001),
+                                      cell(4, "s", "worse", 9, 0.002),
+                                      cell(5, "t", "worse", 9, 0.008),
+                                      cell(6, "s", "part", 9, 0.0005)};
+  std::vector<Record> records;
+  const double errors[] = {1, 4, 4, 9, 4, 9, 0.1};  // geometric means 2, 6, 6
+  for (int i = 0; i < 7; ++i) {
+    records.push_back(score(i, "keyframes", 77));
+    records.push_back(score(i, "dense", errors[i]));
+  }
+  const Listing listing = pareto(cells, records, {});
+  using Row = std::vector<std::string>;
+  ASSERT_EQ(listing.rows.size(), 4u);
+  EXPECT_EQ(listing.rows[0], (Row{"part", "1 of 2", "0.1", "0.5", "-"}));
+  EXPECT_EQ(listing.rows[1], (Row{"fast", "2 of 2", "6", "1", "yes"}));
+  EXPECT_EQ(listing.rows[2], (Row{"slow", "2 of 2", "2", "2", "yes"}));
+  EXPECT_EQ(listing.rows[3], (Row{"worse", "2 of 2", "6", "4", "no"}));
+}
+
+TEST(Listing, ReadsAsMarkdownAndAsCsv) {
+  const Listing listing{"t", {"a", "b"}, {{"x|y", "1"}}, {"note"}};
+  EXPECT_EQ(markdown(listing), "### t\n\n| a    |  b |\n| ---- | -: |\n| x\\|y |  1 |\n\n- note\n");
+  EXPECT_EQ(csv(listing), "table,a,b\nt,x|y,1\n");
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,180 @@
+/// Which rows a table keeps, who is marked in it, and how it is written.
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+#include "harness/export/text.hpp"
+#include "harness/export/where.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench {
+namespace {
+
+Record ate(const std::string& method, double rmse, int repeat = 0) {
+  Record r;
+  r.sequence = "room";
+  r.repeat = repeat;
+  r.method = method;
+  r.protocol = "evo (align=se3, first=10)";
+  r.times = "dense";
+  r.metric = "ate";
+  r.relation = "translation";
+  r.axis = "3d";
+  r.unit = "m";
+  r.statistics.rmse = rmse;
+  return r;
+}
+
+TEST(Where, KeepsWhatEveryRuleKeeps) {
+  const auto keeps = [](const std::string& rule) { return where({rule})(ate("dm_n3", 1.0)); };
+  EXPECT_TRUE(keeps("metric=ate"));
+  EXPECT_FALSE(keeps("metric=rpe"));
+  EXPECT_TRUE(keeps("metric!=rpe"));
+  EXPECT_FALSE(keeps("metric!=ate"));
+  EXPECT_TRUE(keeps("method~^dm_.[0-9]$"));
+  EXPECT_FALSE(keeps("method~^raw"));
+  EXPECT_TRUE(keeps("metric=ate,method~dm,times=dense"));
+  EXPECT_FALSE(keeps("metric=ate,times=keyframes"));
+  EXPECT_TRUE(keeps("protocol=evo (align=se3, first=10),metric=ate"));  // commas in brackets
+  EXPECT_TRUE(keeps("method~^dm_n{1,2}3"));
+  EXPECT_FALSE(where({"metric=ate", "times=keyframes"})(ate("raw", 1.0)));
+  EXPECT_TRUE(where({})(ate("raw", 1.0)));
+}
+
+TEST(Where, KeepsTheReasonsOfCellsWithoutScores) {
+  Record failed;
+  failed.method = "raw";
+  failed.status = "failed";
+  EXPECT_TRUE(where({"metric=ate"})(failed));
+  EXPECT_FALSE(where({"method=dm"})(failed));
+  EXPECT_FALSE(where({"status=ok"})(failed));
+}
+
+TEST(Where, RefusesByName) {
+  EXPECT_EQ(refusal_of([] { where({"metrc=ate"}); }),
+            "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
+  EXPECT_EQ(refusal_of([] { where({"ate"}); }),
+            "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
+  EXPECT_EQ(refusal_of([] { where({"method~("}); }), "where: '(' is not a regular expression");
+  EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");
+  EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
+}
+
+/// Each run's error is its number times the factor.
+ByRun runs(double factor, int count = 8) {
+  ByRun out;
+  for (int i = 1; i <= count; ++i) out[std::to_string(i)] = factor * i;
+  return out;
+}
+
+TEST(MarkBest, MarksOnlyWhatIsProven) {
+  const Marks marks = mark_best({runs(2.0), runs(1.0), runs(3.0)}, false, 0.05);
+  EXPECT_EQ(marks.marks, (std::vector<Mark>{Mark::second, Mark::best, Mark::none}));
+  EXPECT_EQ(mark_best({runs(2.0), runs(1.0), runs(3.0)}, true, 0.05).marks,
+            (std::vector<Mark>{Mark::second, Mark::none, Mark::best}));
+  // 2^-7 twice is p = 0.0078 for each of three pairs: 0.023 after Holm.
+  EXPECT_EQ(mark_best({runs(2.0), runs(1.0), runs(3.0)}, false, 0.02).marks,
+            (std::vector<Mark>(3, Mark::none)));
+  // The two best cannot be told apart: no mark at all.
+  ByRun alike = runs(1.0);
+  alike["1"] = 1.01;
+  EXPECT_EQ(mark_best({runs(1.0), alike, runs(3.0)}, false, 0.05).marks,
+            (std::vector<Mark>(3, Mark::none)));
+}
+
+TEST(MarkBest, SaysWhenNothingCanBeTested) {
+  EXPECT_EQ(mark_best({runs(1.0, 5), runs(2.0, 5)}, false, 0.05).why_none,
+            "5 runs a cell cannot show a difference at 0.05 (least p 0.062)");
+  EXPECT_EQ(mark_best({runs(1.0), {}}, false, 0.05).why_none, "");  // no contest
+}
+
+TEST(MarkBest, NeverMarksWhoLacksARun) {
+  ByRun lucky = runs(0.5);
+  lucky.erase("8");
+  EXPECT_EQ(mark_best({lucky, runs(1.0), runs(2.0)}, false, 0.05).marks,
+            (std::vector<Mark>(3, Mark::none)));
+}
+
+std::vector<Table> marked() {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 8; ++repeat) {
+    records.push_back(ate("a|b_&%<\"x\"\n_c", 0.1 + 0.01 * repeat, repeat));
+    records.push_back(ate("raw", 1.0 + 0.01 * repeat, repeat));
+    records.push_back(ate("dm_n3", 2.0 + 0.01 * repeat, repeat));
+  }
+  return pivot(records, TableSpec{.split = {"times"}, .show = {}});
+}
+
+TEST(Formats, EscapeNamesAndMarkTheBest) {
+  const std::vector<Table> tables = marked();
+  const std::string notes =
+      "marked: best, and second best, where paired Wilcoxon tests over the runs tell it from all "
+      "others (Holm over all pairs)\n";
+  EXPECT_EQ(markdown(tables),
+            "### dense\n\n"
+            "| method                  |   ate [m] |\n"
+            "| ----------------------- | --------: |\n"
+            "| a\\|b\\_&amp;%&lt;\"x\" \\_c | **0.135** |\n"
+            "| raw                     |   _1.035_ |\n"
+            "| dm_n3                   |     2.035 |\n\n"
+            "- " +
+                notes + "- each number is the mean of up to 8 cells\n");
+  EXPECT_EQ(terminal(sheet(tables[0])),
+            "dense\n"
+            "method         ate [m]\n"
+            "-------------  --------\n"
+            "a|b_&%<\"x\" _c    0.135*\n"
+            "raw              1.035+\n"
+            "dm_n3            2.035\n" +
+                notes + "each number is the mean of up to 8 cells\n");
+  EXPECT_EQ(latex(sheet(tables[0])),
+            "% dense\n"
+            "\\begin{tabular}{lr}\n\\toprule\n"
+            "method & ate {[}m] \\\\\n\\midrule\n"
+            "a\\textbar{}b\\_\\&\\%\\textless{}\\textquotedbl{}x\\textquotedbl{} \\_c & "
+            "\\textbf{0.135} \\\\\n"
+            "raw & \\underline{1.035} \\\\\n"
+            "dm\\_n3 & 2.035 \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n"
+            "% " +
+                notes + "% each number is the mean of up to 8 cells\n");
+}
+
+TEST(Formats, KeepNamesAndNumbersForMachines) {
+  const std::string text = csv(marked());
+  EXPECT_NE(text.find("\ndense,\"a|b_&%<\"\"x\"\"\n_c\",ate [m],0.135"), std::string::npos) << text;
+  EXPECT_NE(text.find(",8,ok,best\n"), std::string::npos);
+  const std::string object = json(marked());
+  EXPECT_NE(object.find("\"a|b_&%<\\\"x\\\"\\n_c\""), std::string::npos) << object;
+  EXPECT_NE(object.find("\"mark\": \"second\""), std::string::npos);
+}
+
+TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 6; ++repeat) {
+    records.push_back(ate("raw", 2.0, repeat));
+    records.push_back(ate("dm", 1.0, repeat));
+  }
+  const TableSpec spec{.rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}};
+  const std::vector<Table> tables = pivot(records, spec);
+  ASSERT_EQ(tables[0].cells.size(), 1u);
+  EXPECT_EQ(tables[0].cells[0][0].mark, Mark::none);
+  EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
+  const std::vector<Table> sequences = pivot(records, TableSpec{.rows = {"sequence"}, .show = {}});
+  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
+  EXPECT_EQ(sequences[0].notes.size(), 1u);
+}
+
+TEST(Pivot, MarksNothingAmongDescriptions) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 6; ++repeat) {
+    for (const char* method : {"raw", "dm"}) {
+      records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
+      records.back().metric = "pairs";
+    }
+  }
+  const std::vector<Table> tables = pivot(records, TableSpec{});
+  for (const auto& row : tables[0].cells) EXPECT_EQ(row[0].mark, Mark::none);
+}
+
+}  // namespace
+}  // namespace loopbench

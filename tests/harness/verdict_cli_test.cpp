@@ -1,0 +1,164 @@
+/// compare, table and check from outside: formats, exit codes, messages.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench {
+namespace {
+
+const char* const kConfig =
+    "datasets:\n"
+    "  - {dataset: simulated, path: driving, keyframes: 100, label: 'off|ice_&%<b>'}\n"
+    "  - {dataset: simulated, path: driving, keyframes: 140, label: room}\n"
+    "methods: [raw, uniform, cubic_spline]\n"
+    "metrics: [ate]\n"
+    "times: keyframes\n"
+    "repeats: 4\n";
+
+/// One sweep of eight runs, made once; every test reads it.
+class VerdictCli : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    folder_->file("c.yaml", kConfig);
+    ASSERT_EQ(run("run c.yaml --out r").exit_code, 0);
+    ASSERT_EQ(run("check r --baseline b.json --update").exit_code, 0);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static CommandResult run(const std::string& arguments) {
+    return loopbench_command(arguments, *folder_);
+  }
+  static std::string read(const std::string& name) { return read_all(folder_->path() / name); }
+
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* VerdictCli::folder_ = nullptr;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(VerdictCli, CompareGivesAVerdict) {
+  const CommandResult result = run("compare r --where unit=m");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("### ate rmse, keyframes, loopbench\n\n| method", 0), 0u);
+  EXPECT_TRUE(has(result.out, "\n- uniform ranks best: ")) << result.out;
+  EXPECT_TRUE(has(result.out, "\n- over 8 runs of 2 sequences: ")) << result.out;
+  EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // the same bits twice
+  const CommandResult few = run("compare r --where unit=m,sequence=room,repeat=0");
+  EXPECT_TRUE(has(few.out, "which one observation cannot prove")) << few.out;
+}
+
+TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
+  EXPECT_EQ(run("compare r --format json").out.rfind("[\n  {\n    \"protocol\"", 0), 0u);
+  EXPECT_EQ(run("compare r --format csv").out.rfind("protocol,times,metric", 0), 0u);
+  EXPECT_TRUE(has(run("compare r --format latex").out, "\\begin{tabular}{lrrrrrrrrr}\n\\toprule"));
+  EXPECT_TRUE(
+      has(run("compare r --format terminal").out, "ate rmse, keyframes, loopbench\nmethod "));
+}
+
+TEST_F(VerdictCli, CompareRefusesByName) {
+  const auto refusal = [](const std::string& arguments) {
+    const CommandResult result = run("compare " + arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    return result.err;
+  };
+  EXPECT_EQ(refusal("r --baseline unifrom"),
+            "loopbench: baseline: no method is named 'unifrom'; did you mean 'uniform'?\n");
+  EXPECT_EQ(refusal("r --metric aet"),
+            "loopbench: --metric: no metric is named 'aet'; did you mean 'ate'?\n");
+  EXPECT_TRUE(has(refusal("r --value rms"), "did you mean 'rmse'?"));
+  EXPECT_TRUE(has(refusal("r --where metrc=ate"), "did you mean 'metric'?"));
+  EXPECT_TRUE(has(refusal("r --where sequence=nowhere"), "no score is left"));
+  EXPECT_TRUE(has(refusal("nowhere"), "no such file"));
+  EXPECT_TRUE(has(refusal("c.yaml"), "c.yaml: "));
+  refusal("r --alpha 2");
+  refusal("r --over planets");
+  folder_->file("empty.sqlite", "");
+  EXPECT_TRUE(has(refusal("empty.sqlite"), "empty.sqlite: is not a store"));
+}
+
+TEST_F(VerdictCli, TablesEscapeNamesInEveryFormat) {
+  const std::string table = "table r --split times --rows sequence --columns score --show ate";
+  EXPECT_TRUE(has(run(table).out, "| off\\|ice\\_&amp;%&lt;b> |")) << run(table).out;
+  EXPECT_TRUE(has(run(table + " --format latex").out,
+                  "off\\textbar{}ice\\_\\&\\%\\textless{}b\\textgreater{} & "));
+  EXPECT_TRUE(has(run(table + " --format terminal").out, "off|ice_&%<b>"));
+  EXPECT_TRUE(has(run(table + " --format json").out, "\"off|ice_&%<b>\""));
+  EXPECT_TRUE(has(run(table + " --format csv").out, ",off|ice_&%<b>,"));
+}
+
+TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
+  const std::string table = "table r --columns score --show ate --where unit=m";
+  const std::string pooled = run(table + " --split times").out;
+  EXPECT_TRUE(std::regex_search(pooled, std::regex("uniform +\\| \\*\\*[0-9.]+\\*\\*"))) << pooled;
+  EXPECT_TRUE(has(pooled, "- marked: best, and second best, where"));
+  const std::string apart = run(table + " --split sequence").out;
+  EXPECT_FALSE(has(apart, "**")) << apart;
+  EXPECT_TRUE(has(apart, "- no best is marked: 4 runs a cell cannot show a difference at 0.05"));
+}
+
+TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
+  const CommandResult result = run("check r --baseline b.json --junit j.xml --markdown m.md");
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_EQ(result.out,
+            "### c: passes\n\n- 0 regressions, 0 improvements, 0 new cells in 24 cells and 48 "
+            "scores\n");
+  EXPECT_EQ(read("m.md"), result.out);
+  EXPECT_TRUE(has(read("j.xml"), "tests=\"24\" failures=\"0\""));
+}
+
+TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
+  // The baseline's first error of uniform on the room, a hundredth lower than it was.
+  std::string text = read("b.json");
+  const std::string cell = "{\"sequence\":\"room\",\"repeat\":0,\"method\":\"uniform\"";
+  const std::size_t begin = text.find("\"rmse\":[", text.find(cell)) + 8;
+  ASSERT_NE(text.find(cell), std::string::npos);
+  const std::size_t end = text.find_first_of(",]", begin);
+  const double value = std::stod(text.substr(begin, end - begin));
+  text.replace(begin, end - begin, std::to_string(0.99 * value));
+  folder_->file("moved.json", text);
+  const CommandResult result = run("check r --baseline moved.json --junit moved.xml");
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_TRUE(has(result.out, "### c: FAILS\n")) << result.out;
+  EXPECT_TRUE(has(result.out, "| room / uniform | ate translation 3d, keyframes, loopbench |"))
+      << result.out;
+  EXPECT_TRUE(has(read("moved.xml"), "name=\"room / uniform\">\n    <failure "));
+}
+
+TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
+  const auto refusal = [](const std::string& arguments) {
+    const CommandResult result = run("check " + arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments << result.out;
+    return result.err;
+  };
+  folder_->file("other.yaml",
+                "datasets: [{dataset: simulated, path: room, keyframes: 50, label: room}]\n"
+                "methods: [raw]\nmetrics: [ate]\ntimes: keyframes\n");
+  EXPECT_EQ(run("run other.yaml --out o").exit_code, 0);
+  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline is of another sequence"));
+  folder_->file("evo.yaml", std::string(kConfig) + "protocol: evo\n");
+  EXPECT_EQ(run("run evo.yaml --out e --only 'room / raw'").exit_code, 0);
+  EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench ["));
+  folder_->file("broken.json", "{\n\"loopbench_baseline\": 1,\n");
+  EXPECT_TRUE(has(refusal("r --baseline broken.json"), "broken.json:3: is not JSON: "));
+  EXPECT_TRUE(has(refusal("r --baseline nowhere.json"), "nowhere.json: cannot be read"));
+  EXPECT_TRUE(has(refusal("nowhere --baseline b.json"), "no such file"));
+  refusal("r");
+}
+
+TEST_F(VerdictCli, AnUpdateKeepsTheLimits) {
+  std::string text = read("b.json");
+  const std::size_t at = text.find("\"relative\":0.001");
+  ASSERT_NE(at, std::string::npos);
+  folder_->file("strict.json", text.replace(at, 16, "\"relative\":0.002"));
+  EXPECT_EQ(run("check r --baseline strict.json --update").exit_code, 0);
+  EXPECT_TRUE(has(read("strict.json"), "\"relative\":0.002"));
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,313 @@
+// gp_wnoa and gp_wnoj: the prior, its Jacobians, the evidence, and what the posterior must be.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "methods/smoothers/gaussian_process.hpp"
+#include "methods/smoothers/gp/evidence.hpp"
+#include "methods/smoothers/smoothing_spline.hpp"
+#include "tests/support/random_chain.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+std::unique_ptr<const Curve> smooth(const Trajectory& keyframes,
+                                    const GaussianProcess::Options& options,
+                                    Report* report = nullptr) {
+  Report own;
+  Problem problem;
+  problem.keyframes = keyframes;
+  return GaussianProcess(options).smooth(problem, report ? *report : own);
+}
+
+GaussianProcess::Options wnoj(GaussianProcess::Options options = {}) {
+  options.prior = GaussianProcess::Prior::acceleration;
+  return options;
+}
+
+double count(const Report& report, const std::string& name) {
+  for (const Count& each : report.counts) {
+    if (each.name == name) return each.value;
+  }
+  ADD_FAILURE() << "no count " << name;
+  return std::nan("");
+}
+
+std::vector<double> uneven(std::size_t n) {
+  std::vector<double> out;
+  double time = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out.push_back(time);
+    time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
+  }
+  return out;
+}
+
+TEST(BodyRate, TermsMakeTheInverseRightJacobian) {
+  std::mt19937_64 random(1);
+  // 1.414 is where the series hands over to the closed form.
+  for (const double angle : {0.0, 1e-8, 1e-3, 0.3, 1.4, 1.414, 1.415, 2.0, 3.1}) {
+    Twist xi = random_twist(random, 2.0, 1.0);
+    xi.tail<3>() *= angle / xi.tail<3>().norm();
+    const BodyRateTerms c(xi.tail<3>().squaredNorm());
+    const Matrix6 ad = small_adjoint(xi);
+    const Matrix6 J = Matrix6::Identity() + 0.5 * ad + c.c2 * ad * ad + c.c4 * ad * ad * ad * ad;
+    EXPECT_LT((J - inverse_right_jacobian_se3(xi)).norm(), 1e-11) << angle;
+  }
+}
+
+TEST(BodyRate, DerivativeAgreesWithDifferences) {
+  std::mt19937_64 random(2);
+  for (const double angle : {0.0, 1e-3, 0.3, 1.4, 1.43, 2.5, 3.1}) {
+    Twist xi = random_twist(random, 2.0, 1.0);
+    xi.tail<3>() *= angle / xi.tail<3>().norm();
+    const Twist v = random_twist(random, 1.0, 1.0);
+    const Matrix6 analytic = body_rate_by_step(xi, v);
+    constexpr double step = 1e-6;
+    for (int k = 0; k < 6; ++k) {
+      const Twist d = step * Twist::Unit(k);
+      const Twist numeric =
+          (inverse_right_jacobian_se3(xi + d) * v - inverse_right_jacobian_se3(xi - d) * v) /
+          (2.0 * step);
+      EXPECT_LT((numeric - analytic.col(k)).norm(), 1e-8) << angle << ", " << k;
+    }
+  }
+}
+
+template <int P>
+GpState<P> random_state(std::mt19937_64& random) {
+  GpState<P> out;
+  out.pose = exp_se3(random_twist(random, 1.0, 0.8));
+  for (Twist& rate : out.rates) rate = random_twist(random, 1.0, 0.5);
+  return out;
+}
+
+template <int P>
+GpState<P> moved(GpState<P> state, const GpVector<P>& by) {
+  state.pose = state.pose * exp_se3(by.template head<6>());
+  for (int a = 1; a < P; ++a) {
+    state.rates[static_cast<std::size_t>(a - 1)] += by.template segment<6>(6 * a);
+  }
+  return state;
+}
+
+template <int P>
+void expect_link_jacobians() {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 5; ++trial) {
+    const GpState<P> from = random_state<P>(random), to = random_state<P>(random);
+    const Link<P> here = link<P>(from, to, 1.7);
+    constexpr double step = 1e-6;
+    for (int k = 0; k < 6 * P; ++k) {
+      const GpVector<P> d = step * GpVector<P>::Unit(k);
+      const GpVector<P> by_from =
+          (link<P>(moved<P>(from, d), to, 1.7).error - link<P>(moved<P>(from, -d), to, 1.7).error) /
+          (2.0 * step);
+      const GpVector<P> by_to =
+          (link<P>(from, moved<P>(to, d), 1.7).error - link<P>(from, moved<P>(to, -d), 1.7).error) /
+          (2.0 * step);
+      const double size = here.by_from.norm();
+      EXPECT_LT((by_from - here.by_from.col(k)).norm(), 1e-8 * size) << k;
+      EXPECT_LT((by_to - here.by_to.col(k)).norm(), 1e-8 * size) << k;
+    }
+  }
+}
+
+TEST(Link, JacobiansAgreeWithDifferences) {
+  expect_link_jacobians<2>();
+  expect_link_jacobians<3>();
+}
+
+TEST(Link, IsWhiteForUnitPower) {
+  // With no turn the error is linear: covariance of W e must be the identity for e ~ Q(h).
+  const double h = 1.7;
+  Eigen::Matrix3d Q;  // the textbook's matrix for constant acceleration
+  Q << std::pow(h, 5) / 20, std::pow(h, 4) / 8, std::pow(h, 3) / 6, std::pow(h, 4) / 8,
+      std::pow(h, 3) / 3, h * h / 2, std::pow(h, 3) / 6, h * h / 2, h;
+  Eigen::Matrix3d W;
+  GpState<3> from;
+  for (Twist& rate : from.rates) rate.setZero();
+  for (int b = 0; b < 3; ++b) {
+    GpVector<3> d = GpVector<3>::Zero();
+    d[6 * b] = 1.0;
+    const GpVector<3> error = link<3>(from, moved<3>(from, d), h).error;
+    for (int a = 0; a < 3; ++a) W(a, b) = error[6 * a];
+  }
+  EXPECT_LT((W * Q * W.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST(Prior, BetweenTwoStatesConstantVelocityIsTheHermiteCubic) {
+  for (const double s : {0.0, 0.2, 0.7, 1.0}) {
+    const auto weights = Prior<2>::between(s);
+    EXPECT_NEAR(weights.from[0], 1.0 - 3.0 * s * s + 2.0 * s * s * s, 1e-14);
+    EXPECT_NEAR(weights.from[1], s - 2.0 * s * s + s * s * s, 1e-14);
+    EXPECT_NEAR(weights.to[0], 3.0 * s * s - 2.0 * s * s * s, 1e-14);
+    EXPECT_NEAR(weights.to[1], s * s * s - s * s, 1e-14);
+    // Position, velocity and acceleration at both ends: the quintic.
+    const auto quintic = Prior<3>::between(s);
+    EXPECT_NEAR(quintic.to[0], s * s * s * (10.0 - 15.0 * s + 6.0 * s * s), 1e-13);
+  }
+}
+
+TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
+  // A helix climbed at constant speed: nothing drives the prior.
+  const Pose start{exp_so3({0.3, 0.1, -1.0}), {5.0, -2.0, 1.0}};
+  const auto truth = [&](double time) {
+    return start * exp_se3(time * twist({0.8, 0.1, 0.2}, {0.1, -0.2, 0.7}));
+  };
+  Trajectory keyframes;
+  for (const double stamp : uneven(15)) keyframes.push_back({stamp, truth(stamp)});
+  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
+    const auto curve = smooth(keyframes, options);
+    for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
+      EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
+    }
+  }
+}
+
+/// Without any turn, 3 cm of noise on a wave.
+Trajectory wave(std::size_t n, double sigma) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, sigma);
+  Trajectory out;
+  for (const double s : uneven(n)) {
+    const Vector3 noise(normal(random), normal(random), normal(random));
+    out.push_back({s, {Rotation::Identity(), Vector3(std::sin(s), s, std::cos(s)) + noise}});
+  }
+  return out;
+}
+
+TEST(GaussianProcess, WithoutTurnsConstantVelocityIsTheSmoothingSpline) {
+  const Trajectory keyframes = wave(25, 0.03);
+  // lambda = sigma^2 / power; attitudes are held.
+  const auto process =
+      smooth(keyframes, {.sigma_t = 0.1, .sigma_r = 1e-7, .power_t = 0.5, .power_r = 1e-12});
+  Problem problem;
+  problem.keyframes = keyframes;
+  Report report;
+  const auto spline = SmoothingSpline({.lambda_t = 0.02}).smooth(problem, report);
+  for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
+    EXPECT_LT((process->at(time).translation - spline->at(time).translation).norm(), 1e-6) << time;
+  }
+}
+
+/// -log of the restricted likelihood in full: V = q K + sigma^2 I, K(s, t) the kernel of the once
+/// integrated Wiener process, 1 and t free.
+double dense_negative_evidence(const Trajectory& keyframes, double sigma, double power) {
+  const auto n = static_cast<Eigen::Index>(keyframes.size());
+  Eigen::MatrixXd V(n, n), T(n, 2), Y(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& here = keyframes[static_cast<std::size_t>(i)];
+    T.row(i) << 1.0, here.stamp;
+    Y.row(i) = here.world_from_body.translation;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double s = std::min(here.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
+      const double t = std::max(here.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
+      V(i, j) = power * s * s * (3.0 * t - s) / 6.0 + (i == j ? sigma * sigma : 0.0);
+    }
+  }
+  const Eigen::MatrixXd Vi = V.inverse();
+  const Eigen::MatrixXd TVT = T.transpose() * Vi * T;
+  const Eigen::MatrixXd projected = Vi - Vi * T * TVT.inverse() * T.transpose() * Vi;
+  const double log_det = std::log(V.determinant()) + std::log(TVT.determinant());
+  return 0.5 * (3.0 * log_det + (Y.transpose() * projected * Y).trace());
+}
+
+TEST(GaussianProcess, EvidenceAgreesWithTheDenseComputationForTwelvePoses) {
+  const Trajectory keyframes = wave(12, 0.03);
+  const GpPosterior<2> posterior(keyframes);
+  const double unit = std::pow(posterior.interval(), 3);
+  const auto both = [&](double sigma, double power) {
+    const GpParameters parameters{sigma, 1e-7, power * unit, 1e-12};
+    auto states = posterior.first_guess();
+    posterior.solve(states, parameters);
+    return std::pair{posterior.negative_evidence(states, parameters),
+                     dense_negative_evidence(keyframes, sigma, power)};
+  };
+  const auto [ours, dense] = both(0.03, 0.5);
+  for (const auto& [sigma, power] : {std::pair{0.05, 0.5}, {0.03, 2.0}, {0.01, 0.1}}) {
+    const auto [our_other, dense_other] = both(sigma, power);
+    EXPECT_NEAR(our_other - ours, dense_other - dense, 1e-3) << sigma << ", " << power;
+  }
+}
+
+/// A hand-held path with white noise of 2 cm and 0.01 rad.
+Trajectory shaken_path(std::uint64_t seed, const Trajectory& truth) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const auto any = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  Trajectory out = truth;
+  for (auto& [stamp, pose] : out) {
+    pose.translation += 0.02 * any();
+    pose.rotation = (pose.rotation * exp_so3(0.01 * any())).normalized();
+  }
+  return out;
+}
+
+Trajectory path(std::size_t n) {
+  Trajectory out;
+  for (const double time : uneven(n)) {
+    const double s = 0.11 * time;
+    out.push_back({time,
+                   {exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
+                    {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}}});
+  }
+  return out;
+}
+
+TEST(GaussianProcess, FindsTheNoiseAndRemovesAThirdOfIt) {
+  const Trajectory truth = path(120);
+  const Trajectory keyframes = shaken_path(1, truth);
+  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
+    Report report;
+    const auto curve = smooth(keyframes, options, &report);
+    EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
+    EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
+    double before = 0.0, after = 0.0, turn_before = 0.0, turn_after = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const Pose& wanted = truth[i].world_from_body;
+      const Pose got = curve->at(truth[i].stamp);
+      before += (keyframes[i].world_from_body.translation - wanted.translation).squaredNorm();
+      after += (got.translation - wanted.translation).squaredNorm();
+      turn_before +=
+          std::pow(angle_between(keyframes[i].world_from_body.rotation, wanted.rotation), 2);
+      turn_after += std::pow(angle_between(got.rotation, wanted.rotation), 2);
+    }
+    EXPECT_LT(std::sqrt(after), 0.67 * std::sqrt(before));
+    EXPECT_LT(std::sqrt(turn_after), 0.67 * std::sqrt(turn_before));
+  }
+}
+
+TEST(GaussianProcess, HasNoKink) {
+  const Trajectory keyframes = shaken_path(2, path(20));
+  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
+    const auto curve = smooth(keyframes, options);
+    constexpr double h = 1e-5;
+    for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
+      const Pose here = curve->at(keyframes[i].stamp);
+      const auto rate = [&](double side) {
+        return Twist(log_se3(here.inverse() * curve->at(keyframes[i].stamp + side)) / side);
+      };
+      EXPECT_LT((rate(h) - rate(-h)).norm(), 1e-3) << i;
+    }
+  }
+}
+
+TEST(GaussianProcess, NoiseGivenIsKept) {
+  Report report;
+  smooth(shaken_path(2, path(20)), {.sigma_t = 0.05, .power_r = 0.125}, &report);
+  EXPECT_EQ(count(report, "sigma_t"), 0.05);
+  EXPECT_NEAR(count(report, "power_r"), 0.125, 1e-15);
+}
+
+TEST(GaussianProcess, DeclinesTooFewKeyframes) {
+  Problem problem;
+  problem.keyframes = path(3);
+  EXPECT_EQ(GaussianProcess({}).declines(problem), std::nullopt);
+  EXPECT_EQ(GaussianProcess(wnoj()).declines(problem), "fewer than 4 keyframes");
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,81 @@
+// Public graphs and chains, where LOOPBENCH_DATA holds them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "datasets/pose_graph_dataset.hpp"
+#include "methods/correctors/chain.hpp"
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/pose_graph.hpp"
+
+namespace loopbench {
+namespace {
+
+Problem loaded(const std::string& path, std::int64_t every = 1) {
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  if (root == nullptr) throw DataMissing("LOOPBENCH_DATA is not set");
+  PoseGraphOptions options;
+  options.path = path;
+  options.keyframes_every = every;
+  return load_pose_graph(options, {{root}}).problem;
+}
+
+struct Optimum {
+  std::string file;
+  double chi2;  ///< not halved, information as g2o reads it
+};
+
+class KnownOptimum : public ::testing::TestWithParam<Optimum> {};
+
+TEST_P(KnownOptimum, IsReached) {
+  Problem problem;
+  try {
+    problem = loaded("pose_graphs/" + GetParam().file);
+  } catch (const DataMissing& missing) {
+    GTEST_SKIP() << missing.what();
+  }
+  Report report;
+  PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal}).correct(problem, report);
+  const double chi2 = 2.0 * std::ranges::find(report.counts, "cost", &Count::name)->value;
+  EXPECT_LT(chi2, GetParam().chi2 * (1.0 + 1e-4));
+}
+
+// Where this comes from: results/methods/pose_graphs.md.
+INSTANTIATE_TEST_SUITE_P(Graphs,
+                         KnownOptimum,
+                         ::testing::Values(Optimum{"intel.g2o", 45.0043},
+                                           Optimum{"M3500_with_vertices.g2o", 137.915},
+                                           Optimum{"parking-garage.g2o", 1.23870},
+                                           Optimum{"sphere2500.g2o", 727.286}),
+                         [](const auto& graph) {
+                           std::string name = graph.param.file.substr(0, 4);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
+  Problem problem;
+  try {
+    problem = loaded("cop_slam/KITTI_00_vo.g2o", 10);
+  } catch (const DataMissing& missing) {
+    GTEST_SKIP() << missing.what();
+  }
+  Report report;
+  const Trajectory dual =
+      Dual({.max_iterations = 1000, .tolerance = 1e-15}).correct(problem, report);
+  const Trajectory graph =
+      PoseGraphOptimizer({.max_iterations = 2000, .tolerance = 1e-15}).correct(problem, report);
+  std::vector<Pose> a, b;
+  double apart = 0.0;
+  for (std::size_t i = 0; i < dual.size(); ++i) {
+    a.push_back(dual[i].world_from_body);
+    b.push_back(graph[i].world_from_body);
+    apart = std::max(apart, (a[i].translation - b[i].translation).norm());
+  }
+  EXPECT_LT(apart, 1e-4);
+  EXPECT_NEAR(chain_cost(problem, a), chain_cost(problem, b), 1e-6 * chain_cost(problem, a));
+}
+
+}  // namespace
+}  // namespace loopbench

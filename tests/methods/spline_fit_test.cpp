@@ -1,0 +1,153 @@
+// Splines fitted with Ceres: spline_regression to poses, spline_fit to odometry and closures.
+#include "methods/joint/spline_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/core/polyline.hpp"
+#include "methods/correctors/chain.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "methods/smoothers/b_spline.hpp"
+#include "methods/smoothers/spline/knots.hpp"
+#include "methods/smoothers/spline_regression.hpp"
+#include "methods/solvers/spline_solver.hpp"
+#include "tests/support/problems.hpp"
+#include "tests/support/random_chain.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+double count(const Report& report, const std::string& name) {
+  for (const Count& each : report.counts) {
+    if (each.name == name) return each.value;
+  }
+  ADD_FAILURE() << "no count " << name;
+  return std::nan("");
+}
+
+TEST(SplineFactor, JacobiansAgreeWithDifferences) {
+  std::mt19937_64 random(4);
+  const SplineBasis basis(5, {0.0, 1.0, 1.5, 3.0, 4.0, 5.0, 7.0});
+  std::vector<Pose> all;
+  for (std::size_t j = 0; j < basis.size(); ++j) {
+    const auto s = static_cast<double>(j);
+    all.push_back(
+        exp_se3(random_twist(random, 1.0, 0.3) + twist({1.0 * s, 0, 0}, {0, 0, 0.2 * s})));
+  }
+  Edge edge{0, 1, exp_se3(random_twist(random, 1.0, 0.4)), Matrix6::Identity()};
+  const std::array factors{SplineFactor(basis, PoseAt{2.2, exp_se3(random_twist(random, 1, 1))}),
+                           SplineFactor(basis, PoseAt{7.0, all.back()}),
+                           SplineFactor(basis, EdgeBetween{0.7, 1.2, edge}),   // share controls
+                           SplineFactor(basis, EdgeBetween{0.2, 6.5, edge})};  // hardly any
+  for (const SplineFactor& factor : factors) {
+    std::vector<Pose> controls;
+    for (const std::size_t j : factor.controls()) controls.push_back(all[j]);
+    const auto here = factor.evaluate(controls);
+    constexpr double step = 1e-6;
+    for (std::size_t j = 0; j < controls.size(); ++j) {
+      for (int axis = 0; axis < 6; ++axis) {
+        const auto moved = [&](double by) {
+          auto there = controls;
+          const Twist d = by * Twist::Unit(axis);
+          there[j].translation += d.head<3>();
+          there[j].rotation = exp_so3(d.tail<3>()) * there[j].rotation;
+          return factor.evaluate(there).error;
+        };
+        const Twist numeric = (moved(step) - moved(-step)) / (2.0 * step);
+        EXPECT_LT((numeric - here.by_control[j].col(axis)).norm(), 2e-8) << j << ", " << axis;
+      }
+    }
+  }
+}
+
+TEST(Knots, OneAKeyframeAreThoseOfInterpolation) {
+  const std::vector<double> times = stamps(hand_held_truth(20));
+  EXPECT_EQ(basis_among(4, times, 1.0).breaks(), SplineBasis::for_sites(4, times).breaks());
+  EXPECT_EQ(basis_among(4, times, 0.5).size(), 10u);
+  EXPECT_EQ(basis_among(6, times, 0.01).size(), 6u);
+}
+
+TEST(SplineRegression, WithAKnotAKeyframeInterpolates) {
+  Problem problem;
+  problem.keyframes = hand_held_truth(25);
+  Report report;
+  const auto fitted = SplineRegression({.knots_per_keyframe = 1.0}).smooth(problem, report);
+  const auto through = BSplineThrough({}).smooth(problem, report);
+  for (double time = problem.keyframes.front().stamp; time < problem.keyframes.back().stamp;
+       time += 0.05) {
+    EXPECT_TRUE(is_close(fitted->at(time), through->at(time), 1e-7, 1e-7)) << time;
+  }
+}
+
+TEST(SplineRegression, WithFewKnotsReproducesWhatASplineCanSay) {
+  // A cubic in position, a cubic angle about one axis: any cubic spline holds it.
+  const auto truth = [](double s) {
+    return Pose{exp_so3((0.3 * s - 0.2 * s * s + 0.05 * s * s * s) * Vector3(1, -2, 2) / 3.0),
+                {1.0 + s, 2.0 - 0.5 * s * s, 0.1 * s * s * s}};
+  };
+  Problem problem;
+  for (int i = 0; i < 20; ++i) {
+    const double time = 0.2 * i + (i % 2 == 0 ? 0.05 : 0.0);
+    problem.keyframes.push_back({time, truth(time)});
+  }
+  Report report;
+  const auto curve = SplineRegression({.knots_per_keyframe = 0.35}).smooth(problem, report);
+  EXPECT_EQ(count(report, "controls"), 7.0);
+  for (double time = 0.05; time < 3.8; time += 0.03) {
+    EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-8, 1e-8)) << time;
+  }
+}
+
+TEST(SplineRegression, DeclinesFewerKeyframesThanItsOrder) {
+  EXPECT_EQ(SplineRegression({}).declines(short_circle(3)), "fewer keyframes than the order, 4");
+}
+
+TEST(SplineFit, WithAKnotAKeyframePassesThroughTheOptimumOfThePoseGraph) {
+  for (const Problem& problem : {walk(3, 30, 0.02), hand_held()}) {
+    Report report, other;
+    const auto curve = SplineFit({}).estimate(problem, report);
+    const Trajectory optimum = PoseGraphOptimizer({}).correct(problem, other);
+    for (const auto& [stamp, pose] : optimum) {
+      EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-5, 1e-5)) << stamp;
+    }
+    std::vector<Pose> poses;
+    for (const auto& [stamp, pose] : optimum) poses.push_back(pose);
+    const double cost = chain_cost(problem, poses);
+    EXPECT_NEAR(count(report, "cost"), cost, 1e-6 * cost);
+  }
+}
+
+TEST(SplineFit, WithFewerKnotsCostsMoreAndStaysSmooth) {
+  const Problem problem = hand_held();
+  Report every, half;
+  SplineFit({}).estimate(problem, every);
+  const auto curve = SplineFit({.knots_per_keyframe = 0.6}).estimate(problem, half);
+  EXPECT_GT(count(half, "cost"), count(every, "cost"));
+  EXPECT_LT(count(half, "cost"), count(half, "cost_before"));
+  EXPECT_EQ(count(half, "controls"), 36.0);
+  // The start is held.
+  EXPECT_TRUE(
+      is_close(curve->at(curve->start()), problem.keyframes[0].world_from_body, 1e-9, 1e-9));
+}
+
+TEST(SplineFit, LeavesPerfectMotionOnASplineAlone) {
+  const Problem problem = straight();
+  Report report;
+  const auto curve = SplineFit({.order = 6, .knots_per_keyframe = 0.4}).estimate(problem, report);
+  const Polyline truth(problem.keyframes);
+  for (double time = curve->start(); time < curve->end(); time += 0.1) {
+    EXPECT_TRUE(is_close(curve->at(time), truth.at(time), 1e-8, 1e-8)) << time;
+  }
+}
+
+TEST(SplineFit, DeclinesABrokenChain) {
+  Problem problem = hand_held();
+  problem.odometry.pop_back();
+  EXPECT_TRUE(SplineFit({}).declines(problem).has_value());
+  EXPECT_TRUE(SplineFit({}).declines(short_circle(3)).has_value());
+  EXPECT_EQ(SplineFit({}).declines(hand_held()), std::nullopt);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,56 @@
+// A plugin with every bad habit, to show that it costs its own cells only.
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "methods/plugin.hpp"
+
+using namespace loopbench;
+
+namespace {
+
+struct NoOptions {};
+template <class Visit>
+void fields(NoOptions&, Visit) {}
+
+template <class Deed>
+struct Bad final : Corrector {
+  using Options = NoOptions;
+  explicit Bad(const Options&) {}
+  Trajectory correct(const Problem& problem, Report&) const override {
+    Deed{}();
+    return problem.keyframes;
+  }
+};
+
+struct Aborts {
+  void operator()() const { std::abort(); }
+};
+struct Loops {
+  void operator()() const {
+    for (std::atomic<unsigned> turns = 0;; ++turns) {
+    }
+  }
+};
+struct Exits {
+  void operator()() const { std::exit(0); }
+};
+struct Floods {
+  void operator()() const {
+    std::vector<std::unique_ptr<char[]>> kept;
+    constexpr std::size_t kBlock = std::size_t{64} << 20;
+    for (int i = 0; i < 64; ++i) {  // 4 GiB at most, should the limit not hold
+      kept.push_back(std::make_unique<char[]>(kBlock));
+      std::memset(kept.back().get(), i, kBlock);
+    }
+  }
+};
+
+}  // namespace
+
+LOOPBENCH_PLUGIN(method<Bad<Aborts>>("aborts", "calls abort"),
+                 method<Bad<Loops>>("loops", "never returns"),
+                 method<Bad<Exits>>("exits", "ends the process as if all were well"),
+                 method<Bad<Floods>>("floods", "takes all memory"))

@@ -1,0 +1,33 @@
+/// A plugin that aborts, loops, exits and floods memory, through the command line.
+#include <gtest/gtest.h>
+
+#include "harness/store/read.hpp"
+#include "tests/support/command.hpp"
+
+namespace loopbench {
+namespace {
+
+TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
+  TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\n"
+              "methods: [raw, aborts, loops, exits, floods, uniform]\nmetrics: [ate]\n"
+              "limits: {seconds: 4, memory: 200MiB}\n");
+  const std::string line = "run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'";
+  const CommandResult result = loopbench_command(line, folder);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("6 of 6 cells done, 4 failed"), std::string::npos) << result.out;
+  const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
+  ASSERT_EQ(cells.size(), 6u);
+  const char* const statuses[] = {"ok", "crashed", "timeout", "crashed", "out_of_memory", "ok"};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cells[i].status, statuses[i]) << cells[i].why;
+  EXPECT_EQ(cells[1].signal, "SIGABRT");
+  EXPECT_EQ(cells[2].signal, "SIGKILL");
+
+  const CommandResult again = loopbench_command(line, folder);
+  EXPECT_EQ(again.exit_code, 1) << "failures are kept as failures";
+  EXPECT_NE(again.out.find("(6 of them before), 4 failed"), std::string::npos) << again.out;
+}
+
+}  // namespace
+}  // namespace loopbench
