@@ -144,7 +144,7 @@ TEST(Pivot, RefusesUnknownColumnsByName) {
 TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
-  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,,,keyframes,ate,translation,3d,m,0,0.1,"),
+  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,false,,,keyframes,ate,translation,3d,m,0,0.1,"),
             std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;
