@@ -109,7 +109,8 @@ std::vector<MethodEntry> methods() {
                                "two_pass on the largest set of closures that agree"),
       method<Checked<Dual>>("dual_pcm", "dual on the largest set of closures that agree"),
       method<Checked<PoseGraphOptimizer>>("pose_graph_pcm",
-                                          "pose_graph on the largest set of closures that agree"),
+                                          "pose_graph on the largest set of closures that agree",
+                                          {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),

@@ -74,12 +74,12 @@ std::vector<std::pair<std::string, double>> options_of(const Rung& rung) {
     const Rates& rates = rung.rates[static_cast<std::size_t>(half)];
     for (std::size_t j = 0; j < rates.noise.size(); ++j) {
       const double value = rates.noise_variance[j];
-      out.emplace_back(name_of(Term{Source::noise, half, rates.noise[j]}),
+      out.emplace_back(name_of(Term{Cause::noise, half, rates.noise[j]}),
                        value > 1e-20 ? value : 0.0);
     }
     for (std::size_t j = 0; j < rates.drift.size(); ++j) {
       const double value = std::sqrt(rates.drift_variance[j]);
-      out.emplace_back(name_of(Term{Source::drift, half, rates.drift[j]}),
+      out.emplace_back(name_of(Term{Cause::drift, half, rates.drift[j]}),
                        value > 1e-10 ? value : 0.0);
     }
   }

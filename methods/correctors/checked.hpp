@@ -9,8 +9,8 @@ namespace loopbench {
 
 template <class Base>
 struct CheckedOptions {
-  typename Base::Options base;
-  Consistency check;
+  typename Base::Options base = {};
+  Consistency check = {};
 };
 
 template <class Base, class Visit>

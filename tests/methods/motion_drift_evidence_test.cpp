@@ -16,10 +16,10 @@ MotionModel every_term() {
   double value = 0.01;
   for (const Half half : {Half::translation, Half::rotation}) {
     for (const Growth growth : kGrowths) {
-      out.push_back({Source::noise, half, growth, value});
-      out.push_back({Source::drift, half, growth, value *= 0.9});
+      out.push_back({Cause::noise, half, growth, value});
+      out.push_back({Cause::drift, half, growth, value *= 0.9});
     }
-    out.push_back({Source::closures, half, Growth::edge, 1.5});
+    out.push_back({Cause::closures, half, Growth::edge, 1.5});
   }
   return out;
 }
@@ -58,13 +58,13 @@ Dense dense(const MotionModel& model, const Problem& problem) {
     out.A.col(column) = (moved_by(1e-6) - moved_by(-1e-6)) / 2e-6;
   }
   for (const Term& term : model) {
-    if (term.source == Source::closures) continue;
+    if (term.cause == Cause::closures) continue;
     for (Eigen::Index i = 0; i < n / 6; ++i) {
       for (Eigen::Index j = 0; j < n / 6; ++j) {
-        if (term.source == Source::noise && i != j) continue;
+        if (term.cause == Cause::noise && i != j) continue;
         const double a = grown(term.growth, moved[static_cast<std::size_t>(i)]);
         const double b = grown(term.growth, moved[static_cast<std::size_t>(j)]);
-        const double entry = term.value * (term.source == Source::noise ? a : a * b);
+        const double entry = term.value * (term.cause == Cause::noise ? a : a * b);
         const Eigen::Index half = term.half == Half::translation ? 0 : 3;
         for (Eigen::Index axis = half; axis < half + 3; ++axis) {
           out.S(6 * i + axis, 6 * j + axis) += entry;

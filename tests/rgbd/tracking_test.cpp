@@ -101,8 +101,8 @@ TEST(KeyframeRule, ATargetMovesTheThresholdBothWays) {
   o.target = 10;
   EXPECT_NEAR(novelty_due(o, 1, 0, 101), 1.0, 1e-12);
   EXPECT_NEAR(novelty_due(o, 10, 100, 101), 1.0, 1e-12);
-  EXPECT_GT(novelty_due(o, 9, 50, 101), 2.0);
-  EXPECT_LT(novelty_due(o, 2, 50, 101), 0.5);
+  EXPECT_NEAR(novelty_due(o, 7, 50, 101), std::pow(2.0, 1.5), 1e-12);  // 5.5 by half way
+  EXPECT_NEAR(novelty_due(o, 4, 50, 101), std::pow(2.0, -1.5), 1e-12);
 }
 
 Features two_groups() {

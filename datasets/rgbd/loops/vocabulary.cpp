@@ -60,6 +60,31 @@ void recentre(Features& middles,
   }
 }
 
+/// First middles by k-means++ (Arthur and Vassilvitskii 2007): each drawn with the probability of
+/// its squared distance to those drawn before, so that no two begin in one group.
+Features far_apart(const Features& all,
+                   const std::vector<std::size_t>& members,
+                   std::size_t count,
+                   std::uint64_t seed) {
+  Features out = alike(all);
+  append(out, all.descriptor(members[mixed(seed) % members.size()]));
+  std::vector<double> squares(members.size(), 4.0);
+  while (out.size() < count) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const auto distance =
+          static_cast<double>(descriptor_distance(out, out.size() - 1, all, members[i]));
+      squares[i] = std::min(squares[i], distance * distance);
+      sum += squares[i];
+    }
+    double left = static_cast<double>(uniform(mixed(seed, std::uint64_t{out.size()}))) * sum;
+    std::size_t pick = 0;
+    while (pick + 1 < members.size() && left >= squares[pick]) left -= squares[pick++];
+    append(out, all.descriptor(members[pick]));
+  }
+  return out;
+}
+
 }  // namespace
 
 Vocabulary::Vocabulary(const Features& descriptors,
@@ -82,12 +107,7 @@ void Vocabulary::grow(std::size_t node,
     nodes_[node].word = words_++;
     return;
   }
-  Features middles = alike(all);
-  for (std::size_t k = 0; k < branches_; ++k) {
-    const std::size_t pick =
-        mixed(mixed(seed_, std::uint64_t{node}), std::uint64_t{k}) % members.size();
-    append(middles, all.descriptor(members[pick]));
-  }
+  Features middles = far_apart(all, members, branches_, mixed(seed_, std::uint64_t{node}));
   std::vector<std::vector<std::size_t>> groups;
   for (int round = 0; round < kRounds; ++round) {
     groups.assign(branches_, {});

@@ -42,8 +42,8 @@ struct View {
 /// The largest of the rules' measures, each 1 at its threshold: a keyframe is due from 1 on.
 double novelty(const View& view, const KeyframeOptions& options);
 
-/// The novelty that a keyframe is due at, so that about `target` come out: it rises by a factor of
-/// 1.3 for every keyframe too many that were made by now. 1 without a target.
+/// The novelty that a keyframe is due at, so that about `target` come out: it
+/// doubles for every keyframe too many that were made by now. 1 without a target.
 double novelty_due(const KeyframeOptions& options,
                    std::size_t made,
                    std::size_t frame,

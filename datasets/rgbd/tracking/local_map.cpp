@@ -54,6 +54,14 @@ void LocalMap::add(std::size_t keyframe,
   }
 }
 
+std::vector<std::size_t> LocalMap::seen_by(std::size_t keyframe) const {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (last_seen_[k] == keyframe) out.push_back(k);
+  }
+  return out;
+}
+
 void LocalMap::forget(std::size_t before) {
   const auto bytes = static_cast<std::size_t>(looks_.bytes);
   std::size_t kept = 0;

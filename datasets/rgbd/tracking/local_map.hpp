@@ -29,6 +29,10 @@ class LocalMap {
            const Camera& camera,
            const Pose& world_from_camera);
 
+  /// Points that `keyframe` saw: each place in space once, which older points may repeat.
+  /// O(points).
+  std::vector<std::size_t> seen_by(std::size_t keyframe) const;
+
   void clear() { *this = {}; }
 
  private:

@@ -100,7 +100,22 @@ std::optional<Tracker::Located> Tracker::locate(const Features& features,
   std::vector<Match> matches = near(1.0);
   if (matches.size() < kFewMatches) matches = near(kWider);
   if (auto found = settle(features, matches)) return found;
-  return settle(features, match_everywhere(map_.looks(), features, options_.match));
+  return settle(features, everywhere(features));
+}
+
+std::vector<Match> Tracker::everywhere(const Features& features) const {
+  const std::vector<std::size_t> seen = map_.seen_by(out_.keyframes.size() - 1);
+  Features looks;
+  looks.bytes = map_.looks().bytes;
+  looks.binary = map_.looks().binary;
+  for (const std::size_t k : seen) {
+    const std::uint8_t* row = map_.looks().descriptor(k);
+    looks.points.push_back(map_.looks().points[k]);
+    looks.descriptors.insert(looks.descriptors.end(), row, row + looks.bytes);
+  }
+  std::vector<Match> out = match_everywhere(looks, features, options_.match);
+  for (Match& match : out) match.a = seen[match.a];
+  return out;
 }
 
 View Tracker::view(const Located& here) const {
@@ -200,7 +215,9 @@ void Tracker::add(std::size_t frame, double stamp, Features features) {
   if (recent_.size() == 2) recent_.erase(recent_.begin());
   recent_.push_back({stamp, here->world_from_camera});
   const double due = novelty_due(options_.keyframes, out_.keyframes.size(), frame, count_);
-  if (novelty(view(*here), options_.keyframes) >= due) {
+  // However few are wanted: with so little left to hold on to the next frame would be lost.
+  const bool slipping = here->matches.size() < 2 * static_cast<std::size_t>(options_.inliers_min);
+  if (slipping || novelty(view(*here), options_.keyframes) >= due) {
     make_keyframe(std::move(*here));
   } else {
     out_.frames.push_back({stamp, here->world_from_camera});

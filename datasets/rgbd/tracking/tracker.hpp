@@ -55,10 +55,11 @@ struct Tracked {
 /// Feed every frame in order, then finish().
 ///
 /// A frame's pose is predicted with constant velocity, points are sought near where they should
-/// be (thrice as far when too few are found, everywhere when still too few), and found by RANSAC
-/// and Gauss-Newton, twice. Fewer than inliers_min: lost, the frame has no pose. Lost for longer
-/// than restart_after: a new map is begun at the last pose, joined to the old one by an edge that
-/// knows next to nothing (0.5 m, 0.5 rad), and said in the notes.
+/// be (thrice as far when too few are found; when that fails too, the last keyframe's points by
+/// looks alone), and found by RANSAC and Gauss-Newton, twice. Fewer than inliers_min: lost, the
+/// frame has no pose. Lost for longer than restart_after: a new map is begun at the last pose,
+/// joined to the old one by an edge that knows next to nothing (0.5 m, 0.5 rad), and said in the
+/// notes.
 class Tracker {
  public:
   Tracker(const Camera& camera, std::size_t frames, const TrackOptions& options)
@@ -80,6 +81,7 @@ class Tracker {
   };
 
   std::optional<Located> locate(const Features& features, const Pose& prediction) const;
+  std::vector<Match> everywhere(const Features& features) const;
   std::optional<Located> settle(const Features& features, const std::vector<Match>& matches) const;
   Pose predicted(double stamp) const;
   View view(const Located& here) const;

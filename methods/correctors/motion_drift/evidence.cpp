@@ -40,12 +40,12 @@ Evidence evidence_of(const MotionModel& model,
                                             : jacobian.edge[i].rightCols<3>();
     };
     Eigen::MatrixXd share;
-    if (term.source == Source::noise) {
+    if (term.cause == Cause::noise) {
       share = through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
                               return grown(term.growth, motions[i]) * columns(i) *
                                      columns(i).transpose();
                             }));
-    } else if (term.source == Source::drift) {
+    } else if (term.cause == Cause::drift) {
       Eigen::MatrixXd shape =
           through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
                                return grown(term.growth, motions[i]) * jacobian.edge[i];

@@ -56,12 +56,12 @@ void guess(MotionModel& model,
   const double turn =
       closures.stated[1] + closures.gap[1] + (way > 0.0 ? closures.gap[0] / way : 0.0);
   const bool drifts =
-      std::ranges::any_of(model, [](const Term& t) { return t.source == Source::drift; });
+      std::ranges::any_of(model, [](const Term& t) { return t.cause == Cause::drift; });
   for (Term& term : model) {
-    if (term.given || term.source == Source::closures) continue;
-    const bool noise = term.source == Source::noise;
+    if (term.given || term.cause == Cause::closures) continue;
+    const bool noise = term.cause == Cause::noise;
     const auto alike = static_cast<double>(std::ranges::count_if(model, [&](const Term& other) {
-      return other.source == term.source && other.half == term.half && !other.given;
+      return other.cause == term.cause && other.half == term.half && !other.given;
     }));
     const double unit = gathered(
         problem, edges, !noise, [&](std::size_t i) { return grown(term.growth, motions[i]); });
@@ -75,13 +75,13 @@ void guess(MotionModel& model,
 
   double noise[2] = {0.0, 0.0};  // what the model has a loop gather
   for (const Term& term : model) {
-    if (term.source != Source::noise) continue;
+    if (term.cause != Cause::noise) continue;
     noise[static_cast<int>(term.half)] += gathered(problem, edges, false, [&](std::size_t i) {
       return term.value * grown(term.growth, motions[i]);
     });
   }
   for (Term& term : model) {
-    if (term.given || term.source != Source::closures) continue;
+    if (term.given || term.cause != Cause::closures) continue;
     const int half = static_cast<int>(term.half);
     const double stated = gathered(problem, edges, false, [&](std::size_t i) {
       return problem.odometry[i].information.inverse().diagonal().segment<3>(3 * half).mean();

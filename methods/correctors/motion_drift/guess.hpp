@@ -16,7 +16,7 @@ struct Guess {
 
 /// Fills the values of terms that are not given. Translation errors are a part of the way, so that
 /// the unit of length, unknown to a monocular camera, does not matter; rotation errors are judged
-/// by the turning gaps, which odometry makes. Terms of one source and half get equal parts.
+/// by the turning gaps, which odometry makes. Terms of one cause and half get equal parts.
 ///
 /// Closures keep their stated covariance unless it is vaguer than both what it states of odometry
 /// bears and a tenth of the gap it closes: some files state units of their own.

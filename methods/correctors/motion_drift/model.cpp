@@ -18,8 +18,8 @@ Twist on_half(Half half, double value) {
 
 std::string name_of(const Term& term) {
   const std::string half = term.half == Half::translation ? "t" : "r";
-  if (term.source == Source::closures) return "closures." + half;
-  const std::string source = term.source == Source::noise ? "noise." : "drift.";
+  if (term.cause == Cause::closures) return "closures." + half;
+  const std::string source = term.cause == Cause::noise ? "noise." : "drift.";
   return source + half + ".per_" + name_of(term.growth);
 }
 
@@ -29,7 +29,7 @@ ChainBelief belief_of(const MotionModel& model,
   std::vector<Twist> variance(motions.size(), Twist::Zero());
   Twist mean = Twist::Zero();
   for (const Term& term : model) {
-    if (term.source != Source::noise || term.value == 0.0) continue;
+    if (term.cause != Cause::noise || term.value == 0.0) continue;
     for (std::size_t i = 0; i < motions.size(); ++i) {
       variance[i] += on_half(term.half, term.value * grown(term.growth, motions[i]));
     }
@@ -46,7 +46,7 @@ ChainBelief belief_of(const MotionModel& model,
   }
   Twist stretch = Twist::Ones();  // of a closure's standard deviations
   for (const Term& term : model) {
-    if (term.source != Source::closures) continue;
+    if (term.cause != Cause::closures) continue;
     const double by = std::sqrt(term.value);
     (term.half == Half::translation ? stretch.head<3>() : stretch.tail<3>()).setConstant(by);
   }
@@ -59,7 +59,7 @@ ChainBelief belief_of(const MotionModel& model,
   for (const Growth growth : kGrowths) {
     Twist rates = Twist::Zero();
     for (const Term& term : model) {
-      if (term.source == Source::drift && term.growth == growth) {
+      if (term.cause == Cause::drift && term.growth == growth) {
         rates += on_half(term.half, term.value);
       }
     }

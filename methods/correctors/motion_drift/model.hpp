@@ -15,10 +15,10 @@ enum class Half { translation, rotation };
 /// Noise: fresh in every edge, of variance value * grown on each axis. Drift: one unknown rate a
 /// axis all along the chain, rate ~ N(0, value), error = rate * grown. Closures: value is a factor
 /// on the stated covariance.
-enum class Source { noise, drift, closures };
+enum class Cause { noise, drift, closures };
 
 struct Term {
-  Source source;
+  Cause cause;
   Half half;
   Growth growth;       ///< not used by closures
   double value = 0.0;  ///< a variance or factor, never negative

@@ -10,8 +10,8 @@ namespace {
 
 using Model = MotionDrift::Model;
 
-bool has(Model model, Source source, Half half, Growth growth) {
-  if (source == Source::drift) {
+bool has(Model model, Cause cause, Half half, Growth growth) {
+  if (cause == Cause::drift) {
     if (model != Model::drift) return false;
     return half == Half::translation
                ? growth == Growth::distance
@@ -34,25 +34,25 @@ bool has(Model model, Source source, Half half, Growth growth) {
 
 MotionModel model_of(const MotionDrift::Options& o) {
   MotionModel out;
-  for (const Source source : {Source::noise, Source::drift}) {
+  for (const Cause cause : {Cause::noise, Cause::drift}) {
     for (const Half half : {Half::translation, Half::rotation}) {
       for (const Growth growth : kGrowths) {
         const auto& values =
-            (source == Source::noise ? o.noise : o.drift)[static_cast<std::size_t>(half)];
+            (cause == Cause::noise ? o.noise : o.drift)[static_cast<std::size_t>(half)];
         const std::optional<double>& given = values[static_cast<std::size_t>(growth)];
-        if (given ? *given == 0.0 : !has(o.model, source, half, growth)) continue;
+        if (given ? *given == 0.0 : !has(o.model, cause, half, growth)) continue;
         const double value = given.value_or(0.0);
-        out.push_back({source,
+        out.push_back({cause,
                        half,
                        growth,
-                       source == Source::drift ? value * value : value,
+                       cause == Cause::drift ? value * value : value,
                        given.has_value()});
       }
     }
   }
   for (const Half half : {Half::translation, Half::rotation}) {
     const std::optional<double>& given = o.closures[static_cast<std::size_t>(half)];
-    out.push_back({Source::closures, half, Growth::edge, given.value_or(1.0), given.has_value()});
+    out.push_back({Cause::closures, half, Growth::edge, given.value_or(1.0), given.has_value()});
   }
   return out;
 }
@@ -114,7 +114,7 @@ double MotionDrift::fit_to_loops(MotionModel& model,
     const Evidence evidence = evidence_of(model, chain, problem, moved, used);
     std::vector<VarianceComponent> components;
     for (std::size_t j = 0; j < model.size(); ++j) {
-      const bool closures = model[j].source == Source::closures;
+      const bool closures = model[j].cause == Cause::closures;
       components.push_back({evidence.shares[j],
                             model[j].value,
                             prior[j].value,

@@ -25,7 +25,7 @@ namespace loopbench {
 /// replace the guesses, and with `fit: false` they are kept as they are.
 ///
 /// Complexity O(edges + (6 closures)^3 + (6 fit_closures)^3), times some ten and some hundred
-/// rounds. Source: design notes, methods 5; variance components: Zhou et al., 2019.
+/// rounds. Cause: design notes, methods 5; variance components: Zhou et al., 2019.
 class MotionDrift final : public Corrector {
  public:
   /// What errors grow with, each including those before it. `drift` adds steady drift to

@@ -37,7 +37,7 @@ double log_prior(const std::vector<VarianceComponent>& components,
 /// with equality at u = 0: a minorise-maximise step, never down. Adding the beliefs keeps it
 /// convex; the groups' factors move first, then each component on its own.
 /// Complexity O(iterations (m^3 + J m^2)) for m numbers in the gap and J components.
-/// Source: Zhou, Hu, Zhou, Lange, MM algorithms for variance components models, 2019, without the
+/// Cause: Zhou, Hu, Zhou, Lange, MM algorithms for variance components models, 2019, without the
 /// beliefs; with them as derived here.
 void fit(std::vector<VarianceComponent>& components,
          std::vector<VarianceGroup>& groups,
