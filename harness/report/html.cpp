@@ -12,8 +12,10 @@ std::string notes_list(const std::vector<std::string>& notes) {
 
 std::string open_table(const std::string& title,
                        const std::vector<std::string>& headings,
-                       const std::string& attributes) {
-  std::string out = "<figure class=\"table\"" + (attributes.empty() ? "" : " " + attributes) +
+                       const std::string& attributes,
+                       bool of_words = false) {
+  std::string out = std::string("<figure class=\"table") + (of_words ? " texts\"" : "\"") +
+                    (attributes.empty() ? "" : " " + attributes) +
                     "><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
                     html_text(title) + "\"><table><caption>" + html_text(title) +
                     "</caption><thead><tr>";
@@ -25,6 +27,19 @@ std::string open_table(const std::string& title,
 
 std::string close_table(const std::vector<std::string>& notes) {
   return "</tbody></table></div>" + notes_list(notes) + "</figure>\n";
+}
+
+std::string listing_table(const Listing& listing, bool of_words) {
+  std::string out = open_table(listing.title, listing.columns, "", of_words);
+  for (const std::vector<std::string>& row : listing.rows) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string text = html_text(row[c]);
+      out += c == 0 ? "<th scope=\"row\">" + text + "</th>" : "<td>" + text + "</td>";
+    }
+    out += "</tr>\n";
+  }
+  return out + close_table(listing.notes);
 }
 
 }  // namespace
@@ -88,17 +103,8 @@ std::string html_table(const Sheet& sheet, const std::string& attributes) {
   return out + close_table(sheet.notes);
 }
 
-std::string html_table(const Listing& listing) {
-  std::string out = open_table(listing.title, listing.columns, "");
-  for (const std::vector<std::string>& row : listing.rows) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string text = html_text(row[c]);
-      out += c == 0 ? "<th scope=\"row\">" + text + "</th>" : "<td>" + text + "</td>";
-    }
-    out += "</tr>\n";
-  }
-  return out + close_table(listing.notes);
-}
+std::string html_table(const Listing& listing) { return listing_table(listing, false); }
+
+std::string html_text_table(const Listing& listing) { return listing_table(listing, true); }
 
 }  // namespace loopbench

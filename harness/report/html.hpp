@@ -19,4 +19,7 @@ std::string script_text(std::string json);
 std::string html_table(const Sheet& sheet, const std::string& attributes = "");
 std::string html_table(const Listing& listing);
 
+/// Likewise for columns of words rather than numbers.
+std::string html_text_table(const Listing& listing);
+
 }  // namespace loopbench

@@ -30,7 +30,9 @@ std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
   if (best.method == c.options.baseline || !best.ratio) return "";
   const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
-  std::string out = "<div class=\"key\"><span class=\"number\">" + percent(best.ratio->estimate) +
+  const bool proven = best.p < c.options.alpha;
+  std::string out = std::string("<div class=\"key") + (proven ? "" : " unproven") +
+                    "\"><span class=\"number\">" + percent(best.ratio->estimate) +
                     " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
                     " of <b>" + html_text(best.method) + "</b> against " +
                     html_text(c.options.baseline);
@@ -45,7 +47,7 @@ std::string key_figure(const Comparison& c) {
   out += fmt::format("{} {}",
                      c.observations,
                      counted(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
-  return out + "</span></div>";
+  return out + (proven ? "" : ", not proven") + "</span></div>";
 }
 
 }  // namespace
@@ -100,7 +102,7 @@ std::string verdicts_html(const ReportContent& content) {
   }
   out.notes.push_back(
       "each score is judged by itself: with many scores, some differences are proven by chance");
-  return html_table(out);
+  return html_text_table(out);
 }
 
 std::string comparison_html(const ReportContent& content) {
@@ -151,7 +153,7 @@ std::string failures_html(const ReportContent& content) {
     for (const std::string& name : reason.sequences) names += (names.empty() ? "" : ", ") + name;
     out.rows.push_back({method, status, std::to_string(reason.cells), names, why});
   }
-  return html_table(out);
+  return html_text_table(out);
 }
 
 std::string costs_html(const ReportContent& content) {
@@ -175,7 +177,7 @@ std::string provenance_html(const ReportContent& content) {
          html_text(value_of("protocol")) + "</pre>\n";
   Listing made{"made by", {"what", "value"}, {}, {}};
   for (const auto& [key, value] : content.provenance) made.rows.push_back({key, value});
-  out += html_table(made);
+  out += html_text_table(made);
   if (!content.inputs.empty()) {
     Listing files{"made from", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
@@ -183,7 +185,7 @@ std::string provenance_html(const ReportContent& content) {
         files.rows.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});
       }
     }
-    out += html_table(files);
+    out += html_text_table(files);
   }
   return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(value_of("config")) + "</pre>\n";
 }

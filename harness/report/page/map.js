@@ -50,7 +50,8 @@
       return R.nothing(host, "This method has no trajectory here; see the failures.");
     }
     const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
-    R.caption(host, `${title}: ${m.label}`, `error of what is drawn ${R.number(rms)} m RMS, ${R.number(d3.max(trace.norm))} m at most`);
+    const digits = d3.format(".3~g");
+    R.caption(host, `${title}: ${m.label}`, `RMS of the drawn errors ${digits(rms)} m, largest ${digits(d3.max(trace.norm))} m`);
     const levels = Array.from({ length: kLevels }, () => []);
     for (let i = 1; i < trace.t.length; ++i) {
       const level = Math.min(kLevels - 1, Math.floor((kLevels * trace.norm[i]) / most));

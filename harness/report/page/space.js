@@ -6,23 +6,29 @@
   const kWidth = 600, kHeight = 470;
 
   const draw = (svg, scene) => {
-    const { middle, radius, reference, methods, traces } = scene;
-    const scale = (view.zoom * 0.5 * Math.min(kWidth, kHeight * 1.25)) / radius;
+    const { middle, reference, methods, traces } = scene;
     const [ct, st, cp, sp] = [Math.cos(view.turn), Math.sin(view.turn), Math.cos(view.tilt), Math.sin(view.tilt)];
-    const at = (x, y, z) => {
+    const seen = (x, y, z) => {
       const [a, b, c] = [x - middle[0], y - middle[1], (z - middle[2]) * view.stretch];
       const right = a * ct - b * st, deep = a * st + b * ct;
-      return [kWidth / 2 + scale * right, kHeight / 2 - scale * (c * cp + deep * sp)];
+      return [right, c * cp + deep * sp];
+    };
+    // The box around everything always fills the picture.
+    const corners = d3.cross(d3.cross(scene.x, scene.y), scene.z, ([x, y], z) => seen(x, y, z));
+    const scale = view.zoom * Math.min(...[[0, kWidth - 70], [1, kHeight - 60]]
+      .map(([axis, pixels]) => pixels / (2 * d3.max(corners, (p) => Math.abs(p[axis])) || 1)));
+    const at = (x, y, z) => {
+      const [right, up] = seen(x, y, z);
+      return [kWidth / 2 + scale * right, kHeight / 2 - scale * up];
     };
     const line = d3.line().defined((p) => Number.isFinite(p[0]) && Number.isFinite(p[1]));
     const along = (t) => line(Array.from(t.x, (_, i) => at(t.x[i], t.y[i], t.z[i])));
     svg.selectAll("*").remove();
     // The floor: a grid below everything, with the reference's shadow on it.
-    const [xs, ys] = [scene.x, scene.y].map((d) => d3.scaleLinear(d, [0, 1]).nice(6));
     const floor = scene.z[0];
     const grid = svg.append("g").attr("class", "grid");
     const rule = (p, q) => grid.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]);
-    const [[x1, x2], [y1, y2]] = [xs.domain(), ys.domain()];
+    const [[x1, x2], [y1, y2]] = [scene.x, scene.y];
     const step = Math.max(d3.tickStep(x1, x2, 6), d3.tickStep(y1, y2, 6));
     for (const x of d3.range(Math.ceil(x1 / step) * step, x2 + step / 2, step)) rule(at(x, y1, floor), at(x, y2, floor));
     for (const y of d3.range(Math.ceil(y1 / step) * step, y2 + step / 2, step)) rule(at(x1, y, floor), at(x2, y, floor));
@@ -31,7 +37,8 @@
     const axis = (to, name) => {
       const [p, q] = [at(x1, y1, floor), at(...to)];
       svg.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]).style("stroke", "var(--soft)");
-      svg.append("text").attr("class", "halo").attr("x", q[0]).attr("y", q[1] - 5).attr("text-anchor", "middle").text(name);
+      svg.append("text").attr("class", "halo").attr("x", q[0]).attr("y", q[1] + (q[1] > p[1] ? 14 : -6))
+        .attr("text-anchor", q[0] > 0.8 * kWidth ? "end" : q[0] < 0.2 * kWidth ? "start" : "middle").text(name);
     };
     axis([x2, y1, floor], `x, ${R.number(step)} m a square`);
     axis([x1, y2, floor], "y");
@@ -54,7 +61,6 @@
     const scene = {
       x, y, z, reference, methods, traces,
       middle: [x, y, z].map((d) => (d[0] + d[1]) / 2),
-      radius: Math.max(1e-6, 0.5 * Math.hypot(x[1] - x[0], y[1] - y[0], z[1] - z[0])),
     };
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`).attr("role", "img")
       .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in space; arrow keys turn`)

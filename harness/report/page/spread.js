@@ -2,8 +2,12 @@
 (() => {
   "use strict";
   const R = window.R;
-  const kRow = 24;
-  const short = (text, most = 30) => (text.length > most ? text.slice(0, most - 1) + "…" : text);
+  const rowHeight = (rows) => (rows.length > 24 ? 17 : 24);
+  // A swept label loses the names of its options first: its values tell it from its siblings.
+  const short = (text, most = 30) => {
+    const bare = text.length > most ? text.replace(/[\w.]+=/g, "") : text;
+    return bare.length > most ? bare.slice(0, most - 1) + "…" : bare;
+  };
   R.short = short;
   const left = (methods) => Math.min(215, 24 + 6.6 * (d3.max(methods, (m) => short(m.label).length) || 0));
 
@@ -17,7 +21,7 @@
     const all = rows.flatMap((row) => row.values);
     const log = d3.min(all) > 0 && d3.max(all) / d3.min(all) > 20;
     R.chart(host, {
-      label: `${R.kindLabel(kind)} of every method`, height: 60 + kRow * rows.length, margin: { left: left(R.methods) },
+      label: `${R.kindLabel(kind)} of every method`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
       x: { label: R.kindLabel(kind), domain: log ? R.paddedLog(d3.extent(all)) : R.padded(d3.extent(all)), log },
       y: { band: rows.map((row) => row.m.place), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
@@ -49,7 +53,7 @@
     const place = new Map(R.methods.map((m) => [m.name, m.place]));
     const all = rows.flatMap((m) => [m.ratio, ...(m.interval || [])]).concat(1);
     R.chart(host, {
-      label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + kRow * rows.length, margin: { left: left(R.methods) },
+      label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
       x: { label: "ratio to the baseline, geometric mean (left is better)", domain: R.paddedLog(d3.extent(all)), log: true },
       y: { band: rows.map((m) => place.get(m.method)), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
@@ -67,7 +71,7 @@
       },
     });
     const caption = d3.select(host).append("p").attr("class", "hint").style("margin", "4px 0");
-    caption.text(comparison.verdict + (rows.some((m) => m.interval) ? ` Bars: ${100 * (1 - comparison.alpha)} % bootstrap intervals over ${comparison.observations} runs.` : ""));
+    caption.text(comparison.verdict + (rows.some((m) => m.interval) ? `. Bars: ${100 * (1 - comparison.alpha)} % bootstrap intervals over ${comparison.observations === 1 ? "poses of the run" : comparison.observations + " runs"}.` : ""));
   };
 
   R.follow(() => {
