@@ -4,10 +4,11 @@
   const R = window.R;
   const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
 
-  const points = () => {
-    const sequences = new Set(R.scores.cells.map((c) => c.s)).size;
+  // Of one sequence, or (s null) of all together: then methods that cover them all.
+  const points = (s) => {
+    const sequences = s === null ? new Set(R.scores.cells.map((c) => c.s)).size : 1;
     return R.methods.map((m) => {
-      const groups = d3.groups(R.values(R.state.kind, R.state.statistic, m.place), (v) => v.sequence);
+      const groups = d3.groups(R.values(R.state.kind, R.state.statistic, m.place, s), (v) => v.sequence);
       return {
         m, covers: groups.length === sequences,
         error: geometric(groups.map(([, list]) => d3.mean(list, (v) => v.value))),
@@ -16,20 +17,20 @@
     }).filter((p) => p.covers && p.error > 0 && p.ms > 0);
   };
 
-  R.follow(() => {
-    const host = document.getElementById("pareto-figure");
+  const draw = (host, s) => {
     host.replaceChildren();
     const kind = R.scores.kinds[R.state.kind];
     if (!kind) return;
-    R.caption(host, `${R.kindLabel(kind)} against time`, "geometric means over the sequences; methods that cover all of them");
+    R.caption(host, `${R.kindLabel(kind)} against time`, s === null
+      ? "all sequences, geometric means of methods that cover them" : R.scores.sequences[s]);
     if (kind.better !== "lower") return R.nothing(host, "Choose an error as score: here less is better.");
-    const all = points();
-    if (!all.length) return R.nothing(host, "No method has this score, above zero, on every sequence.");
+    const all = points(s);
+    if (!all.length) return R.nothing(host, "No method has this score, above zero, here.");
     let least = Infinity;
     const front = d3.sort(all, (p) => p.ms, (p) => p.error).filter((p) => p.error < least && ((least = p.error), true));
     const isNamed = (p) => front.includes(p) || R.state.shown.has(p.m.place);
     R.chart(host, {
-      label: `${R.kindLabel(kind)} against time`, width: 1240, height: 470, zoom: true, margin: { left: 74, right: 24 },
+      label: `${R.kindLabel(kind)} against time`, height: 400, zoom: true, margin: { left: 66, right: 24 },
       x: { label: "time of the method [ms]", domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
       y: { label: R.kindLabel(kind), domain: R.paddedLog(d3.extent(all, (p) => p.error)), log: true },
       draw: (group, x, y) => {
@@ -54,5 +55,11 @@
         });
       },
     });
+  };
+
+  R.follow(() => {
+    draw(document.getElementById("pareto-here"), R.state.sequence);
+    const all = document.getElementById("pareto-all");
+    if (R.scores.sequences.length > 1) draw(all, null);
   });
 })();

@@ -42,7 +42,7 @@
     };
     axis([x2, y1, floor], `x, ${R.number(step)} m a square`);
     axis([x1, y2, floor], "y");
-    axis([x1, y1, scene.z[1]], `z, ${R.number(scene.z[1] - scene.z[0])} m` + (view.stretch === 1 ? "" : ` (× ${view.stretch})`));
+    axis([x1, y1, scene.z[1]], `z, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.stretch === 1 ? "" : ` (× ${view.stretch})`));
     svg.append("path").attr("class", "band").attr("d", along(reference));
     methods.forEach((m, i) => svg.append("path").attr("class", "curve").attr("d", along(traces[i]))
       .style("stroke", R.color(m.place)).attr("stroke-dasharray", R.dash(m.place)).append("title").text(m.label));
