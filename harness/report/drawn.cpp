@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostPoints = 400;    // of a cell: beyond that a screen shows no more
 constexpr std::size_t kFewestPoints = 60;   // below it curves turn into polygons
 constexpr std::size_t kMostClosures = 200;  // of a sequence; more hide the trajectory
-constexpr double kBytesOfAPoint = 10.7;     // four words of 16 bits in base64
+constexpr double kBytesOfAPoint = 14.0;     // four words of 16 bits in base64, and a share of grids
 
 using Column = std::vector<double>;
 

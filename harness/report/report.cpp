@@ -1,5 +1,6 @@
 #include "harness/report/report.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "harness/export/comparison.hpp"
@@ -37,7 +38,9 @@ std::string asset_text(std::string_view name) {
 
 /// The library, then the page's own scripts, each after those that it builds on.
 std::string scripts() {
-  std::string out = "<script>" + asset_text("assets/d3.min.js") + "</script>\n";
+  // The licence asks for its notice in all copies, and every report holds one.
+  std::string out = "<script>/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
+                    asset_text("assets/d3.min.js") + "</script>\n";
   for (const char* name : {"data",
                            "state",
                            "chart",
@@ -56,23 +59,24 @@ std::string scripts() {
 
 }  // namespace
 
-std::string report_html(const ReportContent& content, std::size_t trace_bytes) {
+std::string report_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
-  return filled(asset_text("page/report.html"),
-                {{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
-                 {"style", asset_text("page/report.css")},
-                 {"summary", summary_html(content)},
-                 {"verdicts", verdicts_html(content)},
-                 {"comparison", comparison_html(content)},
-                 {"scores", scores_html(content)},
-                 {"failures", failures_html(content)},
-                 {"costs", costs_html(content)},
-                 {"provenance", provenance_html(content)},
-                 {"data",
-                  script_text("{\"scores\":" + scores_json(content) +
-                              ",\"traces\":" + traces_json(content, trace_bytes) +
-                              ",\"comparisons\":" + json(content.comparisons) + "}")},
-                 {"scripts", scripts()}});
+  const std::string scores = "{\"scores\":" + scores_json(content) +
+                             ",\"comparisons\":" + json(content.comparisons) + ",\"traces\":";
+  Values values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
+                {"style", asset_text("page/report.css")},
+                {"summary", summary_html(content)},
+                {"verdicts", verdicts_html(content)},
+                {"comparison", comparison_html(content)},
+                {"scores", scores_html(content)},
+                {"failures", failures_html(content)},
+                {"costs", costs_html(content)},
+                {"provenance", provenance_html(content)},
+                {"scripts", scripts()}};
+  std::size_t taken = scores.size();
+  for (const auto& [name, text] : values) taken += text.size();
+  values["data"] = script_text(scores + traces_json(content, bytes - std::min(bytes, taken)) + "}");
+  return filled(asset_text("page/report.html"), values);
 }
 
 }  // namespace loopbench

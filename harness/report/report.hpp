@@ -8,7 +8,8 @@
 namespace loopbench {
 
 /// Tables and verdicts are plain HTML; figures are drawn from embedded data by the page's scripts
-/// (d3, embedded). `trace_bytes` is what the drawn trajectories may take of it.
-std::string report_html(const ReportContent& content, std::size_t trace_bytes = 5'000'000);
+/// (d3, embedded). Trajectories are thinned until all stays below `bytes`, as far as kFewestPoints
+/// allows (harness/report/drawn.cpp).
+std::string report_html(const ReportContent& content, std::size_t bytes = 9'000'000);
 
 }  // namespace loopbench

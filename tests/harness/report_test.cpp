@@ -63,7 +63,7 @@ TEST(Packed, ThinsWithBothEndsKept) {
 
 TEST(Report, DrawsFewerPointsWhereThereAreManyCells) {
   EXPECT_EQ(points_of_a_cell(40, 5'000'000), 400u);
-  EXPECT_EQ(points_of_a_cell(2000, 5'000'000), 233u);  // 5e6 / 2000 / 10.7
+  EXPECT_EQ(points_of_a_cell(2000, 5'000'000), 178u);  // 5e6 / 2000 / 14
   EXPECT_EQ(points_of_a_cell(1'000'000, 5'000'000), 60u);
   EXPECT_EQ(points_of_a_cell(0, 5'000'000), 400u);
 }
@@ -141,6 +141,7 @@ TEST_F(OfASweep, TellsWithoutScripts) {
                            "align=",
                            "&lt;c0ffee&gt;",
                            "<noscript>",
+                           "Permission to use, copy, modify, and/or distribute",
                            "<b>6</b> cells failed",
                            "description:"}) {
     EXPECT_TRUE(has(*html_, part)) << part;
@@ -168,6 +169,7 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfTheFirstRepeat) {
   ASSERT_NE(found, content_->records.end());
   EXPECT_NEAR(cell["v"][0][0].get<double>(), found->statistics.rmse, 1e-4 * found->statistics.rmse);
   EXPECT_LT(html_->size(), 500'000u);
+  EXPECT_TRUE(has(report_html(*content_, 0), "\"points\":60,"));
 }
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {

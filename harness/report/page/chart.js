@@ -120,5 +120,5 @@
     .style("stroke", R.color(method.place)).attr("stroke-dasharray", R.dash(method.place))
     .append("title").text(method.label);
 
-  R.nothing = (host, text) => d3.select(host).append("p").attr("class", "hint").text(text);
+  R.nothing = (host, text) => d3.select(host).append("p").attr("class", "hint below").text(text);
 })();

@@ -89,12 +89,11 @@
     const axes = around([reference, ...traces]);
     coloured(before, "Before", pair[0], most, axes, reference, s);
     coloured(after, "After", pair[1], most, axes, reference, s);
-    const svg = d3.select(legend).append("svg").attr("viewBox", "0 0 1240 34").attr("role", "img").attr("aria-label", "Colours of position errors");
-    svg.selectAll("rect").data(d3.range(kLevels)).join("rect").attr("x", (l) => 60 + 24 * l).attr("y", 6).attr("width", 24).attr("height", 12)
+    const svg = d3.select(legend).append("svg").attr("viewBox", "0 0 440 34").style("max-width", "440px").attr("role", "img").attr("aria-label", "Colours of position errors");
+    svg.selectAll("rect").data(d3.range(kLevels)).join("rect").attr("x", (l) => 28 + 24 * l).attr("y", 6).attr("width", 24).attr("height", 12)
       .style("fill", (l) => ramp((l + 0.5) / kLevels));
-    svg.selectAll(null).data([0, 0.5, 1]).join("text").attr("x", (f) => 60 + 24 * kLevels * f).attr("y", 31).attr("text-anchor", "middle").text((f) => R.number(most * f));
-    svg.append("text").attr("x", 74 + 24 * kLevels).attr("y", 17).text(
-      "position error [m], the same colours on both sides" + (reference.closures.length
-        ? `; violet: ${reference.closures.length} of ${reference.allClosures} loop closures` : "; no loop closures"));
+    svg.selectAll(null).data([0, 0.5, 1]).join("text").attr("x", (f) => 28 + 24 * kLevels * f).attr("y", 31).attr("text-anchor", "middle").text((f) => d3.format(".2~g")(most * f));
+    R.nothing(legend, "Position error [m], the same colours on both sides" + (reference.closures.length
+      ? `; violet: ${reference.closures.length} of ${reference.allClosures} loop closures.` : "; no loop closures."));
   });
 })();

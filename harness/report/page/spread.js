@@ -40,7 +40,7 @@
         }
       },
     });
-    d3.select(host).append("p").attr("class", "hint").style("margin", "4px 0")
+    d3.select(host).append("p").attr("class", "hint below")
       .text(repeats > 2 ? "Dots: runs. Box: quartiles and median; whiskers: least and largest." : "Dots: runs; too few for boxes.");
   };
 
@@ -70,7 +70,7 @@
         }
       },
     });
-    const caption = d3.select(host).append("p").attr("class", "hint").style("margin", "4px 0");
+    const caption = d3.select(host).append("p").attr("class", "hint below");
     caption.text(comparison.verdict + (rows.some((m) => m.interval) ? `. Bars: ${100 * (1 - comparison.alpha)} % bootstrap intervals over ${comparison.observations === 1 ? "poses of the run" : comparison.observations + " runs"}.` : ""));
   };
 

@@ -46,7 +46,9 @@
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   shown.forEach((m) => placeOf(m));
   R.state = {
-    sequence: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
+    // report.html?sequence=driving opens on that one.
+    sequence: Math.max(0, R.scores.sequences.indexOf(new URLSearchParams(location.search).get("sequence"))),
+    kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
   R.usual = shown;
