@@ -79,9 +79,9 @@
     const ticks = (s, axis, count) => {
       if (!axis.log) return s.ticks(count);
       const [a, b] = s.domain();
-      return b / a < 8 ? d3.scaleLinear([a, b], [0, 1]).ticks(count)
-        : s.ticks(count).filter((t) => [1, 2, 5].includes(Math.round(t / Math.pow(10, Math.floor(Math.log10(t) + 1e-9)))))
-          .filter((t, _, all) => all.length <= 2 * count || Math.abs(Math.log10(t) % 1) < 1e-9);
+      if (b / a < 8) return d3.scaleLinear([a, b], [0, 1]).ticks(count);
+      const leading = b / a < 300 ? [1, 2, 5] : b / a < 3000 ? [1, 3] : [1];
+      return s.ticks(30).filter((t) => leading.includes(Math.round(t / Math.pow(10, Math.floor(Math.log10(t) + 1e-9)))));
     };
     const render = (x, y) => {
       const xTicks = ticks(x, o.x, 7);

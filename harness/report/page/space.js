@@ -3,6 +3,7 @@
   "use strict";
   const R = window.R;
   const view = { turn: -0.65, tilt: 0.5, zoom: 1, stretch: 1 };
+  let stretchedFor = null;
   const kWidth = 600, kHeight = 470;
 
   const draw = (svg, scene) => {
@@ -34,11 +35,11 @@
     for (const y of d3.range(Math.ceil(y1 / step) * step, y2 + step / 2, step)) rule(at(x1, y, floor), at(x2, y, floor));
     svg.append("path").attr("d", line(Array.from(reference.x, (x, i) => at(x, reference.y[i], floor))))
       .style("fill", "none").style("stroke", "var(--band)").style("opacity", 0.45);
+    const ends = [];
     const axis = (to, name) => {
       const [p, q] = [at(x1, y1, floor), at(...to)];
+      ends.push([p, q, name]);
       svg.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]).style("stroke", "var(--soft)");
-      svg.append("text").attr("class", "halo").attr("x", q[0]).attr("y", q[1] + (q[1] > p[1] ? 14 : -6))
-        .attr("text-anchor", q[0] > 0.8 * kWidth ? "end" : q[0] < 0.2 * kWidth ? "start" : "middle").text(name);
     };
     axis([x2, y1, floor], `x, ${R.number(step)} m a square`);
     axis([x1, y2, floor], "y");
@@ -46,6 +47,10 @@
     svg.append("path").attr("class", "band").attr("d", along(reference));
     methods.forEach((m, i) => svg.append("path").attr("class", "curve").attr("d", along(traces[i]))
       .style("stroke", R.color(m.place)).attr("stroke-dasharray", R.dash(m.place)).append("title").text(m.label));
+    for (const [p, q, name] of ends) {
+      svg.append("text").attr("class", "halo").attr("x", q[0]).attr("y", q[1] + (q[1] > p[1] ? 14 : -6))
+        .attr("text-anchor", q[0] > 0.8 * kWidth ? "end" : q[0] < 0.2 * kWidth ? "start" : "middle").text(name);
+    }
   };
 
   R.follow(() => {
@@ -62,6 +67,12 @@
       x, y, z, reference, methods, traces,
       middle: [x, y, z].map((d) => (d[0] + d[1]) / 2),
     };
+    // Where all is nearly flat, heights are stretched until they show; the z axis says by how much.
+    if (stretchedFor !== s) {
+      const wide = Math.max(x[1] - x[0], y[1] - y[0]);
+      view.stretch = Math.max(1, Math.min(20, Math.round((0.15 * wide) / Math.max(z[1] - z[0], 1e-9))));
+      stretchedFor = s;
+    }
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`).attr("role", "img")
       .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in space; arrow keys turn`)
       .attr("tabindex", 0).attr("class", "turns");
