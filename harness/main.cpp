@@ -28,7 +28,9 @@ int main(int argc, char** argv) {
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
   add_merge(app, exit_code);
+  add_plot(app, exit_code);
   add_profile(app, exit_code);
+  add_report(app, exit_code);
   add_verify(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -1,17 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/compare/along_intervals.hpp"
+#include "harness/compare/stored_intervals.hpp"
 #include "harness/export/comparison.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/where.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/traces.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -45,34 +43,6 @@ void keep_metric(std::vector<Record>& records, const std::string& metric) {
   });
 }
 
-/// Intervals along the runs from the traces that the store keeps of the first protocol.
-void use_traces(std::vector<Comparison>& comparisons,
-                const std::vector<Record>& records,
-                const std::string& store) {
-  Traces traces(store);
-  std::map<std::string, std::int64_t> cells;
-  std::string protocol;
-  for (const Record& r : records) {
-    cells.emplace(r.method + "\n" + run_name(r), r.cell);
-    if (protocol.empty()) protocol = r.protocol;
-  }
-  for (Comparison& comparison : comparisons) {
-    if (comparison.kind.protocol != protocol) continue;
-    add_intervals_along_runs(comparison, [&](const std::string& method, const std::string& run) {
-      StampedErrors out;
-      const auto found = cells.find(method + "\n" + run);
-      if (found == cells.end()) return out;
-      const std::optional<CellTrace> trace = traces.cell(found->second);
-      if (!trace || to_text(trace->times) != comparison.kind.times) return out;
-      for (const TraceSample& sample : trace->samples) {
-        out.stamps.push_back(sample.estimate.stamp);
-        out.errors.push_back(std::hypot(sample.error_x, sample.error_y, sample.error_z));
-      }
-      return out;
-    });
-  }
-}
-
 int print_comparison(CompareArguments arguments) {
   std::vector<Record> records = all_records(arguments.store);
   const std::vector<Record> whole = records;
@@ -89,7 +59,7 @@ int print_comparison(CompareArguments arguments) {
     throw InputError(arguments.store + ": the sweep has no baseline; --baseline METHOD names one");
   }
   std::vector<Comparison> comparisons = compare(records, arguments.options);
-  use_traces(comparisons, whole, arguments.store);
+  add_intervals_from_traces(comparisons, whole, arguments.store);
   if (arguments.format == Format::csv) {
     fmt::print("{}", csv(comparisons));
   } else if (arguments.format == Format::json) {

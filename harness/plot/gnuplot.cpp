@@ -51,19 +51,29 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                      plots);
 }
 
+/// Width and height in points.
+std::string terminal(const std::filesystem::path& file, std::size_t width, std::size_t height) {
+  if (file.extension() == ".pdf") {
+    return fmt::format("pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,9'",
+                       static_cast<double>(width) / 72.0,
+                       static_cast<double>(height) / 72.0);
+  }
+  return fmt::format(
+      "svg size {},{} dynamic noenhanced background '#ffffff' font 'sans,12'", width, height);
+}
+
 }  // namespace
 
-void write_svg(const std::filesystem::path& file,
-               const std::vector<PlotPanel>& panels,
-               std::size_t columns) {
+void write_figure(const std::filesystem::path& file,
+                  const std::vector<PlotPanel>& panels,
+                  std::size_t columns) {
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::string script = fmt::format(
-      "set terminal svg size {},{} dynamic noenhanced background '#ffffff' font 'sans,12'\n"
+      "set terminal {}\n"
       "set output {}\nset grid lc rgb '#dddddd'\nset key outside below\nset border lc rgb "
       "'#666666'\n"
       "set multiplot layout {},{}\n",
-      640 * columns,
-      480 * rows,
+      terminal(file, 640 * columns, 480 * rows),
       quoted(file.string()),
       rows,
       columns);

@@ -27,11 +27,11 @@ struct PlotPanel {
   std::vector<PlotSeries> series;
 };
 
-/// Panels row by row on one SVG page of 640 x 480 points a panel. Throws InputError when gnuplot is
-/// missing or the file cannot be written.
-void write_svg(const std::filesystem::path& file,
-               const std::vector<PlotPanel>& panels,
-               std::size_t columns);
+/// Panels row by row on one page, 640 x 480 points a panel: SVG, or PDF where the file is named so.
+/// Throws InputError when gnuplot is missing or the file cannot be written.
+void write_figure(const std::filesystem::path& file,
+                  const std::vector<PlotPanel>& panels,
+                  std::size_t columns);
 
 /// Every k-th point so that at most `most` are left, the last one kept: what is drawn, not judged.
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);

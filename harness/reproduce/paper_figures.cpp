@@ -95,7 +95,7 @@ std::vector<std::string> paper_figures(const std::vector<PaperCell>& cells,
   const auto write = [&](int figure, const std::vector<PlotPanel>& panels) {
     if (panels.empty()) return;
     const std::string name = fmt::format("figure{}.svg", figure);
-    write_svg(folder / name, panels, 2);
+    write_figure(folder / name, panels, 2);
     written.push_back(name);
   };
   for (const Printed& printed : kPrinted) {

@@ -148,7 +148,7 @@ TEST(Plot, WritesAWholeSvgAndEscapesNames) {
   panel.series = {{"a'b & c", "#ff0000", false, {{0, 0, 0}, {1, 2, 0}}}};
   PlotPanel spatial = panel;
   spatial.spatial = true;
-  write_svg(folder.path() / "new" / "two.svg", {panel, spatial}, 2);
+  write_figure(folder.path() / "new" / "two.svg", {panel, spatial}, 2);
   std::ifstream in(folder.path() / "new" / "two.svg");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   EXPECT_NE(text.find("</svg>"), std::string::npos);

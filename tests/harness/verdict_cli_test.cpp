@@ -160,5 +160,26 @@ TEST_F(VerdictCli, AnUpdateKeepsTheLimits) {
   EXPECT_TRUE(has(read("strict.json"), "\"relative\":0.002"));
 }
 
+TEST_F(VerdictCli, ReportWritesOneFileThatEscapesItsNames) {
+  const CommandResult result = run("report r -o new/report.html");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string html = read("new/report.html");
+  EXPECT_TRUE(has(html, "off|ice_&amp;%&lt;b&gt;"));
+  EXPECT_FALSE(has(html, "%<b>"));
+  EXPECT_EQ(run("report nowhere").exit_code, 2);
+  EXPECT_EQ(run("report r -o c.yaml/report.html").exit_code, 2);
+}
+
+TEST_F(VerdictCli, PlotWritesFiguresOfChosenMethods) {
+  const CommandResult result = run("plot r -o figures --methods raw,uniform --format svg");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(has(read("figures/01_off_ice_b_trajectories.svg"), "uniform"));
+  EXPECT_TRUE(has(read("figures/02_room_errors.svg"), "error angle [deg]"));
+  EXPECT_EQ(read("figures/02_room_errors.pdf"), "");
+  const CommandResult slip = run("plot r --methods unifrom");
+  EXPECT_EQ(slip.exit_code, 2);
+  EXPECT_TRUE(has(slip.err, "did you mean 'uniform'?")) << slip.err;
+}
+
 }  // namespace
 }  // namespace loopbench

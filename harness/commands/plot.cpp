@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "datasets/core/error.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/plot/store_figures.hpp"
+#include "harness/report/content.hpp"
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::size_t kUsualMethods = 5;  // more lines than that hide each other
+
+struct PlotArguments {
+  std::string store;
+  std::string folder;
+  std::vector<std::string> formats{"svg", "pdf"};
+  std::vector<std::string> methods;
+};
+
+/// The baseline and the best ranked others, or the first of the sweep where nothing is ranked.
+std::vector<std::string> usual_methods(const ReportContent& content) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& name) {
+    if (out.size() < kUsualMethods && std::ranges::count(out, name) == 0) out.push_back(name);
+  };
+  if (const Comparison* headline = content.headline()) {
+    add(headline->options.baseline);
+    for (const MethodVerdict& m : headline->methods) add(m.method);
+  }
+  for (const std::string& name : content.methods) add(name);
+  return out;
+}
+
+int write_figures(const PlotArguments& arguments) {
+  const ReportContent content = read_report_content(arguments.store);
+  for (const std::string& name : arguments.methods) {
+    if (std::ranges::count(content.methods, name) == 0) {
+      throw InputError("--methods: " + unknown_name("method", name, content.methods));
+    }
+  }
+  const std::vector<std::string> methods =
+      arguments.methods.empty() ? usual_methods(content) : arguments.methods;
+  const std::filesystem::path folder = arguments.folder;
+  Traces traces(arguments.store);
+  std::size_t written = 0;
+  for (std::size_t s = 0; s < content.sequences.size(); ++s) {
+    const std::string& sequence = content.sequences[s];
+    const SequenceFigures figures = sequence_figures(content.cells, traces, sequence, methods);
+    if (figures.errors.empty()) {
+      fmt::print("{}: no trajectories of these methods were kept\n", sequence);
+      continue;
+    }
+    for (const std::string& format : arguments.formats) {
+      // The number tells labels apart that are one as a file's name.
+      const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
+      const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
+        const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
+        write_figure(file, panels, 2);
+        fmt::print("{}\n", file.string());
+        ++written;
+      };
+      write("trajectories", figures.trajectories);
+      write("errors", figures.errors);
+    }
+  }
+  if (written == 0) throw InputError(arguments.store + ": holds no trajectories to draw");
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<PlotArguments>();
+  CLI::App* command =
+      app.add_subcommand("plot", "Vector figures of a sweep: trajectories, errors along the path");
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+      ->required();
+  command->add_option("-o,--out", arguments->folder, "Folder for the figures")
+      ->type_name("DIR")
+      ->default_val("figures");
+  command->add_option("--methods", arguments->methods, "Drawn (default: baseline and best ranked)")
+      ->delimiter(',');
+  command->add_option("--format", arguments->formats, "svg, pdf or both")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"svg", "pdf"}))
+      ->default_str("svg,pdf");
+  command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,37 @@
+#include "harness/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/commands/commands.hpp"
+#include "harness/export/write_file.hpp"
+
+namespace loopbench {
+
+void add_report(CLI::App& app, int& exit_code) {
+  struct Arguments {
+    std::string store;
+    std::string out = "report.html";
+    double megabytes = 9.0;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("report", "One HTML file that tells what a sweep found");
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+      ->required();
+  command->add_option("-o,--out", arguments->out, "File to write")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command->add_option("--size", arguments->megabytes, "Thin trajectories to stay below this [MB]")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  command->callback([arguments, &exit_code] {
+    const std::string html = report_html(read_report_content(arguments->store),
+                                         static_cast<std::size_t>(1e6 * arguments->megabytes));
+    write_file(arguments->out, html);
+    fmt::print("{}: {:.2f} MB\n", arguments->out, 1e-6 * static_cast<double>(html.size()));
+    exit_code = kExitOk;
+  });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,28 @@
+/// Figures for papers from the traces of a store.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/plot/gnuplot.hpp"
+#include "harness/store/record.hpp"
+#include "harness/store/traces.hpp"
+
+namespace loopbench {
+
+/// What is drawn of one sequence: `methods` on its first repeat, in their order; those without a
+/// trace are left out.
+struct SequenceFigures {
+  std::vector<PlotPanel> trajectories;  ///< from above and in space; empty without a trace
+  std::vector<PlotPanel> errors;        ///< x, y, z [m] and angle [deg] along the path [m]
+};
+
+SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
+                                 Traces& traces,
+                                 const std::string& sequence,
+                                 const std::vector<std::string>& methods);
+
+/// "closed, 180 keyframes" -> "closed_180_keyframes": safe as a file's name.
+std::string file_stem(const std::string& label);
+
+}  // namespace loopbench

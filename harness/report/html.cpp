@@ -1,0 +1,110 @@
+#include "harness/report/html.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string notes_list(const std::vector<std::string>& notes) {
+  if (notes.empty()) return "";
+  std::string out = "<ul class=\"notes\">";
+  for (const std::string& note : notes) out += "<li>" + html_text(note) + "</li>";
+  return out + "</ul>";
+}
+
+std::string open_table(const std::string& title,
+                       const std::vector<std::string>& headings,
+                       const std::string& attributes,
+                       bool of_words = false) {
+  std::string out = std::string("<figure class=\"table") + (of_words ? " texts\"" : "\"") +
+                    (attributes.empty() ? "" : " " + attributes) +
+                    "><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+                    html_text(title) + "\"><table><caption>" + html_text(title) +
+                    "</caption><thead><tr>";
+  for (const std::string& heading : headings) {
+    out += "<th scope=\"col\">" + html_text(heading) + "</th>";
+  }
+  return out + "</tr></thead><tbody>\n";
+}
+
+std::string close_table(const std::vector<std::string>& notes) {
+  return "</tbody></table></div>" + notes_list(notes) + "</figure>\n";
+}
+
+std::string listing_table(const Listing& listing, bool of_words) {
+  std::string out = open_table(listing.title, listing.columns, "", of_words);
+  for (const std::vector<std::string>& row : listing.rows) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string text = html_text(row[c]);
+      out += c == 0 ? "<th scope=\"row\">" + text + "</th>" : "<td>" + text + "</td>";
+    }
+    out += "</tr>\n";
+  }
+  return out + close_table(listing.notes);
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+    }
+  }
+  return out;
+}
+
+std::string script_text(std::string json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    // In JSON a < stands in strings only.
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string html_table(const Sheet& sheet, const std::string& attributes) {
+  std::string out = open_table(sheet.title, sheet.headings, attributes);
+  for (const std::vector<SheetEntry>& line : sheet.lines) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      const std::string text = html_text(line[c].text);
+      if (c == 0) {
+        out += "<th scope=\"row\">" + text + "</th>";
+      } else if (line[c].mark == Mark::none) {
+        out += "<td>" + text + "</td>";
+      } else {
+        out += std::string("<td class=\"") + mark_name(line[c].mark) + "\">" + text + "</td>";
+      }
+    }
+    out += "</tr>\n";
+  }
+  return out + close_table(sheet.notes);
+}
+
+std::string html_table(const Listing& listing) { return listing_table(listing, false); }
+
+std::string html_text_table(const Listing& listing) { return listing_table(listing, true); }
+
+}  // namespace loopbench

@@ -1,0 +1,61 @@
+#include "harness/report/packed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace loopbench {
+namespace {
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool inside = i + k < bytes.size();
+      group = group << 8U | (inside ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k > bytes.size() ? '=' : kLetters[group >> (18U - 6U * k) & 63U];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string packed(const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  if (low > high) low = high = 0.0;
+  const double step = high > low ? (high - low) / 65534.0 : 1.0;
+  std::string bytes;
+  for (const double value : values) {
+    const auto word = std::isfinite(value)
+                          ? static_cast<std::uint32_t>(std::lround((value - low) / step))
+                          : 65535U;
+    bytes += static_cast<char>(word & 255U);
+    bytes += static_cast<char>(word >> 8U);
+  }
+  return fmt::format("{{\"lo\":{:.7g},\"step\":{:.7g},\"b\":\"{}\"}}", low, step, base64(bytes));
+}
+
+std::vector<std::size_t> thinned_places(std::size_t count, std::size_t most) {
+  const std::size_t kept = std::min(count, most);
+  std::vector<std::size_t> out(kept);
+  for (std::size_t i = 0; i < kept; ++i) out[i] = kept == 1 ? 0 : i * (count - 1) / (kept - 1);
+  return out;
+}
+
+}  // namespace loopbench

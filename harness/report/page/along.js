@@ -1,0 +1,43 @@
+// Errors in time or along the path, axis by axis.
+(() => {
+  "use strict";
+  const R = window.R;
+  const parts = [
+    ["along-x", "ex", "x", "error x [m]"], ["along-y", "ey", "y", "error y [m]"],
+    ["along-z", "ez", "z", "error z [m]"], ["along-a", "a", "rotation", "angle [deg]"],
+  ];
+  R.follow(() => {
+    const s = R.state.sequence;
+    const methods = R.shown().filter((m) => R.trace(s, m.place));
+    const traces = methods.map((m) => R.trace(s, m.place));
+    const by = R.state.abscissa;
+    const far = d3.max(traces, (t) => t[by][t[by].length - 1]) || 1;
+    const reference = R.reference(s);
+    // One scale for the three axes: small errors shall look small.
+    const [low, high] = R.padded(R.extent(traces.flatMap((t) => [t.ex, t.ey, t.ez])));
+    for (const [id, key, name, label] of parts) {
+      const host = document.getElementById(id);
+      host.replaceChildren();
+      R.caption(host, name === "rotation" ? "Rotation" : `Along ${name}`, R.scores.sequences[s]);
+      if (!traces.length) { R.nothing(host, "No method shown has a trajectory here."); continue; }
+      R.chart(host, {
+        label: `${label} of ${methods.map((m) => m.label).join(", ")}`, height: 250, zoom: true,
+        x: { label: by === "s" ? "path of the reference [m]" : "time [s]", domain: [0, far] },
+        y: { label, domain: key === "a" ? [0, 1.05 * (d3.max(traces, (t) => d3.max(t.a)) || 1)] : [low, high] },
+        draw: (group, x, y) => {
+          group.append("line").attr("class", "zero").attr("x1", -1e4).attr("x2", 1e4).attr("y1", y(0)).attr("y2", y(0));
+          for (const [, to] of reference ? reference.closures : []) {
+            const at = x(traces[0][by][R.placeAt(traces[0].t, to)]);
+            group.append("line").attr("class", "loop").style("opacity", 0.45).attr("x1", at).attr("x2", at).attr("y1", -1e4).attr("y2", 1e4)
+              .append("title").text("here a loop is closed");
+          }
+          methods.forEach((m, i) => R.curve(group, traces[i][by], traces[i][key], x, y, m));
+        },
+      });
+    }
+    const last = document.getElementById("along-a");
+    R.methodLegend(last, methods, false);
+    const loops = reference ? reference.closures.length : 0;
+    if (loops) d3.select(last).append("p").attr("class", "hint below").text("Violet: where a loop closes.");
+  });
+})();

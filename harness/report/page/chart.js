@@ -1,0 +1,124 @@
+// Axes, grid, zoom: what all figures in a plane share.
+(() => {
+  "use strict";
+  const R = window.R;
+  let clips = 0;
+
+  R.caption = (host, text, small = "") => {
+    const caption = d3.select(host).insert("figcaption", ":first-child").text(text);
+    if (small) caption.append("small").text(small);
+  };
+
+  // entries: {name, color, dash, wide}
+  R.legend = (host, entries) => {
+    const legend = d3.select(host).append("div").attr("class", "legend");
+    for (const e of entries) {
+      const span = legend.append("span");
+      span.append("svg").attr("width", 26).attr("height", 10).style("width", "26px").attr("aria-hidden", true)
+        .append("line").attr("x1", 2).attr("x2", 24).attr("y1", 5).attr("y2", 5)
+        .style("stroke", e.color).attr("stroke-width", e.wide ? 5 : 2.4).attr("stroke-dasharray", e.dash || null);
+      span.append("span").text(e.name);
+    }
+  };
+  R.methodLegend = (host, methods, withReference = true) => R.legend(host, [
+    ...(withReference ? [{ name: "reference", color: "var(--band)", wide: true }] : []),
+    ...methods.map((m) => ({ name: m.label, color: R.color(m.place), dash: R.dash(m.place) })),
+  ]);
+
+  R.padded = ([low, high], share = 0.05) => {
+    const pad = (high - low) * share || Math.abs(low) * 0.1 || 1;
+    return [low - pad, high + pad];
+  };
+  R.paddedLog = ([low, high]) => {
+    const factor = Math.max(Math.pow(high / low, 0.08), 1.08);
+    return [low / factor, high * factor];
+  };
+
+  // A metre along y as long as along x: the shorter domain grows.
+  const equalised = (x, y, width, height) => {
+    const scale = Math.max((x[1] - x[0]) / width, (y[1] - y[0]) / height) || 1;
+    const grown = (d, pixels) => {
+      const middle = (d[0] + d[1]) / 2;
+      return [middle - (scale * pixels) / 2, middle + (scale * pixels) / 2];
+    };
+    return [grown(x, width), grown(y, height)];
+  };
+
+  const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+
+  // o: {label, width, height, margin, x: {label, domain, log}, y: likewise or {band}, equal, zoom,
+  // draw(group, x, y)}; draw is called again at every zoom.
+  R.chart = (host, o) => {
+    const width = o.width || 600, height = o.height || 420;
+    const margin = { top: 10, right: 14, bottom: 44, left: 60, ...o.margin };
+    const inner = { width: width - margin.left - margin.right, height: height - margin.top - margin.bottom };
+    const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${width} ${height}`)
+      .attr("role", "img").attr("aria-label", o.label);
+    const clip = `clip-${++clips}`;
+    svg.append("clipPath").attr("id", clip).append("rect").attr("width", inner.width).attr("height", inner.height);
+    const root = svg.append("g").attr("transform", `translate(${margin.left},${margin.top})`);
+    let [xDomain, yDomain] = [o.x.domain, o.y.domain];
+    if (o.equal) [xDomain, yDomain] = equalised(xDomain, yDomain, inner.width, inner.height);
+    const scale = (axis, domain, range) => axis.band
+      ? d3.scaleBand(axis.band, range).padding(0.25)
+      : (axis.log ? d3.scaleLog(domain, range) : d3.scaleLinear(domain, range));
+    const x0 = scale(o.x, xDomain, [0, inner.width]);
+    const y0 = scale(o.y, yDomain, o.y.band ? [0, inner.height] : [inner.height, 0]);
+    const grid = root.append("g").attr("class", "grid");
+    root.append("rect").attr("class", "frame").attr("width", inner.width).attr("height", inner.height)
+      .style("pointer-events", "all");
+    const plot = root.append("g").attr("clip-path", `url(#${clip})`);
+    const bottom = root.append("g").attr("class", "axis").attr("transform", `translate(0,${inner.height})`);
+    const left = root.append("g").attr("class", "axis");
+    root.append("text").attr("x", inner.width / 2).attr("y", inner.height + 37).attr("text-anchor", "middle").text(o.x.label);
+    if (o.y.label) {
+      root.append("text").attr("transform", `translate(${-margin.left + 14},${inner.height / 2}) rotate(-90)`)
+        .attr("text-anchor", "middle").text(o.y.label);
+    }
+    // A log axis over less than a decade has no powers of ten to label: plain ticks then.
+    const ticks = (s, axis, count) => {
+      if (!axis.log) return s.ticks(count);
+      const [a, b] = s.domain();
+      if (b / a < 8) return d3.scaleLinear([a, b], [0, 1]).ticks(count);
+      const leading = b / a < 300 ? [1, 2, 5] : b / a < 3000 ? [1, 3] : [1];
+      return s.ticks(30).filter((t) => leading.includes(Math.round(t / Math.pow(10, Math.floor(Math.log10(t) + 1e-9)))));
+    };
+    const render = (x, y) => {
+      const xTicks = ticks(x, o.x, 7);
+      bottom.call(d3.axisBottom(x).tickValues(xTicks).tickFormat(o.x.log ? R.number : null).tickSizeOuter(0));
+      grid.selectAll("line").remove();
+      grid.selectAll(null).data(xTicks).join("line").attr("x1", (t) => x(t)).attr("x2", (t) => x(t)).attr("y2", inner.height);
+      if (o.y.band) {
+        left.call(d3.axisLeft(y).tickSize(0).tickPadding(8).tickFormat(o.y.name || null));
+      } else {
+        const yTicks = ticks(y, o.y, 6);
+        left.call(d3.axisLeft(y).tickValues(yTicks).tickFormat(o.y.log ? R.number : null).tickSizeOuter(0));
+        grid.selectAll(null).data(yTicks).join("line").attr("x2", inner.width).attr("y1", (t) => y(t)).attr("y2", (t) => y(t));
+      }
+      plot.selectAll("*").remove();
+      o.draw(plot, x, y);
+    };
+    render(x0, y0);
+    if (o.zoom) {
+      const zoom = d3.zoom().scaleExtent([1, 60])
+        .filter((e) => (e.type === "wheel" ? e.ctrlKey : e.touches ? e.touches.length > 1 : !e.button))
+        .on("zoom", (e) => render(e.transform.rescaleX(x0), e.transform.rescaleY(y0)));
+      svg.attr("tabindex", 0).attr("class", "turns").call(zoom).on("keydown", (e) => {
+        if (e.key === "+" || e.key === "=") svg.call(zoom.scaleBy, 1.4);
+        else if (e.key === "-") svg.call(zoom.scaleBy, 1 / 1.4);
+        else if (e.key === "0") svg.call(zoom.transform, d3.zoomIdentity);
+        else if (moves[e.key]) svg.call(zoom.translateBy, ...moves[e.key]);
+        else return;
+        e.preventDefault();
+      });
+    }
+  };
+
+  R.curve = (group, xs, ys, x, y, method) => group.append("path").attr("class", "curve")
+    .attr("d", d3.line().defined((i) => Number.isFinite(xs[i]) && Number.isFinite(ys[i]))
+      .x((i) => x(xs[i])).y((i) => y(ys[i]))(d3.range(xs.length)))
+    .style("stroke", R.color(method.place)).attr("stroke-dasharray", R.dash(method.place))
+    .append("title").text(method.label);
+
+  R.nothing = (host, text) => d3.select(host).append("p").attr("class", "hint below").text(text);
+})();

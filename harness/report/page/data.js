@@ -1,0 +1,84 @@
+// What was measured, and how it is asked for. Everything of the report hangs on R.
+(() => {
+  "use strict";
+  const R = (window.R = window.R || {});
+  const raw = JSON.parse(document.getElementById("report-data").textContent);
+  R.scores = raw.scores;
+  R.comparisons = raw.comparisons;
+  R.methods = raw.scores.methods.map((name, m) => ({
+    name, place: m, oracle: raw.scores.oracle[m],
+    label: raw.scores.oracle[m] ? name + " (oracle)" : name,
+  }));
+  R.baseline = R.methods.find((m) => m.name === raw.scores.baseline) || null;
+  R.drawnPoints = raw.traces.points;
+
+  R.unpack = (packed) => {
+    const bytes = atob(packed.b);
+    const out = new Float64Array(bytes.length / 2);
+    for (let i = 0; i < out.length; ++i) {
+      const word = bytes.charCodeAt(2 * i) | (bytes.charCodeAt(2 * i + 1) << 8);
+      out[i] = word === 65535 ? NaN : packed.lo + packed.step * word;
+    }
+    return out;
+  };
+
+  const cached = (make) => {
+    const known = new Map();
+    return (key) => {
+      if (!known.has(key)) known.set(key, make(key));
+      return known.get(key);
+    };
+  };
+
+  const path = (packed) => {
+    const [t, x, y, z] = ["t", "x", "y", "z"].map((axis) => R.unpack(packed[axis]));
+    const s = new Float64Array(t.length); // length of the way so far [m]
+    for (let i = 1; i < t.length; ++i) {
+      s[i] = s[i - 1] + (Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]) || 0);
+    }
+    return { t, x, y, z, s };
+  };
+
+  // {t, x, y, z, s, closures} of a sequence's reference, or null.
+  R.reference = cached((s) => {
+    const packed = raw.traces.sequences[s];
+    return packed && { ...path(packed), closures: packed.closures, allClosures: packed.all_closures };
+  });
+  const grid = cached((g) => path(raw.traces.grids[g]));
+
+  const drawn = new Map();
+  raw.scores.cells.forEach((cell, i) => {
+    if (raw.traces.cells[i]) drawn.set(cell.s * R.methods.length + cell.m, i);
+  });
+  const errors = cached((i) => {
+    const packed = raw.traces.cells[i];
+    const reference = grid(packed.g);
+    const [ex, ey, ez, a] = ["x", "y", "z", "a"].map((axis) => R.unpack(packed[axis]));
+    const plus = (u, v) => u.map((value, k) => value + v[k]);
+    return {
+      times: packed.times, t: reference.t, s: reference.s, ex, ey, ez, a,
+      x: plus(reference.x, ex), y: plus(reference.y, ey), z: plus(reference.z, ez),
+      norm: ex.map((e, k) => Math.hypot(e, ey[k], ez[k])),
+    };
+  });
+
+  // The drawn estimate of a method on a sequence (its first repeat) with its errors, or null.
+  R.trace = (s, m) => {
+    const i = drawn.get(s * R.methods.length + m);
+    return i === undefined ? null : errors(i);
+  };
+
+  // Values of a score: one for each cell of the method, on one sequence or (s null) on all.
+  R.values = (kind, statistic, m, s = null) => raw.scores.cells
+    .filter((c) => c.m === m && (s === null || c.s === s) && c.v[kind] && c.v[kind][statistic] !== null)
+    .map((c) => ({ value: c.v[kind][statistic], sequence: c.s, repeat: c.n, ms: c.ms }));
+
+  // The place of the first stamp that is not before t.
+  R.placeAt = (stamps, t) => Math.min(d3.bisectLeft(stamps, t), stamps.length - 1);
+
+  R.number = (value) => {
+    if (value === null || !Number.isFinite(value)) return "-";
+    return Math.abs(value) >= 1e4 || (value !== 0 && Math.abs(value) < 1e-3)
+      ? value.toExponential(2) : d3.format(".4~g")(value);
+  };
+})();

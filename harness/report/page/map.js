@@ -1,0 +1,99 @@
+// Seen from above: all methods at once, and one before and one after, coloured by their error.
+(() => {
+  "use strict";
+  const R = window.R;
+  const ramp = d3.interpolateRgbBasis(["#12926b", "#9fb514", "#f0a202", "#e4570b", "#a5123f"]);
+  const kLevels = 16;
+
+  const extent = (lists) => {
+    let low = Infinity, high = -Infinity;
+    for (const list of lists) for (const v of list) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+    return low > high ? [0, 1] : [low, high];
+  };
+  R.extent = extent;
+
+  const band = (group, reference, x, y) => group.append("path").attr("class", "band")
+    .attr("d", d3.line().x((i) => x(reference.x[i])).y((i) => y(reference.y[i]))(d3.range(reference.t.length)));
+
+  const around = (traces) => ({
+    x: { label: "x [m]", domain: R.padded(extent(traces.map((t) => t.x))) },
+    y: { label: "y [m]", domain: R.padded(extent(traces.map((t) => t.y))) },
+  });
+
+  R.follow(() => {
+    const host = document.getElementById("map");
+    host.replaceChildren();
+    const s = R.state.sequence;
+    const reference = R.reference(s);
+    const methods = R.shown().filter((m) => R.trace(s, m.place));
+    R.caption(host, "From above (xoy)", R.scores.sequences[s]);
+    if (!reference) return R.nothing(host, "No trajectories were kept of this sequence (traces: false).");
+    const traces = methods.map((m) => R.trace(s, m.place));
+    R.chart(host, {
+      label: `Trajectories of ${R.scores.sequences[s]} from above`, height: 470, equal: true, zoom: true,
+      ...around([reference, ...traces]),
+      draw: (group, x, y) => {
+        band(group, reference, x, y);
+        methods.forEach((m, i) => R.curve(group, traces[i].x, traces[i].y, x, y, m));
+        group.append("circle").attr("cx", x(reference.x[0])).attr("cy", y(reference.y[0])).attr("r", 4.5)
+          .style("fill", "var(--ink)").append("title").text("start of the reference");
+      },
+    });
+    R.methodLegend(host, methods);
+  });
+
+  const coloured = (host, title, m, most, axes, reference, s) => {
+    host.replaceChildren();
+    const trace = R.trace(s, m.place);
+    if (!trace) {
+      R.caption(host, `${title}: ${m.label}`);
+      return R.nothing(host, "This method has no trajectory here; see the failures.");
+    }
+    const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
+    const digits = d3.format(".3~g");
+    R.caption(host, `${title}: ${m.label}`, `RMS of the drawn errors ${digits(rms)} m, largest ${digits(d3.max(trace.norm))} m`);
+    const levels = Array.from({ length: kLevels }, () => []);
+    for (let i = 1; i < trace.t.length; ++i) {
+      const level = Math.min(kLevels - 1, Math.floor((kLevels * trace.norm[i]) / most));
+      if (Number.isFinite(level)) levels[level].push(i);
+    }
+    R.chart(host, {
+      label: `${title}: ${m.label} on ${R.scores.sequences[s]}, coloured by position error`, height: 440, equal: true, zoom: true, ...axes,
+      draw: (group, x, y) => {
+        band(group, reference, x, y);
+        levels.forEach((places, level) => group.append("path").attr("class", "curve").style("stroke-width", 3)
+          .style("stroke", ramp((level + 0.5) / kLevels))
+          .attr("d", places.map((i) => `M${x(trace.x[i - 1])},${y(trace.y[i - 1])}L${x(trace.x[i])},${y(trace.y[i])}`).join("")));
+        for (const [from, to] of reference.closures) {
+          const [i, k] = [R.placeAt(trace.t, from), R.placeAt(trace.t, to)];
+          const [x1, y1, x2, y2] = [x(trace.x[i]), y(trace.y[i]), x(trace.x[k]), y(trace.y[k])];
+          const loop = group.append("g").attr("class", "loop");
+          loop.append("line").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
+          for (const [cx, cy] of [[x1, y1], [x2, y2]]) loop.append("circle").attr("cx", cx).attr("cy", cy).attr("r", 3);
+          loop.append("title").text("loop closure: these two places are one");
+        }
+      },
+    });
+  };
+
+  R.follow(() => {
+    const s = R.state.sequence;
+    const reference = R.reference(s);
+    const [before, after] = [document.getElementById("before"), document.getElementById("after")];
+    const legend = document.getElementById("ramp");
+    legend.replaceChildren();
+    if (!reference) return [before, after].forEach((host) => host.replaceChildren());
+    const pair = [R.methods[R.state.before], R.methods[R.state.after]];
+    const traces = pair.map((m) => R.trace(s, m.place)).filter(Boolean);
+    const most = d3.max(traces, (t) => d3.max(t.norm)) || 1;
+    const axes = around([reference, ...traces]);
+    coloured(before, "Before", pair[0], most, axes, reference, s);
+    coloured(after, "After", pair[1], most, axes, reference, s);
+    const svg = d3.select(legend).append("svg").attr("viewBox", "0 0 440 34").style("max-width", "440px").attr("role", "img").attr("aria-label", "Colours of position errors");
+    svg.selectAll("rect").data(d3.range(kLevels)).join("rect").attr("x", (l) => 28 + 24 * l).attr("y", 6).attr("width", 24).attr("height", 12)
+      .style("fill", (l) => ramp((l + 0.5) / kLevels));
+    svg.selectAll(null).data([0, 0.5, 1]).join("text").attr("x", (f) => 28 + 24 * kLevels * f).attr("y", 31).attr("text-anchor", "middle").text((f) => d3.format(".2~g")(most * f));
+    R.nothing(legend, "Position error [m], the same colours on both sides" + (reference.closures.length
+      ? `; violet: ${reference.closures.length} of ${reference.allClosures} loop closures.` : "; no loop closures."));
+  });
+})();

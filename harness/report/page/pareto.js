@@ -1,0 +1,65 @@
+// What accuracy costs in time; the front joins methods that none beats in both.
+(() => {
+  "use strict";
+  const R = window.R;
+  const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
+
+  // Of one sequence, or (s null) of all together: then methods that cover them all.
+  const points = (s) => {
+    const sequences = s === null ? new Set(R.scores.cells.map((c) => c.s)).size : 1;
+    return R.methods.map((m) => {
+      const groups = d3.groups(R.values(R.state.kind, R.state.statistic, m.place, s), (v) => v.sequence);
+      return {
+        m, covers: groups.length === sequences,
+        error: geometric(groups.map(([, list]) => d3.mean(list, (v) => v.value))),
+        ms: geometric(groups.map(([, list]) => d3.median(list, (v) => v.ms))),
+      };
+    }).filter((p) => p.covers && p.error > 0 && p.ms > 0);
+  };
+
+  const draw = (host, s) => {
+    host.replaceChildren();
+    const kind = R.scores.kinds[R.state.kind];
+    if (!kind) return;
+    R.caption(host, `${R.kindLabel(kind)} against time`, s === null
+      ? "all sequences, geometric means of methods that cover them" : R.scores.sequences[s]);
+    if (kind.better !== "lower") return R.nothing(host, "Choose an error as score: here less is better.");
+    const all = points(s);
+    if (!all.length) return R.nothing(host, "No method has this score, above zero, here.");
+    let least = Infinity;
+    const front = d3.sort(all, (p) => p.ms, (p) => p.error).filter((p) => p.error < least && ((least = p.error), true));
+    const isNamed = (p) => front.includes(p) || R.state.shown.has(p.m.place);
+    R.chart(host, {
+      label: `${R.kindLabel(kind)} against time`, height: 400, zoom: true, margin: { left: 66, right: 24 },
+      x: { label: "time of the method [ms]", domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
+      y: { label: R.kindLabel(kind), domain: R.paddedLog(d3.extent(all, (p) => p.error)), log: true },
+      draw: (group, x, y) => {
+        group.append("path").attr("class", "curve").style("stroke", "var(--soft)").attr("stroke-dasharray", "5 4")
+          .attr("d", d3.line().x((p) => x(p.ms)).y((p) => y(p.error)).curve(d3.curveStepAfter)(front));
+        const dots = group.selectAll("g").data(all).join("g").attr("transform", (p) => `translate(${x(p.ms)},${y(p.error)})`);
+        dots.append("circle").attr("r", (p) => (front.includes(p) ? 7 : 5))
+          .style("fill", (p) => (R.state.shown.has(p.m.place) ? R.color(p.m.place) : "var(--soft)"))
+          .style("fill-opacity", (p) => (front.includes(p) ? 1 : 0.7)).style("stroke", "var(--card)")
+          .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms`);
+        // Names do not cover each other: a lower one gives way downwards, the far right stand left.
+        const taken = [];
+        dots.filter(isNamed).sort((a, b) => d3.ascending(a.error, b.error)).each(function (p) {
+          const text = R.short(p.m.label, 40);
+          const onLeft = x(p.ms) + 12 + 7 * text.length > x.range()[1];
+          const from = onLeft ? x(p.ms) - 12 - 7 * text.length : x(p.ms) + 12;
+          let at = y(p.error) + 4;
+          while (taken.some((t) => Math.abs(t.at - at) < 14 && from < t.to && t.from < from + 7 * text.length)) at -= 14;
+          taken.push({ at, from, to: from + 7 * text.length });
+          d3.select(this).append("text").attr("class", "strong halo").attr("x", onLeft ? -12 : 12)
+            .attr("y", at - y(p.error)).attr("text-anchor", onLeft ? "end" : null).text(text);
+        });
+      },
+    });
+  };
+
+  R.follow(() => {
+    draw(document.getElementById("pareto-here"), R.state.sequence);
+    const all = document.getElementById("pareto-all");
+    if (R.scores.sequences.length > 1) draw(all, null);
+  });
+})();

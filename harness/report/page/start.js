@@ -1,0 +1,75 @@
+// Controls, and the first drawing: last of all, when every figure follows.
+(() => {
+  "use strict";
+  const R = window.R;
+  const form = document.getElementById("controls");
+  const element = (tag, properties = {}, ...children) => {
+    const out = Object.assign(document.createElement(tag), properties);
+    out.append(...children);
+    return out;
+  };
+  const choice = (text, entries, chosen, set) => {
+    const select = element("select", {}, ...entries.map(([value, name]) => element("option", { value, textContent: name, selected: String(value) === String(chosen) })));
+    select.addEventListener("change", () => { set(select.value); R.changed(); });
+    return element("label", { className: "field" }, text, select);
+  };
+  const indexed = (names) => names.map((name, i) => [i, name]);
+  const manyProtocols = new Set(R.scores.kinds.map((k) => k.protocol)).size > 1;
+  const kindName = (k) => `${k.label}${k.unit ? ` [${k.unit}]` : ""}, ${k.times}` + (manyProtocols ? `, ${k.protocol}` : "");
+  const state = R.state;
+  const row = element("div", { className: "row" },
+    choice("Sequence", indexed(R.scores.sequences), state.sequence, (v) => (state.sequence = Number(v))),
+    choice("Score", indexed(R.scores.kinds.map(kindName)), state.kind, (v) => (state.kind = Number(v))),
+    choice("Statistic", indexed(R.scores.statistics), state.statistic, (v) => (state.statistic = Number(v))),
+    choice("Along", [["s", "path"], ["t", "time"]], state.abscissa, (v) => (state.abscissa = v)));
+  form.append(row);
+
+  const chips = element("div", { className: "chips" });
+  const summary = element("summary");
+  const boxes = R.methods.map((m) => {
+    const box = element("input", { type: "checkbox", checked: state.shown.has(m.place) });
+    box.addEventListener("change", () => {
+      if (box.checked) state.shown.add(m.place); else state.shown.delete(m.place);
+      R.changed();
+    });
+    chips.append(element("label", {}, box, m.label));
+    return box;
+  });
+  const set = (places) => {
+    state.shown = new Set(places);
+    boxes.forEach((box, m) => (box.checked = state.shown.has(m)));
+    R.changed();
+  };
+  const button = (text, places) => {
+    const out = element("button", { type: "button", textContent: text });
+    out.addEventListener("click", () => set(places));
+    return out;
+  };
+  const all = R.methods.map((m) => m.place);
+  const details = element("details", {}, summary,
+    element("div", { className: "row" }, button("best few", R.usual), button("all", all), button("none", [])), chips);
+  form.append(details);
+  form.addEventListener("submit", (e) => e.preventDefault());
+  R.follow(() => {
+    summary.textContent = `Methods drawn: ${R.shown().map((m) => m.label).join(", ") || "none"}`;
+    boxes.forEach((box, m) => (box.style.accentColor = state.shown.has(m) ? R.color(m) : ""));
+  });
+  form.hidden = false;
+
+  const names = indexed(R.methods.map((m) => m.label));
+  const pair = document.getElementById("before-after-controls");
+  const put = () => {
+    const swap = element("button", { type: "button", textContent: "Swap" });
+    swap.addEventListener("click", () => {
+      [state.before, state.after] = [state.after, state.before];
+      put();
+      R.changed();
+    });
+    pair.replaceChildren(
+      choice("Before", names, state.before, (v) => (state.before = Number(v))),
+      choice("After", names, state.after, (v) => (state.after = Number(v))), swap);
+  };
+  put();
+  R.changed();
+  document.documentElement.dataset.drawn = "yes";
+})();

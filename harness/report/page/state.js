@@ -1,0 +1,62 @@
+// What is shown: one sequence, one score, some methods. Controls write it, figures follow.
+(() => {
+  "use strict";
+  const R = window.R;
+  const kPalette = ["#0b6fd3", "#0f9d58", "#e8710a", "#7b3ff2", "#00a3a3", "#c2185b", "#b58900", "#4a5bd4", "#8d5524", "#5f8f00"];
+  const kDashes = ["", "7 3", "2 2", "9 3 2 3"];
+
+  // Colours go to methods as they are first shown, so that few methods differ clearly.
+  const order = [];
+  const placeOf = (m) => {
+    if (!order.includes(m)) order.push(m);
+    return order.indexOf(m);
+  };
+  R.color = (m) => R.baseline && m === R.baseline.place ? "#d93025" : kPalette[placeOf(m) % kPalette.length];
+  R.dash = (m) => R.baseline && m === R.baseline.place
+    ? null : kDashes[Math.floor(placeOf(m) / kPalette.length) % kDashes.length] || null;
+
+  const kinds = R.scores.kinds;
+  const wanted = (k) => (k.metric.startsWith("ate") && k.relation === "translation" ? 4 : 0) +
+    (k.axis === "3d" ? 2 : 0) + (k.times === "dense" ? 1 : 0);
+  const kind = kinds.reduce((best, k, i) => (best < 0 || wanted(k) > wanted(kinds[best]) ? i : best), -1);
+
+  R.comparison = (place) => {
+    const k = kinds[place];
+    return k && R.comparisons.find((c) => ["protocol", "times", "metric", "relation", "axis", "unit"]
+      .every((key) => c[key] === k[key])) || null;
+  };
+
+  // The baseline, then by rank those that do not look the same.
+  const usual = () => {
+    const out = R.baseline ? [R.baseline.place] : [];
+    const ratios = [1];
+    const comparison = R.comparison(kind);
+    for (const m of comparison ? comparison.methods : []) {
+      const place = R.methods.findIndex((method) => method.name === m.method);
+      if (out.length >= 5 || out.includes(place)) continue;
+      if (m.ratio !== null && ratios.some((r) => Math.abs(r - m.ratio) < 0.02 * r)) continue;
+      ratios.push(m.ratio === null ? NaN : m.ratio);
+      out.push(place);
+    }
+    for (const m of R.methods) if (out.length < Math.min(3, R.methods.length) && !out.includes(m.place)) out.push(m.place);
+    return out;
+  };
+
+  const shown = usual();
+  const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
+  shown.forEach((m) => placeOf(m));
+  R.state = {
+    // report.html?sequence=driving opens on that one.
+    sequence: Math.max(0, R.scores.sequences.indexOf(new URLSearchParams(location.search).get("sequence"))),
+    kind, statistic: 0, abscissa: "s", shown: new Set(shown),
+    before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
+  };
+  R.usual = shown;
+  R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));
+  R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +
+    (k.unit ? ` [${k.unit}]` : "") + (times ? `, ${k.times}` : "");
+
+  const followers = [];
+  R.follow = (draw) => followers.push(draw);
+  R.changed = () => followers.forEach((draw) => draw());
+})();

@@ -1,0 +1,82 @@
+#include "harness/report/report.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "harness/export/comparison.hpp"
+#include "harness/report/assets.hpp"
+#include "harness/report/data.hpp"
+#include "harness/report/html.hpp"
+#include "harness/report/sections.hpp"
+
+namespace loopbench {
+namespace {
+
+using Values = std::map<std::string, std::string, std::less<>>;
+
+/// The template with every {{name}} replaced, in one pass: what is put in is not looked at again.
+std::string filled(std::string_view page, const Values& values) {
+  std::string out;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    out += page.substr(0, open);
+    if (open == std::string_view::npos) return out;
+    const std::size_t close = page.find("}}", open);
+    const auto found = values.find(page.substr(open + 2, close - open - 2));
+    if (found == values.end()) throw std::logic_error("report: a placeholder has no value");
+    out += found->second;
+    page.remove_prefix(close + 2);
+  }
+}
+
+std::string asset_text(std::string_view name) {
+  for (const Asset& asset : assets()) {
+    if (asset.name == name) return std::string(asset.text);
+  }
+  throw std::logic_error("report: no such asset");
+}
+
+/// The library, then the page's own scripts, each after those that it builds on.
+std::string scripts() {
+  // The licence asks for its notice in all copies, and every report holds one.
+  std::string out = "<script>/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
+                    asset_text("assets/d3.min.js") + "</script>\n";
+  for (const char* name : {"data",
+                           "state",
+                           "chart",
+                           "map",
+                           "space",
+                           "along",
+                           "spread",
+                           "sweeps",
+                           "pareto",
+                           "tables",
+                           "start"}) {
+    out += "<script>\n" + asset_text(std::string("page/") + name + ".js") + "</script>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string report_html(const ReportContent& content, std::size_t bytes) {
+  const auto sweep = content.run.find("sweep");
+  const std::string scores = "{\"scores\":" + scores_json(content) +
+                             ",\"comparisons\":" + json(content.comparisons) + ",\"traces\":";
+  Values values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
+                {"style", asset_text("page/report.css")},
+                {"summary", summary_html(content)},
+                {"verdicts", verdicts_html(content)},
+                {"comparison", comparison_html(content)},
+                {"scores", scores_html(content)},
+                {"failures", failures_html(content)},
+                {"costs", costs_html(content)},
+                {"provenance", provenance_html(content)},
+                {"scripts", scripts()}};
+  std::size_t taken = scores.size();
+  for (const auto& [name, text] : values) taken += text.size();
+  values["data"] = script_text(scores + traces_json(content, bytes - std::min(bytes, taken)) + "}");
+  return filled(asset_text("page/report.html"), values);
+}
+
+}  // namespace loopbench

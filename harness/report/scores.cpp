@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "harness/export/better.hpp"
+#include "harness/report/data.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string text(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "null";
+}
+
+using Kind =
+    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
+
+Kind kind_of(const Record& r) {
+  return {r.protocol, r.times, r.metric, r.relation, r.axis, r.unit};
+}
+
+const char* better_name(const Record& r) {
+  switch (better(r)) {
+    case Better::lower:
+      return "lower";
+    case Better::higher:
+      return "higher";
+    case Better::neither:
+      return "neither";
+  }
+  return "neither";
+}
+
+}  // namespace
+
+std::string scores_json(const ReportContent& content) {
+  std::map<Kind, std::size_t> place;
+  nlohmann::json kinds = nlohmann::json::array();
+  std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
+  for (const Record& r : content.records) {
+    if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != "ok") continue;
+    const auto [found, is_new] = place.emplace(kind_of(r), kinds.size());
+    if (is_new) {
+      kinds.push_back({{"label", field(r, "score")},
+                       {"protocol", r.protocol},
+                       {"times", r.times},
+                       {"metric", r.metric},
+                       {"relation", r.relation},
+                       {"axis", r.axis},
+                       {"unit", r.unit},
+                       {"better", better_name(r)}});
+    }
+    scores[r.cell][found->second] = &r;
+  }
+  std::map<std::string, std::size_t> sequence;
+  std::map<std::string, std::size_t> method;
+  for (const std::string& name : content.sequences) sequence.emplace(name, sequence.size());
+  for (const std::string& name : content.methods) method.emplace(name, method.size());
+  std::vector<bool> oracle(content.methods.size(), false);
+
+  std::string cells;
+  for (const CellRecord& cell : content.cells) {
+    const std::size_t m = method.at(cell.method);
+    if (cell.oracle) oracle[m] = true;
+    std::string values;
+    const auto& own = scores[cell.position];
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const auto found = own.find(k);
+      values += k == 0 ? "" : ",";
+      if (found == own.end()) {
+        values += "null";
+        continue;
+      }
+      const Statistics& s = found->second->statistics;
+      values += fmt::format(
+          "[{},{},{},{}]", number(s.rmse), number(s.mean), number(s.median), number(s.max));
+    }
+    cells += fmt::format("{}{{\"s\":{},\"m\":{},\"n\":{},\"st\":{},\"ms\":{},\"v\":[{}]}}",
+                         cells.empty() ? "" : ",\n",
+                         sequence.at(cell.sequence),
+                         m,
+                         cell.repeat,
+                         text(cell.status),
+                         number(1e3 * cell.seconds),
+                         values);
+  }
+  const auto baseline = content.run.find("baseline");
+  return fmt::format(
+      "{{\"methods\":{},\"oracle\":{},\"sequences\":{},\"baseline\":{},"
+      "\"statistics\":[\"rmse\",\"mean\",\"median\",\"max\"],\"kinds\":{},\"cells\":[{}]}}",
+      text(content.methods),
+      text(oracle),
+      text(content.sequences),
+      text(baseline == content.run.end() ? "" : baseline->second),
+      text(kinds),
+      cells);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,193 @@
+#include "harness/report/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "harness/export/comparison.hpp"
+#include "harness/profile/profile.hpp"
+#include "harness/report/html.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string fact(std::size_t number, const std::string& what, const std::string& kind = "") {
+  return fmt::format("<div class=\"fact {}\"><b>{}</b> {}</div>", kind, number, html_text(what));
+}
+
+std::string counted(std::size_t number, const std::string& one) {
+  return number == 1 ? one : one + "s";
+}
+
+std::string score_name(const Comparison& c) {
+  return field(c.kind, "score") + " " + c.options.value + " [" + c.kind.unit + "]";
+}
+
+/// "-27.3 %" in large type with its interval, when there is something to say so plainly.
+std::string key_figure(const Comparison& c) {
+  const MethodVerdict& best = c.methods.front();
+  if (best.method == c.options.baseline || !best.ratio) return "";
+  const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
+  const bool proven = best.p < c.options.alpha;
+  std::string out = std::string("<div class=\"key") + (proven ? "" : " unproven") +
+                    "\"><span class=\"number\">" + percent(best.ratio->estimate) +
+                    " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
+                    " of <b>" + html_text(best.method) + "</b> against " +
+                    html_text(c.options.baseline);
+  if (best.has_interval) {
+    out += fmt::format("<br>{:g} % interval {} to {} %, ",
+                       100.0 * (1.0 - c.options.alpha),
+                       percent(best.ratio->low),
+                       percent(best.ratio->high));
+  } else {
+    out += "<br>no interval, ";
+  }
+  out += fmt::format("{} {}",
+                     c.observations,
+                     counted(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
+  return out + (proven ? "" : ", not proven") + "</span></div>";
+}
+
+}  // namespace
+
+std::string summary_html(const ReportContent& content) {
+  std::map<std::string, std::size_t> statuses;
+  std::set<std::int64_t> repeats;
+  for (const CellRecord& cell : content.cells) {
+    ++statuses[cell.status];
+    repeats.insert(cell.repeat);
+  }
+  std::string out = "<div class=\"facts\">" +
+                    fact(content.methods.size(), counted(content.methods.size(), "method")) +
+                    fact(content.sequences.size(), counted(content.sequences.size(), "sequence")) +
+                    fact(repeats.size(), counted(repeats.size(), "repeat"));
+  for (const auto& [status, number] : statuses) {
+    const bool is_bad = status != "ok" && status != "declined" && status != "incomplete";
+    out += fact(number, counted(number, "cell") + " " + status, is_bad ? "bad" : "");
+  }
+  out += "</div>\n";
+  const Comparison* headline = content.headline();
+  if (headline == nullptr) {
+    return out +
+           "<p class=\"verdict\">No verdict: the sweep has no baseline, or fewer than two "
+           "methods with a common run.</p>\n";
+  }
+  out += "<p class=\"verdict\">" + html_text(verdict(*headline)) + "</p>\n" + key_figure(*headline);
+  if (!headline->oracles.empty()) {
+    std::string names;
+    for (const std::string& name : headline->oracles) names += (names.empty() ? "" : ", ") + name;
+    out += "<p class=\"warning\">Shown the reference, and so left out of verdicts: " +
+           html_text(names) + "</p>\n";
+  }
+  std::set<std::string> measured;
+  for (const CellRecord& cell : content.cells) {
+    if (cell.oracle_closures) measured.insert(cell.sequence);
+  }
+  for (const std::string& name : measured) {
+    out += "<p class=\"warning\">" + html_text(name) +
+           ": loop closures were measured in the reference (oracle), better than any "
+           "detector's.</p>\n";
+  }
+  return out;
+}
+
+std::string verdicts_html(const ReportContent& content) {
+  if (content.comparisons.empty()) return "<p>No baseline, so no verdicts.</p>\n";
+  Listing out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
+  for (const Comparison& c : content.comparisons) {
+    if (c.methods.size() < 2) continue;
+    out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
+  }
+  out.notes.push_back(
+      "each score is judged by itself: with many scores, some differences are proven by chance");
+  return html_text_table(out);
+}
+
+std::string comparison_html(const ReportContent& content) {
+  const Comparison* headline = content.headline();
+  return headline == nullptr ? "" : html_table(sheet(*headline));
+}
+
+std::string scores_html(const ReportContent& content) {
+  std::string out;
+  const auto part = [&](const std::string& sequence, const std::string& times) {
+    std::vector<Record> records;
+    for (const Record& r : content.records) {
+      if (r.sequence == sequence && (r.times == times || r.metric.empty())) records.push_back(r);
+    }
+    if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
+    for (const Table& table : pivot(records, TableSpec{})) {
+      out +=
+          html_table(sheet(table),
+                     "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
+    }
+  };
+  for (const std::string& sequence : content.sequences) {
+    part(sequence, "keyframes");
+    part(sequence, "dense");
+  }
+  return out.empty() ? "<p>No cell has scores.</p>\n" : out;
+}
+
+std::string failures_html(const ReportContent& content) {
+  struct Reason {
+    std::size_t cells = 0;
+    std::set<std::string> sequences;
+  };
+  std::map<std::tuple<std::string, std::string, std::string>, Reason> reasons;
+  for (const CellRecord& cell : content.cells) {
+    if (cell.status == "ok") continue;
+    const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
+    Reason& reason = reasons[{cell.status, cell.method, why}];
+    ++reason.cells;
+    reason.sequences.insert(cell.sequence);
+  }
+  if (reasons.empty()) return "<p>Every cell ran to its end and was judged.</p>\n";
+  Listing out{
+      "cells without their numbers", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  for (const auto& [key, reason] : reasons) {
+    const auto& [status, method, why] = key;
+    std::string names;
+    for (const std::string& name : reason.sequences) names += (names.empty() ? "" : ", ") + name;
+    out.rows.push_back({method, status, std::to_string(reason.cells), names, why});
+  }
+  return html_text_table(out);
+}
+
+std::string costs_html(const ReportContent& content) {
+  std::string out;
+  for (const Listing& listing : {costs(content.cells),
+                                 reported(content.cells),
+                                 scaling(content.cells),
+                                 pareto(content.cells, content.records, Accuracy{})}) {
+    if (!listing.rows.empty()) out += html_table(listing);
+  }
+  return out;
+}
+
+std::string provenance_html(const ReportContent& content) {
+  std::string out;
+  const auto value_of = [&](const std::string& key) {
+    const auto found = content.run.find(key);
+    return found == content.run.end() ? std::string() : found->second;
+  };
+  out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
+         html_text(value_of("protocol")) + "</pre>\n";
+  Listing made{"made by", {"what", "value"}, {}, {}};
+  for (const auto& [key, value] : content.provenance) made.rows.push_back({key, value});
+  out += html_text_table(made);
+  if (!content.inputs.empty()) {
+    Listing files{"made from", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    for (const auto& [sequence, inputs] : content.inputs) {
+      for (const InputFile& input : inputs) {
+        files.rows.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});
+      }
+    }
+    out += html_text_table(files);
+  }
+  return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(value_of("config")) + "</pre>\n";
+}
+
+}  // namespace loopbench

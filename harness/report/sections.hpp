@@ -1,0 +1,31 @@
+/// The parts of a report that are plain HTML.
+#pragma once
+
+#include <string>
+
+#include "harness/report/content.hpp"
+
+namespace loopbench {
+
+/// How much was run and with what outcome, and the headline verdict in large type.
+std::string summary_html(const ReportContent& content);
+
+/// A verdict for every score.
+std::string verdicts_html(const ReportContent& content);
+
+/// The headline comparison in full.
+std::string comparison_html(const ReportContent& content);
+
+/// Methods by scores, a table for each sequence, times and protocol.
+std::string scores_html(const ReportContent& content);
+
+/// Cells that did not end well, by reason.
+std::string failures_html(const ReportContent& content);
+
+/// Costs, what methods report of themselves, growth with size, accuracy against time.
+std::string costs_html(const ReportContent& content);
+
+/// Protocols in full, by what and from what it was made, the config.
+std::string provenance_html(const ReportContent& content);
+
+}  // namespace loopbench

@@ -1,0 +1,272 @@
+/// Reports: what is escaped, what is in them, how large they grow, how a browser takes them.
+#include "harness/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "harness/config/read_sweep.hpp"
+#include "harness/plot/store_figures.hpp"
+#include "harness/report/data.hpp"
+#include "harness/report/html.hpp"
+#include "harness/report/packed.hpp"
+#include "harness/run/run_sweep.hpp"
+#include "harness/store/store.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/tiny_catalogue.hpp"
+
+namespace loopbench {
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Html, EscapesWhatMarkupIsMadeOf) {
+  EXPECT_EQ(html_text("<b a=\"1\" c='2'>&\x01"), "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
+  EXPECT_EQ(html_text("drehung °"), "drehung °");
+}
+
+TEST(Html, NothingInAScriptEndsIt) {
+  const std::string text = script_text(nlohmann::json("</script><!--").dump());
+  EXPECT_EQ(text, "\"\\u003c/script>\\u003c!--\"");
+  EXPECT_EQ(nlohmann::json::parse(text), "</script><!--");
+}
+
+TEST(Html, TablesEscapeAndMark) {
+  const Sheet sheet{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
+  const std::string html = html_table(sheet);
+  EXPECT_TRUE(has(html, "<caption>a&lt;b</caption>"));
+  EXPECT_TRUE(has(html, "<th scope=\"row\">m&amp;m</th><td class=\"best\">1.0</td>"));
+  EXPECT_TRUE(has(html, "<li>note &lt;i&gt;</li>"));
+}
+
+TEST(Packed, IsSixteenBitsOfTheRange) {
+  // 0, half of 65534 and 65534 as little endian words; then what is no number.
+  const auto json = nlohmann::json::parse(packed({-1.0, 0.0, 1.0, std::nan("")}));
+  EXPECT_EQ(json["lo"], -1.0);
+  EXPECT_NEAR(json["step"].get<double>(), 2.0 / 65534.0, 1e-11);
+  EXPECT_EQ(json["b"], "AAD/f/7///8=");
+  EXPECT_EQ(nlohmann::json::parse(packed({}))["b"], "");
+  EXPECT_EQ(nlohmann::json::parse(packed({5.0, 5.0}))["b"], "AAAAAA==");
+}
+
+TEST(Packed, ThinsWithBothEndsKept) {
+  EXPECT_EQ(thinned_places(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(thinned_places(101, 3), (std::vector<std::size_t>{0, 50, 100}));
+  EXPECT_EQ(thinned_places(9, 1), (std::vector<std::size_t>{0}));
+  EXPECT_TRUE(thinned_places(0, 5).empty());
+}
+
+TEST(Report, DrawsFewerPointsWhereThereAreManyCells) {
+  EXPECT_EQ(points_of_a_cell(40, 5'000'000), 400u);
+  EXPECT_EQ(points_of_a_cell(2000, 5'000'000), 178u);  // 5e6 / 2000 / 14
+  EXPECT_EQ(points_of_a_cell(1'000'000, 5'000'000), 60u);
+  EXPECT_EQ(points_of_a_cell(0, 5'000'000), 400u);
+}
+
+/// A sweep with awkward names, a failure and a decline, made once.
+class OfASweep : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const std::filesystem::path config =
+        folder_->file("c.yaml",
+                      "description: '</script><script>alert(1)</script>'\n"
+                      "datasets:\n"
+                      "  - {dataset: line, bias: 0.1, label: '</script><b>\"a\" & ''b'''}\n"
+                      "  - {dataset: line, bias: 0.2, label: b}\n"
+                      "methods:\n"
+                      "  - straight\n"
+                      "  - {method: shift, label: '<i>&'}\n"
+                      "  - {method: shift, label: swept, sweep: {by: [1, 2]}}\n"
+                      "  - {method: shift, label: broken, fail: true}\n"
+                      "  - {method: shift, label: unwilling, decline: true}\n"
+                      "metrics: [ate]\nbaseline: straight\nrepeats: 3\n");
+    const Catalogue catalogue = tiny::catalogue();
+    const Sweep sweep = read_sweep(config, catalogue);
+    const DataRoot root{{folder_->path()}};
+    CellKeys keys(sweep, catalogue, root, "build");
+    Store store(folder_->path() / "results.sqlite", keys, {{"commit", "<c0ffee>"}});
+    const std::vector<Cell> all = cells(sweep, seeded(sweep, catalogue), "");
+    store.resume(all, all, Retry::none);
+    Sequences sequences(sweep, catalogue, root, all);
+    const std::atomic<bool> stop = false;
+    run_sweep(sweep, all, catalogue, sequences, 1, stop, [&](const CellResult& result) {
+      store.write(result);
+    });
+    content_ = new ReportContent(read_report_content(folder_->path()));
+    html_ = new std::string(report_html(*content_));
+  }
+  static void TearDownTestSuite() {
+    delete html_;
+    delete content_;
+    delete folder_;
+  }
+  static nlohmann::json data() {
+    const std::string open = "<script type=\"application/json\" id=\"report-data\">";
+    const std::size_t begin = html_->find(open) + open.size();
+    return nlohmann::json::parse(html_->substr(begin, html_->find("</script>", begin) - begin));
+  }
+
+  static TemporaryFolder* folder_;
+  static ReportContent* content_;
+  static std::string* html_;
+};
+TemporaryFolder* OfASweep::folder_ = nullptr;
+ReportContent* OfASweep::content_ = nullptr;
+std::string* OfASweep::html_ = nullptr;
+
+const char* const kAwkward = "</script><b>\"a\" & 'b'";
+
+TEST_F(OfASweep, EscapesEveryName) {
+  EXPECT_FALSE(has(*html_, kAwkward));
+  EXPECT_FALSE(has(*html_, "<script>alert"));
+  EXPECT_FALSE(has(*html_, "<i>&"));
+  EXPECT_FALSE(has(*html_, "<c0ffee>"));
+  EXPECT_TRUE(has(*html_, "&lt;/script&gt;&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;"));
+  EXPECT_EQ(data()["scores"]["sequences"][0], kAwkward);
+  EXPECT_EQ(data()["scores"]["methods"][1], "<i>&");
+}
+
+TEST_F(OfASweep, TellsWithoutScripts) {
+  for (const char* part : {"<h1>c</h1>",
+                           "told to fail",
+                           "told to decline",
+                           "verdict for every score",
+                           "Protocol of every number",
+                           "align=",
+                           "&lt;c0ffee&gt;",
+                           "<noscript>",
+                           "Permission to use, copy, modify, and/or distribute",
+                           "<b>6</b> cells failed",
+                           "description:"}) {
+    EXPECT_TRUE(has(*html_, part)) << part;
+  }
+  EXPECT_FALSE(has(*html_, "{{"));
+}
+
+TEST_F(OfASweep, NeedsNothingBesideIt) {
+  for (const char* part :
+       {"<link rel=\"stylesheet", "src=\"", "@import", "fetch(\"http", "url(http"}) {
+    EXPECT_FALSE(has(*html_, part)) << part;
+  }
+}
+
+TEST_F(OfASweep, HoldsScoresAndTracesOfTheFirstRepeat) {
+  const nlohmann::json all = data();
+  EXPECT_EQ(all["scores"]["cells"].size(), 36u);  // 2 sequences, 6 methods, 3 repeats
+  EXPECT_EQ(all["scores"]["baseline"], "straight");
+  EXPECT_EQ(all["traces"]["cells"].size(), 8u);  // 2 sequences, 4 methods that ran
+  EXPECT_EQ(all["traces"]["grids"].size(), 2u);  // all methods of a sequence share their stamps
+  const nlohmann::json& cell = all["scores"]["cells"][0];
+  const auto found = std::ranges::find_if(content_->records, [](const Record& r) {
+    return r.cell == content_->cells[0].position && r.metric == "ate";
+  });
+  ASSERT_NE(found, content_->records.end());
+  EXPECT_NEAR(cell["v"][0][0].get<double>(), found->statistics.rmse, 1e-4 * found->statistics.rmse);
+  EXPECT_LT(html_->size(), 500'000u);
+  EXPECT_TRUE(has(report_html(*content_, 0), "\"points\":60,"));
+}
+
+TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
+  Traces traces(folder_->path());
+  const SequenceFigures figures =
+      sequence_figures(content_->cells, traces, "b", {"straight", "broken", "<i>&"});
+  ASSERT_EQ(figures.trajectories.size(), 2u);
+  ASSERT_EQ(figures.errors.size(), 4u);
+  EXPECT_EQ(figures.trajectories[0].series.size(), 3u);  // the reference and two methods
+  EXPECT_EQ(figures.errors[0].series.size(), 2u);
+  EXPECT_TRUE(sequence_figures(content_->cells, traces, "b", {"broken"}).errors.empty());
+  EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
+  EXPECT_EQ(file_stem("..."), "");
+}
+
+TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
+  Traces traces(folder_->path());
+  const SequenceFigures figures = sequence_figures(content_->cells, traces, kAwkward, {"<i>&"});
+  for (const auto& [name, magic] : {std::pair{"f.svg", "<?xml"}, std::pair{"f.pdf", "%PDF-"}}) {
+    const std::filesystem::path file = folder_->path() / name;
+    write_figure(file, figures.trajectories, 2);
+    std::ifstream in(file);
+    std::string begin(5, ' ');
+    in.read(begin.data(), 5);
+    EXPECT_EQ(begin, magic);
+    EXPECT_GT(std::filesystem::file_size(file), 1000u);
+  }
+}
+
+/// Asks the page itself what it shows, then works its controls; answers in its title.
+const char* const kProbe = R"(<script>
+  const said = [];
+  for (const id of ["controls", "map", "space", "before", "after", "along-x", "along-a", "boxes",
+                    "forest", "sweep-figures", "pareto-here", "verdicts", "scores", "failures"]) {
+    const box = document.getElementById(id).getBoundingClientRect();
+    if (box.width < 100 || box.height < 40) said.push(id + " is not to be seen");
+  }
+  const count = (what) => document.querySelectorAll(what).length;
+  if (count("#map path.curve") < 2) said.push("no curves on the map");
+  if (count("#boxes circle") < 12) said.push("runs are missing");
+  if (count("script") > 14 || count("b[onclick], main i") > 0) said.push("a name became markup");
+  const change = (element, value) => {
+    element.value = value;
+    element.dispatchEvent(new Event("change"));
+  };
+  change(document.querySelector("#controls select"), "1");
+  if (!document.querySelector("#map figcaption").textContent.endsWith("b")) said.push("sequence");
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "0"]) {
+    for (const id of ["map", "space"]) {
+      document.querySelector(`#${id} svg`).dispatchEvent(
+        new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+    }
+  }
+  document.querySelectorAll("#controls details button").forEach((b) => b.click());
+  document.querySelectorAll("#controls details button")[1].click();
+  if (count("#map path.curve") !== 4) said.push("all methods: " + count("#map path.curve"));
+  const shown = [...document.querySelectorAll("#scores figure")].find((f) => !f.hidden);
+  const column = () => [...shown.querySelectorAll("tbody th")].map((c) => c.textContent);
+  const before = column();
+  shown.querySelector("thead button").click();
+  shown.querySelector("thead button").click();
+  if (column().join() === before.join()) said.push("tables do not sort");
+  const filter = document.querySelector("#table-controls input");
+  filter.value = "swept";
+  filter.dispatchEvent(new Event("input"));
+  if ([...shown.querySelectorAll("tbody tr")].filter((r) => !r.hidden).length !== 2) said.push("filter");
+  document.title = "probed: " + (said.join("; ") || "well");
+</script></body>)";
+
+TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
+  if (std::system("command -v chromium >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "needs chromium";
+  }
+  std::string page = *html_;
+  page.replace(page.rfind("</body>"), 7, kProbe);
+  const std::string name = folder_->file("page.html", page).string();
+  const std::string profile = (folder_->path() / "profile").string();
+  const std::string line =
+      "HOME='" + folder_->path().string() +
+      "' timeout 150 chromium --headless --no-sandbox --disable-gpu --no-first-run "
+      "--disable-background-networking --disable-component-update --disable-sync "
+      "--enable-logging=stderr --window-size=1400,2400 --user-data-dir='" +
+      profile + "' --dump-dom 'file://" + name + "' >'" + name + ".dom' 2>'" + name + ".log'";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  const auto text_of = [](const std::string& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string log = text_of(name + ".log");
+  const std::size_t complaint = log.find("CONSOLE");
+  EXPECT_EQ(complaint, std::string::npos) << log.substr(std::min(complaint, log.size()), 500);
+  const std::string dom = text_of(name + ".dom");
+  EXPECT_TRUE(has(dom, "data-drawn=\"yes\""));
+  const std::size_t title = dom.find("<title>");
+  EXPECT_TRUE(has(dom, "<title>probed: well</title>"))
+      << dom.substr(std::min(title, dom.size()), 300);
+}
+
+}  // namespace
+}  // namespace loopbench
