@@ -12,7 +12,7 @@ TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
   folder.file("c.yaml",
               "datasets: [{dataset: simulated, path: room, keyframes: 40}]\n"
               "methods: [raw, aborts, loops, exits, floods, uniform]\nmetrics: [ate]\n"
-              "limits: {seconds: 4, memory: 200MiB}\n");
+              "limits: {seconds: 10, memory: 700MiB}\n");
   const std::string line = "run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'";
   const CommandResult result = loopbench_command(line, folder);
   EXPECT_EQ(result.exit_code, 1) << result.err;
