@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "tests/support/command.hpp"
 
@@ -31,8 +34,16 @@ TEST_P(ShippedConfig, Checks) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+// With one repeat: the others differ in their seed, and take minutes under a sanitizer.
 TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
-  const CommandResult result = run("--out out");
+  const std::filesystem::path configs = folder_.path() / "configs";
+  std::filesystem::copy(LOOPBENCH_CONFIGS, configs, std::filesystem::copy_options::recursive);
+  const std::string name = "configs/" + GetParam() + ".yaml";
+  std::ostringstream text;
+  text << std::ifstream(folder_.path() / name).rdbuf();
+  folder_.file(name,
+               std::regex_replace(text.str(), std::regex("\\brepeats: [0-9]+"), "repeats: 1"));
+  const CommandResult result = loopbench_command("run " + name + " --out out", folder_);
   if (result.err.find("no such file (looked in") != std::string::npos) {
     GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << result.err;
   }
