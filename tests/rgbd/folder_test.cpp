@@ -156,6 +156,9 @@ TEST_F(RgbdFolder, ReadsSevenScenesLayout) {
   EXPECT_DOUBLE_EQ(source->reference()[0].world_from_body.translation.x(), 0.5);
   std::string why;
   EXPECT_TRUE(source->read(1, why)) << why;
+  options.depth = DepthGeometry::kinect;
+  options.colour_focal = 507.0;
+  EXPECT_EQ(open_rgbd_folder(native.path(), options)->camera().fx, 507.0);
 }
 
 TEST_F(RgbdFolder, ReadsIclNuimLayoutAndTurnsYDown) {

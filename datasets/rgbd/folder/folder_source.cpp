@@ -25,8 +25,10 @@ std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
 
 class FolderSource final : public RgbdSource {
  public:
-  FolderSource(Recording recording, bool registered)
-      : recording_(std::move(recording)), registered_(registered) {
+  FolderSource(Recording recording, bool registered, double colour_focal)
+      : recording_(std::move(recording)),
+        registered_(registered),
+        kinect_(unregistered_kinect(colour_focal)) {
     if (registered_) return;
     recording_.camera = kinect_.colour;
     const Pose depth_from_colour = kinect_.colour_from_depth.inverse();
@@ -114,7 +116,7 @@ class FolderSource final : public RgbdSource {
 
   Recording recording_;
   bool registered_;
-  CameraPair kinect_ = unregistered_kinect();
+  CameraPair kinect_;
 };
 
 std::vector<ImagePair> chosen(const std::vector<ImagePair>& all, const FolderOptions& o) {
@@ -152,7 +154,7 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
         "first",
         fmt::format("first = {} breaks first < {}, the number of frames", options.first, all));
   }
-  return std::make_unique<FolderSource>(std::move(recording), registered);
+  return std::make_unique<FolderSource>(std::move(recording), registered, options.colour_focal);
 }
 
 }  // namespace loopbench

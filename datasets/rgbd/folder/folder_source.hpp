@@ -34,8 +34,9 @@ inline auto choices(DepthGeometry) {
 struct FolderOptions {
   DepthGeometry depth = DepthGeometry::automatic;
   CameraChoice camera = CameraChoice::automatic;
-  double pair_gap = 0.02;  ///< [s]
-  double rate = 30.0;      ///< [Hz]
+  double colour_focal = 525.0;  ///< [px]
+  double pair_gap = 0.02;       ///< [s]
+  double rate = 30.0;           ///< [Hz]
   std::int64_t every = 1;
   std::int64_t first = 0;
   std::int64_t frames = 0;
@@ -45,6 +46,10 @@ template <class Visit>
 void fields(FolderOptions& o, Visit visit) {
   visit("camera", o.camera, "intrinsics: camera.yaml, or those published for TUM's cameras");
   visit("depth", o.depth, "whether depth pixels are colour pixels, or how they become so");
+  visit("colour_focal",
+        o.colour_focal,
+        "of the colour camera where depth is brought to it [px]",
+        Above{0});
   visit("pair_gap", o.pair_gap, "farthest that depth and colour lie apart [s]", Between{0, 1});
   visit("rate", o.rate, "of a 7-Scenes or ICL-NUIM folder, which has no stamps [Hz]", Above{0});
   visit("every", o.every, "take each so many-th frame", Between{1});

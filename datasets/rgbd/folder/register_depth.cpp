@@ -16,13 +16,13 @@ Camera kinect(double focal) {
 
 }  // namespace
 
-CameraPair unregistered_kinect() {
+CameraPair unregistered_kinect(double colour_focal) {
   Matrix3 R;
   R << 9.9996518012567637e-01, 2.6765126468950343e-03, -7.9041012313000904e-03,
       -2.7409311281316700e-03, 9.9996302803027592e-01, -8.1504520778013286e-03,
       7.8819942130445332e-03, 8.1718328771890631e-03, 9.9993554558014031e-01;
   const Vector3 t(-2.5558943178152542e-02, 1.0109636268061706e-04, 2.0318321729487039e-03);
-  return {kinect(525.0), kinect(585.0), {Rotation(Eigen::Quaterniond(R).normalized()), t}};
+  return {kinect(colour_focal), kinect(585.0), {Rotation(Eigen::Quaterniond(R).normalized()), t}};
 }
 
 DepthImage register_depth(const DepthImage& depth, const CameraPair& cameras) {
