@@ -15,14 +15,14 @@
 namespace loopbench {
 namespace {
 
-enum class Format { markdown, terminal, latex, csv, json };
+enum class ComparisonFormat { markdown, terminal, latex, csv, json };
 
 struct CompareArguments {
   std::string store;
   std::string metric = "ate";
   std::vector<std::string> where;
   CompareOptions options;
-  Format format = Format::markdown;
+  ComparisonFormat format = ComparisonFormat::markdown;
 };
 
 /// The scores of one metric, by its label or its short name with axis ("error x").
@@ -60,13 +60,13 @@ int print_comparison(CompareArguments arguments) {
   }
   std::vector<Comparison> comparisons = compare(records, arguments.options);
   add_intervals_from_traces(comparisons, whole, arguments.store);
-  if (arguments.format == Format::csv) {
+  if (arguments.format == ComparisonFormat::csv) {
     fmt::print("{}", csv(comparisons));
-  } else if (arguments.format == Format::json) {
+  } else if (arguments.format == ComparisonFormat::json) {
     fmt::print("{}", json(comparisons));
   } else {
-    const auto text = arguments.format == Format::latex ? latex
-                      : arguments.format == Format::terminal
+    const auto text = arguments.format == ComparisonFormat::latex ? latex
+                      : arguments.format == ComparisonFormat::terminal
                           ? terminal
                           : static_cast<std::string (*)(const Sheet&)>(markdown);
     bool is_first = true;
@@ -101,11 +101,11 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
       ->transform(CLI::CheckedTransformer(units).description("runs|sequences"));
   command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
-  const std::map<std::string, Format> formats{{"markdown", Format::markdown},
-                                              {"terminal", Format::terminal},
-                                              {"latex", Format::latex},
-                                              {"csv", Format::csv},
-                                              {"json", Format::json}};
+  const std::map<std::string, ComparisonFormat> formats{{"markdown", ComparisonFormat::markdown},
+                                                        {"terminal", ComparisonFormat::terminal},
+                                                        {"latex", ComparisonFormat::latex},
+                                                        {"csv", ComparisonFormat::csv},
+                                                        {"json", ComparisonFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
       ->transform(CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json"));
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });

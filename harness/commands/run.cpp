@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -10,6 +9,7 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/data_root.hpp"
+#include "harness/commands/interruption.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/text.hpp"
@@ -36,10 +36,6 @@ struct RunArguments {
   bool in_process = false;
   bool dry_run = false;
 };
-
-std::atomic<bool> interrupted = false;
-
-void interrupt(int) { interrupted = true; }
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
@@ -109,10 +105,9 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
+  const std::atomic<bool>& interrupted = catch_interruption();
   if (!missing.empty()) {
     Progress progress(missing.size());
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
     const auto finished = [&](const CellResult& r) {
       store->write(r);
       ++done;

@@ -32,9 +32,9 @@ const std::vector<std::string> kKeys{"description",
 constexpr int kRunsWhenAlone = 5;
 
 /// Reads one config; knows the file for its messages.
-class Reader {
+class SweepReader {
  public:
-  Reader(std::string file, const Catalogue& catalogue)
+  SweepReader(std::string file, const Catalogue& catalogue)
       : file_(std::move(file)), catalogue_(catalogue) {}
 
   Sweep read(const YamlNode& root) const {
@@ -261,7 +261,7 @@ class Reader {
 Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
                   const Catalogue& catalogue) {
-  Sweep sweep = Reader(file.string(), catalogue).read(parse_yaml(text, file.string()));
+  Sweep sweep = SweepReader(file.string(), catalogue).read(parse_yaml(text, file.string()));
   sweep.name = file.stem().string();
   sweep.config = file;
   sweep.text = text;

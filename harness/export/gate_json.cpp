@@ -66,9 +66,9 @@ Json written(const Tolerance& limit) {
 }
 
 /// Walks a baseline; every complaint names the place.
-class Reader {
+class BaselineReader {
  public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
+  explicit BaselineReader(std::string file) : file_(std::move(file)) {}
 
   Baseline read(const Json& root) {
     const Json& format = member(root, "loopbench_baseline", "");
@@ -251,7 +251,7 @@ std::string json(const Baseline& baseline) {
 
 Baseline parse_baseline(const std::string& text, const std::string& file) {
   try {
-    return Reader(file).read(Json::parse(text));
+    return BaselineReader(file).read(Json::parse(text));
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));

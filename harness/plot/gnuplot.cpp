@@ -10,8 +10,8 @@
 namespace loopbench {
 namespace {
 
-/// Single-quoted gnuplot text: a quote is doubled, a line break cannot stand in it.
-std::string quoted(const std::string& text) {
+/// Single-gnuplot_quoted gnuplot text: a quote is doubled, a line break cannot stand in it.
+std::string gnuplot_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
@@ -37,15 +37,15 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                          name,
                          panel.spatial ? "1:2:3" : "1:2",
                          series.as_points ? "points pt 7 ps 0.5" : "lines lw 1.4",
-                         quoted(series.color),
-                         quoted(series.name));
+                         gnuplot_quoted(series.color),
+                         gnuplot_quoted(series.name));
   }
   return blocks +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
-                     quoted(panel.title),
-                     quoted(panel.x_label),
-                     quoted(panel.y_label),
-                     quoted(panel.spatial ? panel.z_label : ""),
+                     gnuplot_quoted(panel.title),
+                     gnuplot_quoted(panel.x_label),
+                     gnuplot_quoted(panel.y_label),
+                     gnuplot_quoted(panel.spatial ? panel.z_label : ""),
                      panel.spatial || !panel.same_scale ? "set size noratio" : "set size ratio -1",
                      panel.spatial ? "splot" : "plot",
                      plots);
@@ -74,7 +74,7 @@ void write_figure(const std::filesystem::path& file,
       "'#666666'\n"
       "set multiplot layout {},{}\n",
       terminal(file, 640 * columns, 480 * rows),
-      quoted(file.string()),
+      gnuplot_quoted(file.string()),
       rows,
       columns);
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);

@@ -9,18 +9,18 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostPoints = 400;    // of a cell: beyond that a screen shows no more
-constexpr std::size_t kFewestPoints = 60;   // below it curves turn into polygons
-constexpr std::size_t kMostClosures = 200;  // of a sequence; more hide the trajectory
-constexpr double kBytesOfAPoint = 14.0;     // four words of 16 bits in base64, and a share of grids
+constexpr std::size_t kMostPointsOfACell = 400;  // of a cell: beyond that a screen shows no more
+constexpr std::size_t kFewestPoints = 60;        // below it curves turn into polygons
+constexpr std::size_t kMostClosures = 200;       // of a sequence; more hide the trajectory
+constexpr double kBytesOfAPoint = 14.0;  // four words of 16 bits in base64, and a share of grids
 
 using Column = std::vector<double>;
 
-struct Path {
+struct DrawnPath {
   Column t, x, y, z;
 };
 
-std::string json(const Path& path) {
+std::string json(const DrawnPath& path) {
   return fmt::format("\"t\":{},\"x\":{},\"y\":{},\"z\":{}",
                      packed(path.t),
                      packed(path.x),
@@ -29,7 +29,7 @@ std::string json(const Path& path) {
 }
 
 std::string sequence_json(const SequenceTrace& trace, std::size_t most) {
-  Path path;
+  DrawnPath path;
   for (const std::size_t i : thinned_places(trace.reference.size(), most)) {
     const TracePose& pose = trace.reference[i];
     path.t.push_back(pose.stamp);
@@ -49,7 +49,7 @@ std::string sequence_json(const SequenceTrace& trace, std::size_t most) {
 }
 
 struct CellErrors {
-  Path reference;  ///< where it was judged
+  DrawnPath reference;  ///< where it was judged
   Column x, y, z, angle;
 };
 
@@ -88,7 +88,8 @@ std::vector<std::size_t> first_repeats(const std::vector<CellRecord>& cells) {
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
   const double share =
       static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(1, cells));
-  return std::clamp(static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPoints);
+  return std::clamp(
+      static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPointsOfACell);
 }
 
 std::string traces_json(const ReportContent& content, std::size_t bytes) {

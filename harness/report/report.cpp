@@ -12,10 +12,10 @@
 namespace loopbench {
 namespace {
 
-using Values = std::map<std::string, std::string, std::less<>>;
+using Placeholders = std::map<std::string, std::string, std::less<>>;
 
 /// The template with every {{name}} replaced, in one pass: what is put in is not looked at again.
-std::string filled(std::string_view page, const Values& values) {
+std::string filled(std::string_view page, const Placeholders& values) {
   std::string out;
   while (true) {
     const std::size_t open = page.find("{{");
@@ -63,16 +63,16 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
   const std::string scores = "{\"scores\":" + scores_json(content) +
                              ",\"comparisons\":" + json(content.comparisons) + ",\"traces\":";
-  Values values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
-                {"style", asset_text("page/report.css")},
-                {"summary", summary_html(content)},
-                {"verdicts", verdicts_html(content)},
-                {"comparison", comparison_html(content)},
-                {"scores", scores_html(content)},
-                {"failures", failures_html(content)},
-                {"costs", costs_html(content)},
-                {"provenance", provenance_html(content)},
-                {"scripts", scripts()}};
+  Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
+                      {"style", asset_text("page/report.css")},
+                      {"summary", summary_html(content)},
+                      {"verdicts", verdicts_html(content)},
+                      {"comparison", comparison_html(content)},
+                      {"scores", scores_html(content)},
+                      {"failures", failures_html(content)},
+                      {"costs", costs_html(content)},
+                      {"provenance", provenance_html(content)},
+                      {"scripts", scripts()}};
   std::size_t taken = scores.size();
   for (const auto& [name, text] : values) taken += text.size();
   values["data"] = script_text(scores + traces_json(content, bytes - std::min(bytes, taken)) + "}");

@@ -3,16 +3,10 @@
 #include <algorithm>
 
 #include "harness/store/traces.hpp"
+#include "metrics/median.hpp"
 
 namespace loopbench {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 std::string option_text(const std::vector<Choice>& stages) {
   std::string out;
@@ -101,7 +95,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(std::int64_t{result.oracle_method})
       .bind(text_of(result.worker))
       .bind(static_cast<std::int64_t>(result.seconds.size()))
-      .bind(median(result.seconds))
+      .bind(result.seconds.empty() ? 0.0 : median(result.seconds))
       .bind(timed ? *low : 0.0)
       .bind(timed ? *high : 0.0)
       .bind(cpu)
