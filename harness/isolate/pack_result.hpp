@@ -35,7 +35,7 @@ void walk(Archive& a, T& file) { a(file.path)(file.bytes)(file.hash); }
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
-  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size);
+  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 

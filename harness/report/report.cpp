@@ -50,6 +50,7 @@ std::string scripts() {
                            "spread",
                            "sweeps",
                            "pareto",
+                           "detection",
                            "tables",
                            "start"}) {
     out += "<script>\n" + asset_text(std::string("page/") + name + ".js") + "</script>\n";

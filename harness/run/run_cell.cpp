@@ -99,8 +99,14 @@ void judge(CellResult& result,
   fenced(none, [&] {
     Evaluation evaluation =
         evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
-    evaluation.context = {
-        &sequence.reference, &at_keyframes, &sequence.problem, &curve, row.times, protocol};
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          row.times,
+                          protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
     ScoreResult usual = row;
     usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
     if (!usual.why.empty()) {
@@ -139,7 +145,9 @@ void judge_without_reference(CellResult& result,
                           &sequence.problem,
                           &curve,
                           Times::keyframes,
-                          evaluation.protocol};
+                          evaluation.protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
     const ScoreResult row{p, Times::keyframes, "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
