@@ -4,7 +4,6 @@
 
 #include <Eigen/SparseCholesky>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -14,6 +13,7 @@
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
+#include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
 namespace {
@@ -55,40 +55,26 @@ Sparse normal_equations(const Problem& problem) {
   return H;
 }
 
-/// Linux: most memory held since the last reset, and how to reset it. 0 where there is no /proc.
-double peak_megabytes() {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    double kilobytes = 0.0;
-    if (word == "VmHWM:" && in >> kilobytes) return kilobytes / 1024.0;
-  }
-  return 0.0;
-}
-double reset_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return peak_megabytes();
-}
-
 void factorise(const Problem& problem, benchmark::State& state) {
   const Sparse H = problem.planar ? normal_equations<Se2>(problem) : normal_equations<Se3>(problem);
-  const double before = reset_peak();
+  const double before = test::reset_peak();
   for (auto _ : state) {
     Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor(H);
     if (factor.info() != Eigen::Success) state.SkipWithError("not positive definite");
     benchmark::DoNotOptimize(factor);
   }
-  state.counters["MB"] = peak_megabytes() - before;
+  state.counters["MB"] = test::peak_megabytes() - before;
 }
 
 void solve(const Problem& problem, benchmark::State& state) {
   const PoseGraphOptimizer method({.start = PoseGraphOptimizer::Start::chordal});
   Report report;
-  const double before = reset_peak();
+  const double before = test::reset_peak();
   for (auto _ : state) {
     report = {};
     benchmark::DoNotOptimize(method.correct(problem, report));
   }
-  state.counters["MB"] = peak_megabytes() - before;
+  state.counters["MB"] = test::peak_megabytes() - before;
   for (const Count& count : report.counts) {
     if (count.name == "iterations") state.counters["iterations"] = count.value;
     if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
