@@ -9,6 +9,7 @@
 #include <map>
 
 #include "datasets/pose_graph_dataset.hpp"
+#include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
@@ -81,6 +82,20 @@ void solve(const Problem& problem, benchmark::State& state) {
   }
 }
 
+/// A method as it comes, on a real chain.
+template <class Method>
+void correct(const Problem& problem, benchmark::State& state) {
+  Report report;
+  for (auto _ : state) {
+    report = {};
+    benchmark::DoNotOptimize(Method({}).correct(problem, report));
+  }
+  for (const Count& count : report.counts) {
+    if (count.name == "iterations") state.counters["iterations"] = count.value;
+    if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
+  }
+}
+
 }  // namespace
 }  // namespace loopbench
 
@@ -114,6 +129,24 @@ int main(int argc, char** argv) {
     } catch (const DataMissing& missing) {
       std::cerr << missing.what() << '\n';
     }
+  }
+  try {
+    PoseGraphOptions options;
+    options.path = "cop_slam/KITTI_00_vo.g2o";
+    options.keyframes_every = 10;
+    if (root == nullptr) throw DataMissing("LOOPBENCH_DATA is not set");
+    const Problem& problem =
+        problems.emplace("KITTI_00", load_pose_graph(options, {{root}}).problem).first->second;
+    const auto time = [&](const char* name, auto run) {
+      benchmark::RegisterBenchmark(
+          name, [&problem, run](benchmark::State& state) { run(problem, state); })
+          ->MeasureProcessCPUTime()
+          ->Unit(benchmark::kMillisecond);
+    };
+    time("chain KITTI_00 dual", correct<Dual>);
+    time("chain KITTI_00 pose_graph", correct<PoseGraphOptimizer>);
+  } catch (const DataMissing& missing) {
+    std::cerr << missing.what() << '\n';
   }
   if (problems.empty()) std::cerr << "no pose graphs found: set LOOPBENCH_DATA\n";
   benchmark::RunSpecifiedBenchmarks();
