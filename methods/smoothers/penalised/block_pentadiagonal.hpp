@@ -44,8 +44,8 @@ inline void solve_block_pentadiagonal(const Pentadiagonal& B,
 }
 
 /// B x, scalars standing for multiples of the identity. O(n).
-inline std::vector<Eigen::Vector3d> times(const Pentadiagonal& B,
-                                          const std::vector<Eigen::Vector3d>& x) {
+inline std::vector<Eigen::Vector3d> block_product(const Pentadiagonal& B,
+                                                  const std::vector<Eigen::Vector3d>& x) {
   std::vector<Eigen::Vector3d> out(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) out[i] = B[i].diagonal * x[i];
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {

@@ -9,22 +9,22 @@
 namespace loopbench {
 namespace {
 
-using Rows = std::vector<Vector3>;
+using Forces = std::vector<Vector3>;
 
-double product(const Rows& a, const Rows& b) {
+double force_product(const Forces& a, const Forces& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
   return sum;
 }
 
-Rows moved(Rows a, double share, const Rows& b) {
+Forces force_sum(Forces a, double share, const Forces& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += share * b[i];
   return a;
 }
 
 class TrendBarrier {
  public:
-  TrendBarrier(const Pentadiagonal& outer, const Rows& bends, double lambda)
+  TrendBarrier(const Pentadiagonal& outer, const Forces& bends, double lambda)
       : outer_(outer),
         bends_(bends),
         square_(lambda * lambda),
@@ -32,7 +32,7 @@ class TrendBarrier {
         pushed_(v_) {}
 
   /// Infinite outside.
-  double value(double t, const Rows& v, const Rows& pushed) const {
+  double value(double t, const Forces& v, const Forces& pushed) const {
     double quadratic = 0.0, barrier = 0.0;
     for (std::size_t j = 0; j < v.size(); ++j) {
       const double slack = 1.0 - v[j].squaredNorm() / square_;
@@ -48,7 +48,7 @@ class TrendBarrier {
   double step(double t) {
     const std::size_t n = v_.size();
     std::vector<Matrix3> blocks(n);
-    Rows gradient(n), way(n);
+    Forces gradient(n), way(n);
     for (std::size_t j = 0; j < n; ++j) {
       const double slack = square_ - v_[j].squaredNorm();
       const double pull = 2.0 / (t * slack);
@@ -57,11 +57,11 @@ class TrendBarrier {
       way[j] = -gradient[j];
     }
     solve_block_pentadiagonal(outer_, blocks, way);
-    const double promised = -t * product(gradient, way);
-    const Rows way_pushed = times(outer_, way);
+    const double promised = -t * force_product(gradient, way);
+    const Forces way_pushed = block_product(outer_, way);
     const double now = value(t, v_, pushed_);
     for (double length = std::min(1.0, 0.95 * room(way)); length > 1e-9; length *= 0.5) {
-      Rows v = moved(v_, length, way), pushed = moved(pushed_, length, way_pushed);
+      Forces v = force_sum(v_, length, way), pushed = force_sum(pushed_, length, way_pushed);
       const double then = value(t, v, pushed);
       if (!(then < now) || !(then <= now - 0.1 * length * promised)) continue;
       v_ = std::move(v);
@@ -71,7 +71,7 @@ class TrendBarrier {
     return -1.0;
   }
 
-  double squares() const { return product(v_, pushed_); }  ///< |D'v|^2
+  double squares() const { return force_product(v_, pushed_); }  ///< |D'v|^2
 
   /// Either a force or a bend has room at the optimum, never both: rows where the multiplier
   /// 1 / slack stands out more than the slack itself does.
@@ -89,11 +89,11 @@ class TrendBarrier {
     return out;
   }
 
-  Rows forces() && { return std::move(v_); }
+  Forces forces() && { return std::move(v_); }
 
  private:
   /// How far along `way` the balls reach.
-  double room(const Rows& way) const {
+  double room(const Forces& way) const {
     double out = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < way.size(); ++j) {
       const double a = way[j].squaredNorm();
@@ -105,10 +105,10 @@ class TrendBarrier {
   }
 
   const Pentadiagonal& outer_;
-  const Rows& bends_;
+  const Forces& bends_;
   double square_;
-  Rows v_;
-  Rows pushed_;  ///< D D' v
+  Forces v_;
+  Forces pushed_;  ///< D D' v
 };
 
 }  // namespace
@@ -123,12 +123,12 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
   constexpr double kRounding = 1e-4;
   constexpr double kFinest = 1e-12;  // below it slacks are rounding
   const auto rows = static_cast<double>(bends.size());
-  Rows free = bends;
+  Forces free = bends;
   PentadiagonalFactor(outer).solve(free);
   const auto inside = [&](const Vector3& force) { return force.norm() <= lambda; };
   if (std::ranges::all_of(free, inside)) return {std::move(free), {}, 0, true};
   const double small = std::max(0.5 * tolerance * tolerance, kFinest);
-  const double energy = 0.5 * product(free, bends);  // of the straight line
+  const double energy = 0.5 * force_product(free, bends);  // of the straight line
   TrendBarrier barrier(outer, bends, lambda);
   TrendDual out;
   double t = 2.0 * rows / energy;
