@@ -53,13 +53,13 @@ class BentChain {
       before += std::pow(scale, share_before) *
                 (exp_so3(share_before * phi) * Vector3(old_at - old_before));
       at = normalized({exp_so3(w[k] * phi) * at.rotation, before});
-      unit_[loop.from + 1 + k] *= std::pow(scale, w[k]);
       old_before = old_at;
       share_before = w[k];
     }
     const Vector3 shift = target.translation - pose(loop.to).translation;
     for (std::size_t k = 0; k < v.size(); ++k) {
       poses_[loop.from + 1 + k].world_from_body.translation += v[k] * shift;
+      unit_[loop.from + 1 + k] *= std::pow(scale, w[k]);
     }
     // The tail keeps its place relative to the loop's end: from old_end to the corrected one.
     const Rotation turn = exp_so3(phi);
