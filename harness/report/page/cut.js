@@ -101,7 +101,7 @@
       return R.nothing(left, `${m.label} told of no segments here.`);
     }
     const names = d3.sort(new Set(parts.flatMap((p) => p.what).filter(Boolean)));
-    const title = `${m.label}, ${R.scores.sequences[s]}`;
+    const title = `${m.label}, ${R.runName(s)}`;
     map(left, trace, parts.find((p) => p.kind === state.kind), names, title);
     strip(right, trace, parts, names, title);
   });
