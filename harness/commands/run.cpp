@@ -12,7 +12,9 @@
 #include "harness/commands/interruption.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
+#include "harness/export/origin.hpp"
 #include "harness/export/text.hpp"
+#include "harness/export/where.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/isolate/isolated_sweep.hpp"
 #include "harness/provenance/build.hpp"
@@ -68,18 +70,23 @@ std::string protocol_names(const Sweep& sweep) {
 std::string write_tables(const std::filesystem::path& store,
                          const Sweep& sweep,
                          const std::filesystem::path& out) {
-  const std::vector<Record> records = all_records(store);
+  std::vector<Record> records = all_records(store);
+  write_file(out / "rows.csv", csv(records));
+  keep_where(records, sweep.table.where);
   const std::vector<Table> tables = pivot(records, sweep.table);
   const std::string text = markdown(tables) + "\n" + made_by(read_provenance(store)) + "\n";
-  write_file(out / "table.md", text);
+  const Origin origin = read_origin(store);
+  write_file(out / "table.md", text + "\n" + origin_comment(origin));
+  write_file(out / "provenance.json", json(origin));
   write_file(out / "table.csv", csv(tables));
-  write_file(out / "rows.csv", csv(records));
   return text;
 }
 
-std::string read_file(const std::filesystem::path& file) {
+/// The tables as they were printed: without the comment that the file ends with.
+std::string printed_tables(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.substr(0, text.rfind("\n<!-- "));
 }
 
 int run(const RunArguments& arguments, const Source& source) {
@@ -130,7 +137,8 @@ int run(const RunArguments& arguments, const Source& source) {
   const bool as_it_was =
       resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
       std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
-  const std::string text = as_it_was ? read_file(out / "table.md") : write_tables(file, sweep, out);
+  const std::string text =
+      as_it_was ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
   if (!as_it_was) store->exported();
   store.reset();
   fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",

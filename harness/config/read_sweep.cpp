@@ -8,6 +8,7 @@
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
+#include "harness/export/where.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -226,13 +227,21 @@ class SweepReader {
   }
 
   TableSpec table(const YamlNode& node) const {
-    only_keys(node, {"rows", "columns", "split", "value", "show"});
+    only_keys(node, {"rows", "columns", "split", "value", "show", "where"});
     TableSpec out;
     if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
     if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
     if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
     if (const YamlNode* show = node.find("show")) out.show = words(*show, "show");
     if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
+    if (const YamlNode* rules = node.find("where")) {
+      out.where = words(*rules, "where");
+      try {
+        where(out.where);
+      } catch (const InputError& error) {
+        throw input_error(file_, rules->line, error.what());
+      }
+    }
     return out;
   }
 

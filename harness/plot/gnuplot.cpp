@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "datasets/core/error.hpp"
 
@@ -25,6 +27,24 @@ std::string data_block(const std::string& name, const PlotSeries& series) {
   return out + "EOD\n";
 }
 
+/// Heights of a path in the plane are one number, a range that gnuplot warns about and widens.
+std::string height_range(const PlotPanel& panel) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double across = 0.0;
+  for (const PlotSeries& series : panel.series) {
+    for (const Vector3& p : series.points) {
+      if (!p.allFinite()) continue;
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+      across = std::max({across, std::abs(p.x()), std::abs(p.y())});
+    }
+  }
+  if (!panel.spatial || low > high || high - low > 1e-6 * across) return "set zrange [*:*]\n";
+  const double pad = across > 0.0 ? 0.1 * across : 1.0;
+  return fmt::format("set zrange [{:.6g}:{:.6g}]\n", low - pad, high + pad);
+}
+
 std::string panel_script(const PlotPanel& panel, std::size_t index) {
   std::string blocks;
   std::string plots;
@@ -40,7 +60,7 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                          gnuplot_quoted(series.color),
                          gnuplot_quoted(series.name));
   }
-  return blocks +
+  return blocks + height_range(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
                      gnuplot_quoted(panel.title),
                      gnuplot_quoted(panel.x_label),
