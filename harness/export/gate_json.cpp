@@ -283,7 +283,7 @@ std::string baseline_text(const std::filesystem::path& file) {
 }  // namespace
 
 Baseline parse_baseline(const std::string& text, const std::string& file) {
-  return Reader(file).read(parsed(text, file));
+  return BaselineReader(file).read(parsed(text, file));
 }
 
 Baseline read_baseline(const std::filesystem::path& file) {
@@ -291,7 +291,7 @@ Baseline read_baseline(const std::filesystem::path& file) {
 }
 
 std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
-  return Reader(file.string()).limits(parsed(baseline_text(file), file.string()));
+  return BaselineReader(file.string()).limits(parsed(baseline_text(file), file.string()));
 }
 
 }  // namespace loopbench
