@@ -35,7 +35,8 @@ void refuse_other_scale(const Trajectory& keyframes,
   throw input_error(file,
                     0,
                     fmt::format("its path is {:.3g} times as long as the estimate's at the same "
-                                "stamps, expected the same scale (monocular runs have one each)",
+                                "stamps, expected the same scale (monocular runs have one each: "
+                                "closures.scale: local)",
                                 ratio));
 }
 
@@ -60,7 +61,10 @@ std::string told(const TrajectoryOptions& o, std::size_t count) {
       return fmt::format(
           "reference with noise {} m, {} rad, seed {} ({})", sigma_t, sigma_r, o.seed, count);
     case ClosureSource::estimate:
-      return fmt::format("estimate: {} ({})", o.closures_file, count);
+      return fmt::format("estimate: {}{} ({})",
+                         o.closures_file,
+                         o.closures_scale == ClosureScale::local ? ", in Sim(3)" : "",
+                         count);
   }
   return "";
 }
@@ -79,6 +83,9 @@ void check_combination(const TrajectoryOptions& o) {
   require(o.closures != ClosureSource::reference || !o.reference.empty(),
           "reference",
           "names no file, and closures.source = reference needs one");
+  require(o.closures_scale == ClosureScale::same || o.closures == ClosureSource::estimate,
+          "closures.scale",
+          "local compares with another run, and closures.source is not estimate");
 }
 
 }  // namespace
@@ -106,8 +113,12 @@ Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
   if (o.closures == ClosureSource::reference) {
     closures = with_noise(in_run(problem.keyframes, in.reference, o), o.closures_noise, o.seed);
   } else if (o.closures == ClosureSource::estimate) {
-    refuse_other_scale(problem.keyframes, in, o.reach, o.closures_file);
     closures = in_run(problem.keyframes, in.other_run, o);
+    if (o.closures_scale == ClosureScale::local) {
+      closures = with_local_scale(std::move(closures), problem.keyframes, in.other_run, o.reach);
+    } else {
+      refuse_other_scale(problem.keyframes, in, o.reach, o.closures_file);
+    }
   }
   problem.closures = std::move(closures);
   add_false_closures(problem, o.false_closures);

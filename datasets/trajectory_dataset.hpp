@@ -19,6 +19,11 @@ inline auto choices(ClosureSource) {
                     std::pair{"estimate", ClosureSource::estimate}};
 }
 
+enum class ClosureScale { same, local };
+inline auto choices(ClosureScale) {
+  return std::array{std::pair{"same", ClosureScale::same}, std::pair{"local", ClosureScale::local}};
+}
+
 /// Estimate, reference and other run must describe the same body: two runs on the same camera do,
 /// a camera and an IMU do not. TUM and KITTI files are camera poses throughout.
 struct TrajectoryOptions {
@@ -39,6 +44,7 @@ struct TrajectoryOptions {
   double closures_angle = 30.0;  ///< [deg]
   double closures_min_gap = 5.0;
   std::int64_t closures_max = 20;
+  ClosureScale closures_scale = ClosureScale::same;
   ClosureNoise closures_noise;
   Reach reach;
   FalseClosures false_closures;
@@ -79,6 +85,9 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("closures.angle", o.closures_angle, "largest turn of a revisit [deg]", Between{0.0, 180.0});
   visit("closures.min_gap", o.closures_min_gap, "least time to a revisit [s]", Above{0.0});
   visit("closures.max", o.closures_max, "at most so many, well spread; 0: all", Between{0});
+  visit("closures.scale",
+        o.closures_scale,
+        "of another run; same: as the estimate's; local: monocular, closures are of Sim(3)");
   visit("closures.sigma_t", o.closures_noise.sigma_t, "of a closure [m]", Above{0.0});
   visit("closures.sigma_r", o.closures_noise.sigma_r, "of a closure [rad]", Above{0.0});
   visit(
@@ -103,9 +112,10 @@ struct TrajectoryInputs {
 };
 
 /// Loop endpoints named in a closure file become keyframes whatever the rule. Closures from the
-/// reference carry seeded noise; those from another run are that run's measurement as it is, and
-/// runs of another scale (path lengths differ by a quarter or more: monocular) are refused.
-/// Throws OptionError, InputError. O(n log n).
+/// reference carry seeded noise; those from another run are that run's measurement as it is. A run
+/// of another scale (path lengths differ by a quarter or more: monocular) is refused, or with
+/// closures.scale local gives closures of Sim(3) (with_local_scale); closures.radius is in its
+/// unit. Throws OptionError, InputError. O(n log n).
 Problem derive_problem(const TrajectoryInputs& inputs, const TrajectoryOptions& options);
 
 /// Throws OptionError, InputError.

@@ -33,6 +33,16 @@ std::vector<Edge> with_noise(std::vector<Edge> edges, const ClosureNoise& noise,
 /// fewer than two. Monocular runs have a scale each: then this is far from 1.
 double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reach& reach);
 
+/// For a run whose unit of length is its own and an estimate whose unit creeps (monocular):
+/// closures measured in the run become those of Sim(3). At a keyframe the estimate's unit is as
+/// many of the run's as the run's way is longer over the ten shared keyframes to either side; edges
+/// get the ratio of `to`'s to `from`'s, and their translation is put in `from`'s. Throws InputError
+/// when one of the two does not move there. O(n).
+std::vector<Edge> with_local_scale(std::vector<Edge> edges,
+                                   const Trajectory& keyframes,
+                                   const Trajectory& run,
+                                   const Reach& reach);
+
 /// Puts closures in the order that Problem promises.
 void sort_closures(std::vector<Edge>& closures);
 

@@ -17,6 +17,12 @@ requires std::same_as<std::remove_const_t<T>, Count>
 void walk(Archive& a, T& count) { a(count.name)(count.value); }
 
 template <class Archive, class T>
+requires std::same_as<std::remove_const_t<T>, Section>
+void walk(Archive& a, T& section) {
+  a(section.kind)(section.begin)(section.end)(section.what);
+}
+
+template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Score>
 void walk(Archive& a, T& score) {
   a(score.relation)(score.axis)(score.unit)(score.statistics)(score.why_undefined);
@@ -45,7 +51,7 @@ requires std::same_as<std::remove_const_t<T>, CellResult>
 void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
   a(r.peak_memory)(r.added_memory)(r.allocations);
-  a(r.report.phases)(r.report.counts)(r.report.notes);
+  a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections);
   a(r.scores)(r.trace.times)(r.trace.samples);
 }
 

@@ -1,14 +1,38 @@
 #include "methods/correctors/looped_chain.hpp"
 
-#include <Eigen/Cholesky>
-#include <stdexcept>
-
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/loop_newton.hpp"
 
 namespace loopbench {
 namespace {
 
 constexpr double kRounding = 1e-12;  // of a cost summed over a chain, relative
+
+/// a + share b.
+Corrections sum_of(Corrections a, double share, const Corrections& b) {
+  for (std::size_t i = 0; i < a.errors.size(); ++i) a.errors[i] += share * b.errors[i];
+  for (std::size_t j = 0; j < a.drift.size(); ++j) a.drift[j] += share * b.drift[j];
+  return a;
+}
+
+/// sum of eta' S_L^-1 eta.
+double loop_squares(const Eigen::VectorXd& loop_errors, const ChainBelief& belief) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < belief.closure_information.size(); ++k) {
+    const Twist eta = loop_errors.segment<6>(static_cast<Eigen::Index>(6 * k));
+    sum += eta.dot(belief.closure_information[k] * eta);
+  }
+  return sum;
+}
+
+/// What no drift explains of edge i's error.
+Twist noise_of(const Corrections& at, const ChainBelief& belief, std::size_t i) {
+  Twist w = at.errors[i];
+  for (std::size_t j = 0; j < at.drift.size(); ++j) {
+    w -= belief.drift[j].shape[i].cwiseProduct(at.drift[j]);
+  }
+  return w;
+}
 
 }  // namespace
 
@@ -26,10 +50,7 @@ ChainBelief stated_belief(const Problem& problem) {
 }
 
 LoopedChain::LoopedChain(const Problem& problem, ChainBelief belief)
-    : problem_(problem),
-      sums_(problem.closures),
-      poses_(problem.keyframes.size()),
-      errors_(problem.odometry.size()) {
+    : problem_(problem), sums_(problem.closures), poses_(problem.keyframes.size()) {
   Vector3 sum = Vector3::Zero();
   for (const StampedPose& k : problem.keyframes) sum += k.world_from_body.translation;
   centre_ = sum / static_cast<double>(problem.keyframes.size());
@@ -38,29 +59,27 @@ LoopedChain::LoopedChain(const Problem& problem, ChainBelief belief)
     poses_[i].translation -= centre_;
   }
   for (const Edge& edge : problem.odometry) {
-    errors_[edge.from] = edge_error(edge, poses_[edge.from], poses_[edge.to]);
+    at_.errors.push_back(edge_error(edge, poses_[edge.from], poses_[edge.to]));
   }
   believe(std::move(belief));
 }
 
 void LoopedChain::believe(ChainBelief belief) {
   belief_ = std::move(belief);
-  drift_.resize(belief_.drift.size(), Twist::Zero());
-  for (std::size_t j = 0; j < drift_.size(); ++j) {
+  at_.drift.resize(belief_.drift.size(), Twist::Zero());
+  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
     for (Eigen::Index axis = 0; axis < 6; ++axis) {
-      if (belief_.drift[j].variance[axis] == 0.0) drift_[j][axis] = 0.0;
+      if (belief_.drift[j].variance[axis] == 0.0) at_.drift[j][axis] = 0.0;
     }
   }
-  cost_ = cost_of({errors_, drift_}, poses_);
+  cost_ = cost_of(at_, loop_errors(poses_));
+  near_ = false;
 }
 
-double LoopedChain::cost_of(const Corrections& at, const std::vector<Pose>& poses) const {
+double LoopedChain::cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < at.errors.size(); ++i) {
-    Twist w = at.errors[i];
-    for (std::size_t j = 0; j < at.drift.size(); ++j) {
-      w -= belief_.drift[j].shape[i].cwiseProduct(at.drift[j]);
-    }
+    const Twist w = noise_of(at, belief_, i);
     sum += w.dot(belief_.information[i] * w);
   }
   for (std::size_t j = 0; j < at.drift.size(); ++j) {
@@ -69,111 +88,105 @@ double LoopedChain::cost_of(const Corrections& at, const std::vector<Pose>& pose
       if (beta != 0.0) sum += beta * beta / belief_.drift[j].variance[axis];
     }
   }
-  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    const Edge& loop = problem_.closures[k];
-    const Twist eta = edge_error(loop, poses[loop.from], poses[loop.to]);
-    sum += eta.dot(belief_.closure_information[k] * eta);
-  }
-  return 0.5 * sum;
+  return 0.5 * (sum + loop_squares(loop_errors, belief_));
 }
 
-bool LoopedChain::step() {
-  const Corrections wanted = solve();
-  for (double length = 1.0; length > 1e-4; length *= 0.5) {
-    Corrections at{errors_, drift_};
-    for (std::size_t i = 0; i < errors_.size(); ++i) {
-      at.errors[i] += length * (wanted.errors[i] - errors_[i]);
-    }
-    for (std::size_t j = 0; j < drift_.size(); ++j) {
-      at.drift[j] += length * (wanted.drift[j] - drift_[j]);
-    }
-    std::vector<Pose> poses = integrate(at.errors);
-    const double cost = cost_of(at, poses);
+LoopedChain::Candidate LoopedChain::candidate(Corrections at) const {
+  Candidate out{std::move(at), {}, {}};
+  out.poses = integrate(out.at.errors);
+  out.loop_errors = loop_errors(out.poses);
+  out.cost = cost_of(out.at, out.loop_errors);
+  return out;
+}
+
+void LoopedChain::close_loops(Candidate& tried, const LoopEquations& equations) const {
+  constexpr int kRounds = 3;
+  constexpr double kClosed = 1e-6;  // of the cost, what loops left open may matter
+  const LoopJacobian& jacobian = equations.jacobian;
+  const Eigen::VectorXd meant = jacobian.gap + along_loops(jacobian, sums_, tried.at.errors);
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::VectorXd open = tried.loop_errors - meant;
+    if (!(loop_squares(open, belief_) > kClosed * cost_)) return;
+    tried =
+        candidate(sum_of(tried.at, 1.0, least_cost(equations, open, problem_.closures, belief_)));
+  }
+}
+
+bool LoopedChain::step_towards(const Corrections& wanted,
+                               const LoopEquations& equations,
+                               double shortest) {
+  const Corrections way = sum_of(wanted, -1.0, at_);
+  for (double length = 1.0; length >= shortest; length *= 0.5) {
+    Candidate tried = candidate(sum_of(at_, length, way));
+    close_loops(tried, equations);
     // Where the cost is flat to rounding, the full step still brings the poses nearer.
-    if (cost < cost_ || (length == 1.0 && cost <= cost_ * (1.0 + kRounding))) {
-      errors_ = std::move(at.errors);
-      drift_ = std::move(at.drift);
-      poses_ = std::move(poses);
-      cost_ = cost;
+    if (tried.cost < cost_ || (length == 1.0 && tried.cost <= cost_ * (1.0 + kRounding))) {
+      near_ = tried.cost > 0.5 * cost_;
+      at_ = std::move(tried.at);
+      poses_ = std::move(tried.poses);
+      cost_ = tried.cost;
       return true;
     }
   }
   return false;
 }
 
-LoopJacobian LoopedChain::linearised() const {
-  LoopJacobian out;
-  out.edge.resize(errors_.size());
-  std::vector<Twist> running;  // of edge[i] e_i, at the cuts
-  running.reserve(sums_.cuts().size());
-  Twist total = Twist::Zero();
-  std::size_t cut = 0;
-  for (std::size_t i = 0; i <= errors_.size(); ++i) {
-    if (cut < sums_.cuts().size() && sums_.cuts()[cut] == i) {
-      running.push_back(total);
-      ++cut;
-    }
-    if (i == errors_.size()) break;
-    out.edge[i] = adjoint(poses_[i + 1]) * right_jacobian_se3(errors_[i]);
-    total += out.edge[i] * errors_[i];
+bool LoopedChain::step() {
+  const LoopEquations equations = loop_equations(linearised(), sums_, belief_);
+  if (near_) {
+    const Corrections way = newton_direction(
+        equations, gradient(equations.jacobian), sums_, problem_.closures, belief_);
+    if (step_towards(sum_of(at_, 1.0, way), equations, 0.25)) return true;
   }
-  out.gap.resize(static_cast<Eigen::Index>(6 * problem_.closures.size()));
+  const Eigen::VectorXd& gap = equations.jacobian.gap;
+  return step_towards(least_cost(equations, gap, problem_.closures, belief_), equations, 1e-4);
+}
+
+Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * problem_.closures.size()));
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     const Edge& loop = problem_.closures[k];
-    const Twist eta = edge_error(loop, poses_[loop.from], poses_[loop.to]);
-    out.loop.push_back(inverse_right_jacobian_se3(eta) * adjoint(poses_[loop.to].inverse()));
-    out.gap.segment<6>(static_cast<Eigen::Index>(6 * k)) =
-        eta - out.loop.back() * sums_.over(running, k);
+    out.segment<6>(static_cast<Eigen::Index>(6 * k)) =
+        edge_error(loop, poses[loop.from], poses[loop.to]);
   }
   return out;
 }
 
-LoopedChain::Corrections LoopedChain::solve() const {
-  const LoopJacobian jacobian = linearised();
-  Eigen::MatrixXd equations = through_loops(
-      jacobian, sums_, running_sum(sums_, [&](std::size_t i) -> Matrix6 {
-        return jacobian.edge[i] * belief_.covariance[i] * jacobian.edge[i].transpose();
-      }));
-  for (std::size_t k = 0; k < sums_.loops(); ++k) {
-    const auto row = static_cast<Eigen::Index>(6 * k);
-    equations.block<6, 6>(row, row) += belief_.closure_covariance[k];
+LoopJacobian LoopedChain::linearised() const {
+  LoopJacobian out;
+  out.edge.resize(at_.errors.size());
+  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
+    out.edge[i] = adjoint(poses_[i + 1]) * right_jacobian_se3(at_.errors[i]);
   }
-  std::vector<Eigen::MatrixXd> shapes;  // what each drift does to the loops
-  for (const ChainBelief::Drift& drift : belief_.drift) {
-    shapes.push_back(
-        through_loops_once(jacobian, sums_, running_sum(sums_, [&](std::size_t i) -> Matrix6 {
-                             return jacobian.edge[i] * drift.shape[i].asDiagonal();
-                           })));
-    const Eigen::MatrixXd weighted = shapes.back() * drift.variance.asDiagonal();
-    equations.triangularView<Eigen::Lower>() += weighted * shapes.back().transpose();
-  }
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(equations);
-  if (factor.info() != Eigen::Success) {
-    throw std::runtime_error("the loop equations are not positive definite");
-  }
-  const Eigen::VectorXd lambda = factor.solve(jacobian.gap);
-
-  Corrections out;
-  for (std::size_t j = 0; j < shapes.size(); ++j) {
-    out.drift.push_back(
-        -belief_.drift[j].variance.cwiseProduct(Twist(shapes[j].transpose() * lambda)));
-  }
-  // What all loops over an edge pull at it, as a running sum along the chain.
-  std::vector<Twist> pull(errors_.size() + 1, Twist::Zero());
+  out.gap = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    const Edge& loop = problem_.closures[k];
-    const Twist p =
-        jacobian.loop[k].transpose() * lambda.segment<6>(static_cast<Eigen::Index>(6 * k));
-    pull[loop.from] += p;
-    pull[loop.to] -= p;
+    const Twist eta = out.gap.segment<6>(static_cast<Eigen::Index>(6 * k));
+    out.loop.push_back(inverse_right_jacobian_se3(eta) *
+                       adjoint(poses_[problem_.closures[k].to].inverse()));
   }
-  out.errors.resize(errors_.size());
+  out.gap -= along_loops(out, sums_, at_.errors);
+  return out;
+}
+
+Corrections LoopedChain::gradient(const LoopJacobian& jacobian) const {
+  Eigen::VectorXd weighted = loop_errors(poses_);
+  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
+    auto each = weighted.segment<6>(static_cast<Eigen::Index>(6 * k));
+    each = (belief_.closure_information[k] * each).eval();
+  }
+  const std::vector<Twist> pull = loop_pull(jacobian, problem_.closures, weighted);
+  Corrections out{at_.errors, at_.drift};
+  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
+    const Twist& variance = belief_.drift[j].variance;
+    out.drift[j] = (variance.array() > 0.0).select(at_.drift[j].cwiseQuotient(variance), 0.0);
+  }
   Twist sum = Twist::Zero();
-  for (std::size_t i = 0; i < errors_.size(); ++i) {
+  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
     sum += pull[i];
-    out.errors[i] = -belief_.covariance[i] * (jacobian.edge[i].transpose() * sum);
-    for (std::size_t j = 0; j < out.drift.size(); ++j) {
-      out.errors[i] += belief_.drift[j].shape[i].cwiseProduct(out.drift[j]);
+    const Twist by_error = jacobian.edge[i].transpose() * sum;
+    out.errors[i] = belief_.information[i] * noise_of(at_, belief_, i) + by_error;
+    for (std::size_t j = 0; j < at_.drift.size(); ++j) {
+      out.drift[j] += belief_.drift[j].shape[i].cwiseProduct(by_error);
     }
   }
   return out;
@@ -193,31 +206,6 @@ Trajectory LoopedChain::keyframes() const {
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].world_from_body = poses_[i];
     out[i].world_from_body.translation += centre_;
-  }
-  return out;
-}
-
-Eigen::MatrixXd through_loops(const LoopJacobian& jacobian,
-                              const LoopSums& sums,
-                              const std::vector<Matrix6>& running) {
-  const auto size = static_cast<Eigen::Index>(6 * sums.loops());
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
-  for (std::size_t k = 0; k < sums.loops(); ++k) {
-    for (std::size_t l = 0; l <= k; ++l) {
-      if (!sums.overlap(k, l)) continue;
-      out.block<6, 6>(static_cast<Eigen::Index>(6 * k), static_cast<Eigen::Index>(6 * l)) =
-          jacobian.loop[k] * sums.over_both(running, k, l) * jacobian.loop[l].transpose();
-    }
-  }
-  return out;
-}
-
-Eigen::MatrixXd through_loops_once(const LoopJacobian& jacobian,
-                                   const LoopSums& sums,
-                                   const std::vector<Matrix6>& running) {
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(6 * sums.loops()), 6);
-  for (std::size_t k = 0; k < sums.loops(); ++k) {
-    out.middleRows<6>(static_cast<Eigen::Index>(6 * k)) = jacobian.loop[k] * sums.over(running, k);
   }
   return out;
 }

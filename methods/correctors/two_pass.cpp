@@ -20,24 +20,28 @@ struct Similarity {
 /// Poses being corrected; those after the last closed loop share one similarity.
 class BentChain {
  public:
-  explicit BentChain(const Trajectory& keyframes) : poses_(keyframes) {}
+  explicit BentChain(const Trajectory& keyframes)
+      : poses_(keyframes), unit_(keyframes.size(), 1.0) {}
 
   void settle(std::size_t end) {
     for (; settled_ < end; ++settled_) {
       Pose& pose = poses_[settled_].world_from_body;
       pose = normalized(tail_ * pose);
+      unit_[settled_] = tail_.scale;
     }
   }
 
   void close(const Edge& loop,
              const std::vector<double>& w,
              const std::vector<double>& v,
-             double scale) {
+             bool scaled) {
     settle(loop.to + 1);
+    // What the loop says of the unit is of the chain as measured; loops before have done their
+    // part.
+    const double scale = scaled ? loop.scale * unit_[loop.from] / unit_[loop.to] : 1.0;
     const Pose start = pose(loop.from);
     const Pose old_end = pose(loop.to);
-    // In units of the chain as it is at the loop's start, and so is what the loop measured.
-    const Pose target = start * loop.from_from_to;
+    const Pose target = start * measured(loop);
     const Vector3 phi = log_so3(target.rotation * old_end.rotation.conjugate());
 
     Vector3 old_before = start.translation;
@@ -48,13 +52,14 @@ class BentChain {
       const Vector3 old_at = at.translation;
       before += std::pow(scale, share_before) *
                 (exp_so3(share_before * phi) * Vector3(old_at - old_before));
-      at = normalized({exp_so3(w[k] * phi) * at.rotation, before});
+      at = normalized(Pose{exp_so3(w[k] * phi) * at.rotation, before});
       old_before = old_at;
       share_before = w[k];
     }
     const Vector3 shift = target.translation - pose(loop.to).translation;
     for (std::size_t k = 0; k < v.size(); ++k) {
       poses_[loop.from + 1 + k].world_from_body.translation += v[k] * shift;
+      unit_[loop.from + 1 + k] *= std::pow(scale, w[k]);
     }
     // The tail keeps its place relative to the loop's end: from old_end to the corrected one.
     const Rotation turn = exp_so3(phi);
@@ -65,7 +70,7 @@ class BentChain {
   }
 
   double gap(const Edge& loop) const {
-    return ((pose(loop.from) * loop.from_from_to).translation - pose(loop.to).translation).norm();
+    return ((pose(loop.from) * measured(loop)).translation - pose(loop.to).translation).norm();
   }
 
   Trajectory take() && { return std::move(poses_); }
@@ -73,7 +78,13 @@ class BentChain {
  private:
   const Pose& pose(std::size_t i) const { return poses_[i].world_from_body; }
 
+  /// In the unit that the chain has at the loop's start by now.
+  Pose measured(const Edge& loop) const {
+    return {loop.from_from_to.rotation, unit_[loop.from] * loop.from_from_to.translation};
+  }
+
   Trajectory poses_;
+  std::vector<double> unit_;  ///< by how much the chain has been stretched at each pose
   Similarity tail_;
   std::size_t settled_ = 0;
 };
@@ -100,7 +111,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
       ++skipped;
       continue;
     }
-    chain.close(loop, w->cumulative, v->cumulative, options_.scale ? loop.scale : 1.0);
+    chain.close(loop, w->cumulative, v->cumulative, options_.scale);
     if (options_.overlap == LoopOverlap::open) {
       const auto first = frozen.begin() + static_cast<std::ptrdiff_t>(loop.from + 1);
       std::fill_n(first, w->cumulative.size(), true);

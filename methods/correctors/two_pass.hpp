@@ -14,8 +14,9 @@ namespace loopbench {
 ///     p_i'' = p_i' + v_i (p_a + R_a L_t - p_b')
 ///
 /// with s the closure's scale when `scale` is on: a monocular chain's unit creeps, and s is how
-/// much. The poses after b follow by one similarity. Unlike `uniform`, turning a step turns only
-/// what comes after it, as an odometer's error does.
+/// much, less what earlier loops have stretched between a and b. The poses after b follow by one
+/// similarity. Unlike `uniform`, turning a step turns only what comes after it, as an odometer's
+/// error does.
 ///
 /// Loops are closed one after the other, by (to, from). Complexity O(keyframes + sum of loop
 /// lengths). Source: the trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO

@@ -56,11 +56,10 @@ Chosen chosen(const Trend& trend,
   // On a lattice, so that rounding decides nothing.
   const double top = std::pow(10.0, std::ceil(4.0 * std::log10(straight)) / 4.0);
 
-  Trend::State state;
   Chosen best{line(trend, y), top};
   double least = score(y, best.fit, extent, options.refit);
   const auto fitted = [&](double lambda) {
-    Trend::Fit fit = trend.fit(y, lambda, settings, state);
+    Trend::Fit fit = trend.fit(y, lambda, settings);
     best.iterations += fit.iterations;
     best.converged = best.converged && fit.converged;
     if (options.refit) trend.refit(y, fit);
@@ -108,7 +107,6 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
     Chosen attitude;
     int rounds = 0;
     // The first rounds move the data's flat image; then lambda, or the kinks, stand.
-    Trend::State state;
     const auto fit_points = [&](const std::vector<Vector3>& flat) {
       constexpr int kChoices = 2;
       if (rounds++ < kChoices) {
@@ -119,7 +117,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
         attitude.fit.values = trend.refitted(flat, attitude.fit.kinks);
       } else {
         attitude.fit =
-            trend.fit(flat, attitude.lambda, {options_.tolerance, options_.max_iterations}, state);
+            trend.fit(flat, attitude.lambda, {options_.tolerance, options_.max_iterations});
         iterations += attitude.fit.iterations;
       }
       return attitude.fit;
@@ -134,7 +132,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
     if (!turned.settled) report.notes.push_back("the attitude did not settle");
   }
   report.count("iterations", iterations);
-  if (!converged) report.notes.push_back("ADMM ended before it converged");
+  if (!converged) report.notes.push_back("an interior-point solve ended before it converged");
   return std::make_unique<Polyline>(std::move(out));
 }
 

@@ -14,7 +14,7 @@ namespace loopbench {
 /// everywhere and steps are cut: other smoothers are better there.
 /// `refit` keeps the bends and fits the lines between them without penalty (the relaxed lasso), for
 /// motion known to be piecewise straight: chosen by BIC = N log(RSS / N) + df log N among fits with
-/// one kink for two keyframes at most. O(n) an iteration, some hundred iterations for each lambda.
+/// one kink for two keyframes at most. Near O(n): some 30 Newton steps for each lambda.
 /// Source: Kim, Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
 class TrendFilter final : public Smoother {
  public:
@@ -23,15 +23,15 @@ class TrendFilter final : public Smoother {
     std::optional<double> share = std::nullopt;
     bool refit = false;
     double tolerance = 1e-4;
-    int max_iterations = 3000;
+    int max_iterations = 300;
     Turn rotation = Turn::filtered;
   };
   explicit TrendFilter(const Options& options) : options_(options) {}
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `kinks_t`, `kinks_r`, `lambda_t` [m s], `lambda_r` [rad s], `iterations` of ADMM in
-  /// all. Notes when ADMM or the attitude's rounds end before they converge.
+  /// Counts: `kinks_t`, `kinks_r`, `lambda_t` [m s], `lambda_r` [rad s], `iterations`
+  /// (Newton steps) in all. Notes when they or the attitude's rounds end before they converge.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -50,8 +50,11 @@ void fields(TrendFilter::Options& o, Visit visit) {
         "of the lambda that gives a straight line; none: by GCV or BIC",
         Between{1e-6, 1});
   visit("refit", o.refit, "keep the bends found, fit the lines between them without penalty");
-  visit("tolerance", o.tolerance, "of the residuals of ADMM, relative [-]", Between{1e-12, 0.1});
-  visit("max_iterations", o.max_iterations, "of ADMM for each lambda", Between{1, 1e6});
+  visit("tolerance",
+        o.tolerance,
+        "distance from the optimum over that from the data [-]",
+        Between{1e-12, 0.1});
+  visit("max_iterations", o.max_iterations, "Newton steps for each lambda", Between{1, 1e6});
   visit("rotation", o.rotation, "slerp: attitudes kept; filtered: as the positions are");
 }
 

@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -149,6 +150,29 @@ ceres::Solver::Options solver_options(const PoseGraphSettings& settings) {
   return options;
 }
 
+/// The last steps were refused although they were no mere rounding: the cost is flat to its own
+/// rounding, and the poses not yet still. On long chains a millionth of a millionth of the cost is
+/// a tenth of a millimetre.
+bool stalled(const ceres::Solver::Summary& summary) {
+  constexpr double kStill = 1e-6;  // [m], [rad], all poses together
+  if (summary.termination_type != ceres::CONVERGENCE) return false;
+  double refused = 0.0;
+  for (auto last = summary.iterations.rbegin(); last != summary.iterations.rend(); ++last) {
+    if (last->step_is_successful) break;
+    refused = last->step_norm;  // the earliest of them, least damped
+  }
+  return refused > kStill;
+}
+
+/// A few steps more that need not lower the cost one by one.
+ceres::Solver::Options polishing_options(const PoseGraphSettings& settings) {
+  constexpr int kMost = 50;
+  ceres::Solver::Options options = solver_options(settings);
+  options.max_num_iterations = std::min(kMost, settings.max_iterations);
+  options.use_nonmonotonic_steps = true;
+  return options;
+}
+
 /// Everything is seen from pose 0: far from the world's origin costs no digits, and a plane that
 /// is tilted in the world is none here.
 template <class G>
@@ -186,13 +210,20 @@ PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(settings), &problem, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("pose graph: " + summary.message);
+  int linear_solves = summary.num_linear_solves;
+  double cost = summary.final_cost;
+  if (stalled(summary)) {
+    ceres::Solver::Summary polished;
+    ceres::Solve(polishing_options(settings), &problem, &polished);
+    if (!polished.IsSolutionUsable()) throw std::runtime_error("pose graph: " + polished.message);
+    linear_solves += polished.num_linear_solves;
+    cost = polished.final_cost;
+  }
   for (std::size_t i = 1; i < poses.size(); ++i) {
     poses[i] = normalized(world_from_first * G::to_scaled_pose(G::read(blocks[i].data())));
   }
-  return {summary.num_linear_solves,
-          summary.initial_cost,
-          summary.final_cost,
-          summary.termination_type == ceres::CONVERGENCE};
+  return {
+      linear_solves, summary.initial_cost, cost, summary.termination_type == ceres::CONVERGENCE};
 }
 
 template <class G>

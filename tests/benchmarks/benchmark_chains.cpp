@@ -9,6 +9,7 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/benchmarks/markdown.hpp"
+#include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
 namespace {
@@ -69,6 +70,7 @@ void correct(std::size_t n, benchmark::State& state) {
   const Problem& problem = kept_chain(n);
   const Method method({});
   double iterations = 0.0;
+  const double before = test::reset_peak();
   for (auto _ : state) {
     Report report;
     benchmark::DoNotOptimize(method.correct(problem, report));
@@ -77,6 +79,8 @@ void correct(std::size_t n, benchmark::State& state) {
     }
   }
   state.counters["iterations"] = iterations;
+  state.counters["bytes a keyframe"] =
+      (test::peak_megabytes() - before) * 1024.0 * 1024.0 / static_cast<double>(n);
 }
 
 }  // namespace

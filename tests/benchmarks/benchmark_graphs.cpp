@@ -4,16 +4,17 @@
 
 #include <Eigen/SparseCholesky>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <map>
 
 #include "datasets/pose_graph_dataset.hpp"
+#include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
+#include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
 namespace {
@@ -55,40 +56,40 @@ Sparse normal_equations(const Problem& problem) {
   return H;
 }
 
-/// Linux: most memory held since the last reset, and how to reset it. 0 where there is no /proc.
-double peak_megabytes() {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    double kilobytes = 0.0;
-    if (word == "VmHWM:" && in >> kilobytes) return kilobytes / 1024.0;
-  }
-  return 0.0;
-}
-double reset_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return peak_megabytes();
-}
-
 void factorise(const Problem& problem, benchmark::State& state) {
   const Sparse H = problem.planar ? normal_equations<Se2>(problem) : normal_equations<Se3>(problem);
-  const double before = reset_peak();
+  const double before = test::reset_peak();
   for (auto _ : state) {
     Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor(H);
     if (factor.info() != Eigen::Success) state.SkipWithError("not positive definite");
     benchmark::DoNotOptimize(factor);
   }
-  state.counters["MB"] = peak_megabytes() - before;
+  state.counters["MB"] = test::peak_megabytes() - before;
 }
 
 void solve(const Problem& problem, benchmark::State& state) {
   const PoseGraphOptimizer method({.start = PoseGraphOptimizer::Start::chordal});
   Report report;
-  const double before = reset_peak();
+  const double before = test::reset_peak();
   for (auto _ : state) {
     report = {};
     benchmark::DoNotOptimize(method.correct(problem, report));
   }
-  state.counters["MB"] = peak_megabytes() - before;
+  state.counters["MB"] = test::peak_megabytes() - before;
+  for (const Count& count : report.counts) {
+    if (count.name == "iterations") state.counters["iterations"] = count.value;
+    if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
+  }
+}
+
+/// A method as it comes, on a real chain.
+template <class Method>
+void correct(const Problem& problem, benchmark::State& state) {
+  Report report;
+  for (auto _ : state) {
+    report = {};
+    benchmark::DoNotOptimize(Method({}).correct(problem, report));
+  }
   for (const Count& count : report.counts) {
     if (count.name == "iterations") state.counters["iterations"] = count.value;
     if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
@@ -128,6 +129,24 @@ int main(int argc, char** argv) {
     } catch (const DataMissing& missing) {
       std::cerr << missing.what() << '\n';
     }
+  }
+  try {
+    PoseGraphOptions options;
+    options.path = "cop_slam/KITTI_00_vo.g2o";
+    options.keyframes_every = 10;
+    if (root == nullptr) throw DataMissing("LOOPBENCH_DATA is not set");
+    const Problem& problem =
+        problems.emplace("KITTI_00", load_pose_graph(options, {{root}}).problem).first->second;
+    const auto time = [&](const char* name, auto run) {
+      benchmark::RegisterBenchmark(
+          name, [&problem, run](benchmark::State& state) { run(problem, state); })
+          ->MeasureProcessCPUTime()
+          ->Unit(benchmark::kMillisecond);
+    };
+    time("chain KITTI_00 dual", correct<Dual>);
+    time("chain KITTI_00 pose_graph", correct<PoseGraphOptimizer>);
+  } catch (const DataMissing& missing) {
+    std::cerr << missing.what() << '\n';
   }
   if (problems.empty()) std::cerr << "no pose graphs found: set LOOPBENCH_DATA\n";
   benchmark::RunSpecifiedBenchmarks();

@@ -96,5 +96,23 @@ TEST(MeasuredClosures, PathRatioShowsAnotherScale) {
   EXPECT_EQ(path_ratio(keyframes, {}, {}), 1.0);
 }
 
+TEST(MeasuredClosures, OfARunWithItsOwnUnitAreOfSim3) {
+  // The run goes 3 m a step; to the estimate that is 1 at first, and 0.5 from keyframe 30 on.
+  Trajectory keyframes, run;
+  double way = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    keyframes.push_back({double(i), {Rotation::Identity(), Vector3(way, 0, 0)}});
+    run.push_back({double(i), {Rotation::Identity(), Vector3(3.0 * i, 0, 0)}});
+    way += i < 30 ? 1.0 : 0.5;
+  }
+  const Edge seen{10, 50, {Rotation::Identity(), Vector3(120, 0, 0)}, Matrix6::Identity()};
+  const auto edges = with_local_scale({seen}, keyframes, run, {});
+  EXPECT_NEAR(edges[0].scale, 6.0 / 3.0, 1e-12);
+  EXPECT_NEAR(edges[0].from_from_to.translation.x(), 40.0, 1e-12);  // 120 of the run's, 3 each
+  Trajectory still = keyframes;
+  for (auto& [stamp, pose] : still) pose = Pose{Rotation::Identity(), Vector3::Zero()};
+  EXPECT_THROW(with_local_scale({seen}, still, run, {}), InputError);
+}
+
 }  // namespace
 }  // namespace loopbench

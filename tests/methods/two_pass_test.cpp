@@ -62,6 +62,24 @@ TEST(TwoPass, SpreadsScaleAsAPowerOfTheShare) {
   EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
 }
 
+TEST(TwoPass, ScaleSpreadByOneLoopIsNotSpreadAgainByTheNext) {
+  // As above, measured by halves, each in the unit at its own start: the second half is 1 + 2.
+  Problem problem = straight(4, {});
+  const auto loop = [](std::size_t from, std::size_t to, double way, double scale) {
+    return Edge{from, to, {Rotation::Identity(), Vector3(way, 0, 0)}, Matrix6::Identity(), scale};
+  };
+  const double wanted[] = {0.0, 1.0, 3.0, 7.0, 15.0};
+  const std::vector<std::vector<Edge>> said{{loop(0, 2, 3, 4), loop(2, 4, 3, 4)},
+                                            {loop(0, 4, 15, 16), loop(0, 4, 15, 16)}};
+  for (const std::vector<Edge>& closures : said) {
+    problem.closures = closures;
+    const Trajectory out = corrected(problem);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      EXPECT_NEAR(out[i].world_from_body.translation.x(), wanted[i], 1e-9) << i;
+    }
+  }
+}
+
 TEST(TwoPass, CarriesTheTailAlong) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};

@@ -1,6 +1,7 @@
 #include "methods/smoothers/penalised/trend.hpp"
 
 #include "datasets/core/tridiagonal.hpp"
+#include "methods/smoothers/penalised/trend_dual.hpp"
 
 namespace loopbench {
 namespace {
@@ -9,17 +10,6 @@ std::vector<double> in_intervals(std::vector<double> stamps, double interval) {
   const double first = stamps.front();
   for (double& stamp : stamps) stamp = (stamp - first) / interval;
   return stamps;
-}
-
-double norm(const std::vector<Vector3>& values) {
-  double sum = 0.0;
-  for (const Vector3& value : values) sum += value.squaredNorm();
-  return std::sqrt(sum);
-}
-
-std::vector<Vector3> minus(std::vector<Vector3> a, const std::vector<Vector3>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-  return a;
 }
 
 }  // namespace
@@ -41,57 +31,12 @@ double Trend::straight_from(const std::vector<Vector3>& y) const {
 
 Trend::Fit Trend::fit(const std::vector<Vector3>& y,
                       double lambda,
-                      const Settings& settings,
-                      State& state) const {
-  const std::size_t count = slope_change_.size();
-  if (state.z.empty()) {
-    state = {std::vector<Vector3>(count, Vector3::Zero()),
-             std::vector<Vector3>(count, Vector3::Zero()),
-             lambda};
-  }
-  constexpr double kRelaxation = 1.6;
-  constexpr double kRounding = 1e-12;
-  double extent = 0.0;
-  for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
-
-  Fit out;
-  out.converged = false;
-  PentadiagonalFactor factor(slope_change_.penalty(state.rho));
-  while (!out.converged && out.iterations < settings.most) {
-    ++out.iterations;
-    out.values = y;
-    slope_change_.add_transposed(minus(state.z, state.u), state.rho, out.values);
-    factor.solve(out.values);
-    const std::vector<Vector3> bends = slope_change_.of(out.values);
-    const std::vector<Vector3> z_before = state.z;
-    for (std::size_t j = 0; j < count; ++j) {
-      const Vector3 relaxed = kRelaxation * bends[j] + (1.0 - kRelaxation) * state.z[j];
-      const Vector3 free = relaxed + state.u[j];
-      const double length = free.norm();
-      const double kept = length - lambda / state.rho;
-      state.z[j] = kept > 0.0 ? Vector3(kept / length * free) : Vector3(Vector3::Zero());
-      state.u[j] = free - state.z[j];
-    }
-    const double primal = norm(minus(bends, state.z));
-    std::vector<Vector3> moved(y.size(), Vector3::Zero()), force = moved;
-    slope_change_.add_transposed(minus(state.z, z_before), state.rho, moved);
-    slope_change_.add_transposed(state.u, state.rho, force);
-    const double dual = norm(moved);
-    const double primal_scale = std::max(norm(bends), norm(state.z));
-    const double dual_scale = norm(force);
-    out.converged = primal <= settings.tolerance * primal_scale + kRounding * extent &&
-                    dual <= settings.tolerance * dual_scale + kRounding * extent;
-    if (out.iterations % 10 != 0) continue;
-    const double balance = primal * dual_scale / (dual * primal_scale);
-    if (!(balance > 10.0) && !(balance < 0.1)) continue;
-    const double change = balance > 10.0 ? 2.0 : 0.5;
-    state.rho *= change;
-    for (Vector3& u : state.u) u /= change;
-    factor = PentadiagonalFactor(slope_change_.penalty(state.rho));
-  }
-  for (std::size_t j = 0; j < count; ++j) {
-    if (!state.z[j].isZero(0.0)) out.kinks.push_back(j + 1);
-  }
+                      const Settings& settings) const {
+  const TrendDual dual = solve_trend_dual(
+      slope_change_.outer(), slope_change_.of(y), lambda, settings.tolerance, settings.most);
+  Fit out{y, {}, dual.iterations, dual.converged};
+  slope_change_.add_transposed(dual.forces, -1.0, out.values);
+  for (const std::size_t row : dual.bends) out.kinks.push_back(row + 1);
   return out;
 }
 

@@ -9,23 +9,14 @@ namespace loopbench {
 
 /// Minimises 1/2 sum |y_i - x_i|^2 + lambda sum_j |(D x)_j| with D from slope_change.hpp and the
 /// Euclidean norm of all three axes together (a group: the axes bend in the same place, wherever
-/// they point), by ADMM with D x = z:
-///
-///     x = (I + rho D'D)^-1 (y + rho D'(z - u)),  z = shrunk(D x + u, lambda / rho),  u += D x - z,
-///
-/// over-relaxed by 1.6, rho doubled or halved while the residuals differ tenfold. O(n) a step.
+/// they point), through its dual (trend_dual.hpp). O(n) a Newton step.
 /// Time runs in mean intervals, so lambda is in [unit of y] times intervals.
-/// Source: Kim, Koh, Boyd & Gorinevsky 2009; Boyd et al. 2011, sections 3.3, 3.4, 6.4.
+/// Source: Kim, Koh, Boyd & Gorinevsky 2009.
 class Trend {
  public:
   struct Settings {
-    double tolerance = 1e-4;  ///< of primal and dual residual, relative [-]
-    int most = 3000;          ///< iterations
-  };
-  /// Where the iteration stands; another lambda goes on from here.
-  struct State {
-    std::vector<Vector3> z, u;
-    double rho = 0.0;
+    double tolerance = 1e-4;  ///< distance from the optimum over that from the data [-]
+    int most = 300;           ///< Newton steps
   };
   struct Fit {
     std::vector<Vector3> values;
@@ -42,10 +33,7 @@ class Trend {
   /// From this lambda up the answer is the straight line of regression: max |(D D')^-1 D y|.
   double straight_from(const std::vector<Vector3>& y) const;
 
-  Fit fit(const std::vector<Vector3>& y,
-          double lambda,
-          const Settings& settings,
-          State& state) const;
+  Fit fit(const std::vector<Vector3>& y, double lambda, const Settings& settings) const;
 
   /// Least squares with the kinks given, not pulled towards the straight line. O(n).
   std::vector<Vector3> refitted(const std::vector<Vector3>& y,

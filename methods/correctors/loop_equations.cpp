@@ -1,0 +1,122 @@
+#include "methods/correctors/loop_equations.hpp"
+
+#include <stdexcept>
+
+namespace loopbench {
+namespace {
+
+/// The six entries of closure k.
+template <class Vector>
+auto of_loop(Vector& all, std::size_t k) {
+  return all.template segment<6>(static_cast<Eigen::Index>(6 * k));
+}
+
+}  // namespace
+
+LoopEquations loop_equations(LoopJacobian jacobian,
+                             const LoopSums& sums,
+                             const ChainBelief& belief) {
+  Eigen::MatrixXd matrix =
+      through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                      return jacobian.edge[i] * belief.covariance[i] * jacobian.edge[i].transpose();
+                    }));
+  for (std::size_t k = 0; k < sums.loops(); ++k) {
+    const auto row = static_cast<Eigen::Index>(6 * k);
+    matrix.block<6, 6>(row, row) += belief.closure_covariance[k];
+  }
+  LoopEquations out;
+  for (const ChainBelief::Drift& drift : belief.drift) {
+    out.shapes.push_back(
+        through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                             return jacobian.edge[i] * drift.shape[i].asDiagonal();
+                           })));
+    const Eigen::MatrixXd weighted = out.shapes.back() * drift.variance.asDiagonal();
+    matrix.triangularView<Eigen::Lower>() += weighted * out.shapes.back().transpose();
+  }
+  out.factor.compute(matrix);
+  if (out.factor.info() != Eigen::Success) {
+    throw std::runtime_error("the loop equations are not positive definite");
+  }
+  out.jacobian = std::move(jacobian);
+  return out;
+}
+
+Corrections least_cost(const LoopEquations& equations,
+                       const Eigen::VectorXd& gap,
+                       const std::vector<Edge>& closures,
+                       const ChainBelief& belief) {
+  const Eigen::VectorXd lambda = equations.factor.solve(gap);
+  Corrections out;
+  for (std::size_t j = 0; j < belief.drift.size(); ++j) {
+    out.drift.push_back(
+        -belief.drift[j].variance.cwiseProduct(Twist(equations.shapes[j].transpose() * lambda)));
+  }
+  const std::vector<Twist> pull = loop_pull(equations.jacobian, closures, lambda);
+  out.errors.resize(equations.jacobian.edge.size());
+  Twist sum = Twist::Zero();
+  for (std::size_t i = 0; i < out.errors.size(); ++i) {
+    sum += pull[i];
+    out.errors[i] = -belief.covariance[i] * (equations.jacobian.edge[i].transpose() * sum);
+    for (std::size_t j = 0; j < out.drift.size(); ++j) {
+      out.errors[i] += belief.drift[j].shape[i].cwiseProduct(out.drift[j]);
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXd along_loops(const LoopJacobian& jacobian,
+                            const LoopSums& sums,
+                            const std::vector<Twist>& errors) {
+  std::vector<Twist> running;
+  running.reserve(sums.cuts().size());
+  Twist total = Twist::Zero();
+  std::size_t i = 0;
+  for (const std::size_t cut : sums.cuts()) {
+    for (; i < cut; ++i) total += jacobian.edge[i] * errors[i];
+    running.push_back(total);
+  }
+  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * sums.loops()));
+  for (std::size_t k = 0; k < sums.loops(); ++k) {
+    of_loop(out, k) = jacobian.loop[k] * sums.over(running, k);
+  }
+  return out;
+}
+
+std::vector<Twist> loop_pull(const LoopJacobian& jacobian,
+                             const std::vector<Edge>& closures,
+                             const Eigen::VectorXd& lambda) {
+  std::vector<Twist> out(jacobian.edge.size() + 1, Twist::Zero());
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    const Twist pull = jacobian.loop[k].transpose() * of_loop(lambda, k);
+    out[closures[k].from] += pull;
+    out[closures[k].to] -= pull;
+  }
+  return out;
+}
+
+Eigen::MatrixXd through_loops(const LoopJacobian& jacobian,
+                              const LoopSums& sums,
+                              const std::vector<Matrix6>& running) {
+  const auto size = static_cast<Eigen::Index>(6 * sums.loops());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t k = 0; k < sums.loops(); ++k) {
+    for (std::size_t l = 0; l <= k; ++l) {
+      if (!sums.overlap(k, l)) continue;
+      out.block<6, 6>(static_cast<Eigen::Index>(6 * k), static_cast<Eigen::Index>(6 * l)) =
+          jacobian.loop[k] * sums.over_both(running, k, l) * jacobian.loop[l].transpose();
+    }
+  }
+  return out;
+}
+
+Eigen::MatrixXd through_loops_once(const LoopJacobian& jacobian,
+                                   const LoopSums& sums,
+                                   const std::vector<Matrix6>& running) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(6 * sums.loops()), 6);
+  for (std::size_t k = 0; k < sums.loops(); ++k) {
+    out.middleRows<6>(static_cast<Eigen::Index>(6 * k)) = jacobian.loop[k] * sums.over(running, k);
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,162 @@
+#include "methods/correctors/loop_newton.hpp"
+
+namespace loopbench {
+namespace {
+
+using Twists = std::vector<Twist>;  // of the edges, then of the drift
+
+double inner_product(const Twists& a, const Twists& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+/// B(q) y: the c with x' c = q' [x, y] for every x.
+Twist bracket(const Twist& q, const Twist& y) {
+  const Vector3 force = q.head<3>(), moment = q.tail<3>();
+  const Vector3 rho = y.head<3>(), phi = y.tail<3>();
+  return twist(phi.cross(force), rho.cross(force) + phi.cross(moment));
+}
+
+class NewtonSystem {
+ public:
+  NewtonSystem(const LoopEquations& equations,
+               const LoopSums& sums,
+               const std::vector<Edge>& closures,
+               const ChainBelief& belief)
+      : jacobian_(equations.jacobian),
+        equations_(equations),
+        sums_(sums),
+        closures_(closures),
+        belief_(belief),
+        edges_(jacobian_.edge.size()) {
+    const Eigen::VectorXd lambda = equations.factor.solve(jacobian_.gap);
+    for (std::size_t k = 0; k < closures.size(); ++k) {
+      wrench_of_.push_back(jacobian_.loop[k].transpose() *
+                           lambda.segment<6>(static_cast<Eigen::Index>(6 * k)));
+    }
+    wrench_ = loop_pull(jacobian_, closures, lambda);
+    for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
+  }
+
+  /// M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v, with drift's shapes and variances as columns.
+  Twists preconditioned(const Twists& v) const {
+    Twists out(v.size());
+    for (std::size_t i = 0; i < edges_; ++i) out[i] = belief_.covariance[i] * v[i];
+    Eigen::VectorXd gap = along_loops(jacobian_, sums_, out);
+    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
+      out[edges_ + j] = belief_.drift[j].variance.cwiseProduct(v[edges_ + j]);
+      gap += equations_.shapes[j] * out[edges_ + j];
+    }
+    const Eigen::VectorXd lambda = equations_.factor.solve(gap);
+    const Twists pull = loop_pull(jacobian_, closures_, lambda);
+    Twist sum = Twist::Zero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      sum += pull[i];
+      out[i] -= belief_.covariance[i] * (jacobian_.edge[i].transpose() * sum);
+    }
+    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
+      out[edges_ + j] -=
+          belief_.drift[j].variance.cwiseProduct(Twist(equations_.shapes[j].transpose() * lambda));
+    }
+    return out;
+  }
+
+  /// N v. Of the edges j in a loop, those behind edge i count +x_j, those before it -x_j.
+  Twists curved(const Twists& v) const {
+    const Twists errors = errors_of(v);
+    Twists before(edges_ + 1);  // sum of x_j, j < i
+    before[0].setZero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      before[i + 1] = before[i] + jacobian_.edge[i] * errors[i];
+    }
+    Twists change(edges_ + 1, Twist::Zero());  // where loops begin and end
+    for (std::size_t k = 0; k < closures_.size(); ++k) {
+      const Edge& loop = closures_[k];
+      const Twist ends = bracket(wrench_of_[k], before[loop.to] + before[loop.from]);
+      change[loop.from] += ends;
+      change[loop.to] -= ends;
+    }
+    Twists out(v.size(), Twist::Zero());
+    Twist sum = Twist::Zero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      sum += change[i];
+      out[i] = 0.5 * (jacobian_.edge[i].transpose() *
+                      (sum - bracket(wrench_[i], before[i + 1] + before[i])));
+      for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
+        out[edges_ + j] += belief_.drift[j].shape[i].cwiseProduct(out[i]);
+      }
+    }
+    return out;
+  }
+
+  /// Noise and what drift adds to it.
+  Twists errors_of(const Twists& v) const {
+    Twists out(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(edges_));
+    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
+      for (std::size_t i = 0; i < edges_; ++i) {
+        out[i] += belief_.drift[j].shape[i].cwiseProduct(v[edges_ + j]);
+      }
+    }
+    return out;
+  }
+
+ private:
+  const LoopJacobian& jacobian_;
+  const LoopEquations& equations_;
+  const LoopSums& sums_;
+  const std::vector<Edge>& closures_;
+  const ChainBelief& belief_;
+  std::size_t edges_;
+  Twists wrench_of_;  ///< of each loop
+  Twists wrench_;     ///< of the loops around each edge
+};
+
+/// Preconditioned conjugate gradients for (M + N) d = r.
+Twists solved(const NewtonSystem& system, Twists r) {
+  constexpr int kMost = 50;
+  constexpr double kForcing = 0.03;  // of the gradient, in the norm of M^-1
+  Twists d(r.size(), Twist::Zero());
+  Twists z = system.preconditioned(r);
+  Twists p = z, Mp = r;  // M z = r: no product with M is ever made
+  double rz = inner_product(r, z);
+  const double enough = kForcing * kForcing * rz;
+  for (int k = 0; k < kMost && rz > enough; ++k) {
+    Twists Hp = system.curved(p);
+    for (std::size_t i = 0; i < Hp.size(); ++i) Hp[i] += Mp[i];
+    const double curvature = inner_product(p, Hp);
+    if (!(curvature > 0.0)) return k == 0 ? z : d;
+    const double length = rz / curvature;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      d[i] += length * p[i];
+      r[i] -= length * Hp[i];
+    }
+    z = system.preconditioned(r);
+    const double before = rz;
+    rz = inner_product(r, z);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p[i] = z[i] + rz / before * p[i];
+      Mp[i] = r[i] + rz / before * Mp[i];
+    }
+  }
+  return d;
+}
+
+}  // namespace
+
+Corrections newton_direction(const LoopEquations& equations,
+                             const Corrections& gradient,
+                             const LoopSums& sums,
+                             const std::vector<Edge>& closures,
+                             const ChainBelief& belief) {
+  Twists downhill;
+  downhill.reserve(gradient.errors.size() + gradient.drift.size());
+  for (const Twist& each : gradient.errors) downhill.push_back(-each);
+  for (const Twist& each : gradient.drift) downhill.push_back(-each);
+  const NewtonSystem system(equations, sums, closures, belief);
+  const Twists d = solved(system, std::move(downhill));
+  const auto drift = d.begin() + static_cast<std::ptrdiff_t>(gradient.errors.size());
+  return {system.errors_of(d), Twists(drift, d.end())};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,85 @@
+// What three false closures in ten leave of a trajectory, robust pose graphs behind them: at most a
+// tenth more error than without any.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+
+#include "datasets/pose_graph_dataset.hpp"
+#include "datasets/simulated/simulated.hpp"
+#include "methods/correctors/pose_graph.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Root mean square distance [m] after a rigid fit, stamps being shared.
+double absolute_error(const Trajectory& keyframes, const Trajectory& reference) {
+  std::vector<Vector3> ours, theirs;
+  std::size_t j = 0;
+  for (const StampedPose& k : keyframes) {
+    while (j + 1 < reference.size() && reference[j].stamp < k.stamp - 1e-6) ++j;
+    if (std::abs(reference[j].stamp - k.stamp) > 1e-6) continue;
+    ours.push_back(k.world_from_body.translation);
+    theirs.push_back(reference[j].world_from_body.translation);
+  }
+  using Points = Eigen::Matrix3Xd;
+  const auto count = static_cast<Eigen::Index>(ours.size());
+  const Points a = Eigen::Map<const Points>(ours.front().data(), 3, count);
+  const Points b = Eigen::Map<const Points>(theirs.front().data(), 3, count);
+  const Eigen::Matrix4d fit = Eigen::umeyama(a, b, false);
+  const Points fitted =
+      (fit.topLeftCorner<3, 3>() * a).colwise() + Vector3(fit.topRightCorner<3, 1>());
+  return std::sqrt((fitted - b).squaredNorm() / static_cast<double>(count));
+}
+
+double error_of(const Sequence& sequence, Gnc gnc) {
+  Report report;
+  return absolute_error(PoseGraphOptimizer({.gnc = gnc}).correct(sequence.problem, report),
+                        sequence.reference);
+}
+
+TEST(GncOutliers, ThreeInTenCostAtMostATenthOnSimulatedChains) {
+  for (const SimulatedPath path : {SimulatedPath::driving, SimulatedPath::room}) {
+    double without = 0.0, tls = 0.0, gm = 0.0, plain = 0.0;
+    for (std::int64_t seed = 1; seed <= 3; ++seed) {
+      SimulatedOptions options;
+      options.path = path;
+      options.planar = path == SimulatedPath::driving;
+      options.seed = seed;
+      options.closures.max = 20;
+      without += error_of(load_simulated(options), Gnc::off);
+      options.closures.false_share = 0.3;
+      const Sequence mixed = load_simulated(options);
+      plain += error_of(mixed, Gnc::off);
+      tls += error_of(mixed, Gnc::tls);
+      gm += error_of(mixed, Gnc::gm);
+    }
+    EXPECT_GT(plain, 2.0 * without) << to_text(path);  // the false ones do harm
+    EXPECT_LT(tls, 1.1 * without) << to_text(path);
+    EXPECT_LT(gm, 1.1 * without) << to_text(path);
+  }
+}
+
+TEST(GncOutliers, ThreeInTenCostAtMostATenthOnKitti00) {
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  if (root == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
+  PoseGraphOptions options;
+  options.path = "robust_slam/00/kitti_00_alpha_1.00.g2o";
+  options.true_list = "robust_slam/00/kitti_00_alpha_1.00_GT_LC.txt";
+  options.truth = "kitti/00/gt_poses.txt";
+  options.truth_axes = TruthAxes::kitti_camera;
+  options.keyframes_every = 5;
+  try {
+    const double without = error_of(load_pose_graph(options, {{root}}), Gnc::off);
+    options.false_closures.share = 0.3;
+    const Sequence mixed = load_pose_graph(options, {{root}});
+    EXPECT_GT(error_of(mixed, Gnc::off), 10.0 * without);
+    EXPECT_LT(error_of(mixed, Gnc::tls), 1.1 * without);
+    EXPECT_LT(error_of(mixed, Gnc::gm), 1.1 * without);
+  } catch (const DataMissing& missing) {
+    GTEST_SKIP() << missing.what();
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
