@@ -12,6 +12,7 @@ for preset in "$@"; do
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset"
   ctest --preset "$preset"
+  grep -h '\[  SKIPPED \].*\.[A-Za-z]' "build/$preset/Testing/Temporary/LastTest.log" | sort -u || true
   if [[ $preset == release ]]; then
     # The default comparison against its baseline: numbers that got worse fail here.
     loopbench=build/release/loopbench checked=build/release/check

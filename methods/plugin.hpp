@@ -7,7 +7,7 @@ namespace loopbench {
 
 /// Facts two binaries must agree on before they may hand each other our types.
 struct Abi {
-  int interface = 1;  ///< raise when method.hpp or datasets/core changes shape
+  int interface = 2;  ///< raise when method.hpp or datasets/core changes shape
   long language = __cplusplus;
   int compiler = __GNUC__;
 #ifdef __clang__

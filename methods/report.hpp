@@ -1,4 +1,4 @@
-/// What a method says about its own work: time by phase, counts, remarks.
+/// What a method says about its own work: time by phase, counts, remarks, how it cut up the way.
 #pragma once
 
 #include <chrono>
@@ -18,10 +18,19 @@ struct Count {
   double value = 0.0;
 };
 
+/// A stretch of the way that a method treated as one. Those of one kind may overlap.
+struct Section {
+  std::string kind;    ///< "segment", "window", "spatial window"
+  double begin = 0.0;  ///< stamp [s]
+  double end = 0.0;    ///< stamp [s]
+  std::string what;    ///< what was chosen there, as "cubic"; may be empty
+};
+
 struct Report {
   std::vector<Phase> phases;
   std::vector<Count> counts;
   std::vector<std::string> notes;  ///< a fallback taken, a gap left: one short sentence each
+  std::vector<Section> sections;   ///< in the order of their kind, then of time
 
   void count(std::string name, double value) { counts.push_back({std::move(name), value}); }
 

@@ -6,7 +6,7 @@
 
 #include "datasets/core/curve.hpp"
 #include "datasets/core/pose_matrix.hpp"
-#include "datasets/core/problem.hpp"
+#include "datasets/core/sequence.hpp"
 #include "metrics/protocol.hpp"
 #include "metrics/undefined.hpp"
 
@@ -28,6 +28,8 @@ struct Context {
   Times times = Times::keyframes;         ///< how the pairs were made, with `protocol`
   Protocol protocol;
   const PrintedPoses* printed = nullptr;  ///< what rounded text became `reference` and `estimate`
+  /// What the place recogniser thought, accepted or not; empty where none ran.
+  const std::vector<LoopCandidate>* loop_candidates = nullptr;
 };
 
 /// The view, or Undefined "METRIC: needs WHAT; files have none".

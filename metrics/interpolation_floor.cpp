@@ -11,12 +11,10 @@ namespace loopbench {
 namespace {
 
 /// Keyframes in a row at which the reference is known.
-using Stretch = Trajectory;
-
-std::vector<Stretch> stretches(const Trajectory& reference,
-                               const std::vector<double>& keyframe_stamps,
-                               double max_gap) {
-  std::vector<Stretch> out(1);
+std::vector<Trajectory> stretches(const Trajectory& reference,
+                                  const std::vector<double>& keyframe_stamps,
+                                  double max_gap) {
+  std::vector<Trajectory> out(1);
   std::size_t after = 0;  // first reference pose not before the keyframe
   for (const double stamp : keyframe_stamps) {
     while (after < reference.size() && reference[after].stamp < stamp) ++after;
@@ -42,7 +40,7 @@ struct Floor {
 };
 
 /// Judges one stretch; `next` is the first reference pose that no earlier stretch has passed.
-void judge(Floor& floor, const Stretch& nodes, const Trajectory& reference, std::size_t& next) {
+void judge(Floor& floor, const Trajectory& nodes, const Trajectory& reference, std::size_t& next) {
   if (nodes.size() < 2) return;
   std::vector<Vector3> points;
   for (const StampedPose& node : nodes) points.push_back(node.world_from_body.translation);
@@ -76,7 +74,7 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
 
   Floor floor;
   std::size_t next = 0;
-  for (const Stretch& nodes : stretches(reference, keyframe_stamps, options.max_gap)) {
+  for (const Trajectory& nodes : stretches(reference, keyframe_stamps, options.max_gap)) {
     judge(floor, nodes, reference, next);
   }
   if (!floor.has_between) {

@@ -90,17 +90,19 @@ void add_curve(std::vector<Scored> all, Detection& out) {
 
 }  // namespace
 
-Detection judge_detection(const Sequence& sequence, const DetectionRule& rule) {
-  if (sequence.reference.empty()) throw std::runtime_error("loop detection: needs a reference");
-  const Problem& problem = sequence.problem;
-  const Judge judge(problem, sequence.reference, rule);
+Detection judge_detection(const Problem& problem,
+                          const Trajectory& reference,
+                          const std::vector<LoopCandidate>& candidates,
+                          const DetectionRule& rule) {
+  if (reference.empty()) throw std::runtime_error("loop detection: needs a reference");
+  const Judge judge(problem, reference, rule);
   Detection out;
   for (std::size_t to = 0; to < problem.keyframes.size(); ++to) {
     if (judge.revisit(to)) ++out.revisits;
   }
   std::vector<Scored> scored;
   std::size_t right = 0;
-  for (const LoopCandidate& candidate : sequence.loop_candidates) {
+  for (const LoopCandidate& candidate : candidates) {
     if (!judge.known(candidate.from) || !judge.known(candidate.to)) continue;
     const bool same = judge.same_place(candidate.from, candidate.to);
     scored.push_back({candidate.score, same});
@@ -133,6 +135,37 @@ std::string to_text(const Detection& d) {
       d.average_precision,
       d.full_precision_recall,
       curve);
+}
+
+std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionRule& rule) {
+  const Context& context = evaluation.context;
+  const std::string name = "loop_detection";
+  const auto& candidates = needed(context.loop_candidates, name, "loop candidates");
+  if (candidates.empty()) {
+    throw Undefined(name + ": no loop candidates: only sequences made from images look for them");
+  }
+  const Trajectory& reference = needed(context.reference, name, "a reference");
+  if (reference.empty()) throw Undefined(name + ": no reference to judge against");
+  const Detection d =
+      judge_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
+  if (d.revisits == 0) throw Undefined(name + ": the reference sees no place again");
+  const auto whole = [](const char* what, std::size_t count) {
+    return single(what, "", "1", static_cast<double>(count));
+  };
+  std::vector<Score> out{whole("revisits", d.revisits),
+                         whole("closures", d.accepted),
+                         whole("false_poses", d.wrong_pose),
+                         single("precision", "", "1", d.precision),
+                         single("recall", "", "1", d.recall),
+                         single("average_precision", "", "1", d.average_precision),
+                         single("full_precision_recall", "", "1", d.full_precision_recall)};
+  for (std::size_t k = 0; k < d.precision_at.size(); ++k) {
+    out.push_back(single("precision_at_recall",
+                         fmt::format("{:.1f}", 0.1 * static_cast<double>(k + 1)),
+                         "1",
+                         d.precision_at[k]));
+  }
+  return out;
 }
 
 }  // namespace loopbench

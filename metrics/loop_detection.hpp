@@ -6,6 +6,7 @@
 #include <string>
 
 #include "datasets/core/sequence.hpp"
+#include "metrics/metric.hpp"
 
 namespace loopbench {
 
@@ -17,6 +18,15 @@ struct DetectionRule {
   double wrong_metres = 0.25;   ///< a closure off by more is false [m]
   double wrong_degrees = 10.0;  ///< a closure off by more is false [deg]
 };
+
+template <class Visit>
+void fields(DetectionRule& o, Visit visit) {
+  visit("radius", o.radius, "farthest that two views of a place lie apart [m]", Above{0});
+  visit("angle", o.angle, "most that they look apart [deg]", Between{0, 180});
+  visit("min_gap", o.min_gap, "neighbours in time are no revisits [s]", Between{0});
+  visit("wrong_metres", o.wrong_metres, "a closure off by more is false [m]", Above{0});
+  visit("wrong_degrees", o.wrong_degrees, "a closure off by more is false [deg]", Above{0});
+}
 
 struct Detection {
   std::size_t revisits = 0;    ///< keyframes that see a place again
@@ -34,9 +44,22 @@ struct Detection {
 /// taken from the highest score down, equal scores together; average precision is the sum of
 /// precision times gain in recall, without interpolation. Keyframes outside the reference's time
 /// are left out. Throws std::runtime_error without a reference. O(keyframes^2).
-Detection judge_detection(const Sequence& sequence, const DetectionRule& rule);
+Detection judge_detection(const Problem& problem,
+                          const Trajectory& reference,
+                          const std::vector<LoopCandidate>& candidates,
+                          const DetectionRule& rule);
+
+inline Detection judge_detection(const Sequence& sequence, const DetectionRule& rule) {
+  return judge_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
+}
 
 /// One line of it.
 std::string to_text(const Detection& detection);
+
+/// The same as rows: counts of revisits, closures and false_poses; precision, recall,
+/// average_precision, full_precision_recall; and the curve, precision_at_recall with the recall
+/// (0.1 .. 1.0) as axis. The same for every method: it is the sequence that is judged. Undefined
+/// without a reference, candidates (nothing was looked for, or nothing looked alike) or revisits.
+std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionRule& rule);
 
 }  // namespace loopbench

@@ -14,6 +14,7 @@
 #include "metrics/jerk.hpp"
 #include "metrics/jumps.hpp"
 #include "metrics/local_shape.hpp"
+#include "metrics/loop_detection.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/path_length.hpp"
 #include "metrics/rpe.hpp"
@@ -58,6 +59,10 @@ std::vector<MetricEntry> metrics() {
                                        "what taking all fast error away would gain at most",
                                        smoothing_headroom),
       metric<CoverageOptions>("coverage", "how much of the trajectory was judged", coverage),
+      metric_without_reference<DetectionRule>(
+          "loop_detection",
+          "the place recogniser: precision, recall and their curve",
+          loop_detection),
       metric<DiagnosticsOptions>("diagnostics", "can the numbers be trusted at all", diagnostics),
   };
 }

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-constexpr std::array kNames{"px", "py", "pz", "qw", "qx", "qy", "qz"};
+constexpr std::array kEurocColumns{"px", "py", "pz", "qw", "qx", "qy", "qz"};
 
 /// Whole seconds apart from the rest, because nanoseconds since 1970 do not fit 53 bits.
 double seconds(std::int64_t nanoseconds) {
@@ -24,10 +24,10 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   const std::size_t width = count_columns(file, first);
   out.reserve(file.lines_like(first));
   InOrder order(file, options.repeats);
-  std::array<double, kNames.size()> v;
+  std::array<double, kEurocColumns.size()> v;
   for (Line line; file.next(line);) {
     const std::size_t count = count_columns(file, line);
-    if (count < 1 + kNames.size()) {
+    if (count < 1 + kEurocColumns.size()) {
       throw wrong_columns(
           file, line, Format::euroc, "8 or more: nanoseconds, px py pz, qw qx qy qz");
     }
@@ -39,7 +39,7 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
     }
     Columns columns(file, line);
     const double stamp = seconds(columns.integer("nanoseconds"));
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kNames[i]);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kEurocColumns[i]);
     const Rotation rotation = unit_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
     if (order.accepts(stamp, line.number)) out.push_back({stamp, {rotation, {v[0], v[1], v[2]}}});
   }

@@ -209,7 +209,7 @@ struct Part {
   std::size_t lines = 0;
 };
 
-Part read_part(TextFile& file, TurnInformation turns) {
+Part read_g2o_part(TextFile& file, TurnInformation turns) {
   first_line(file);
   Part part;
   Records& out = part.records;
@@ -251,7 +251,7 @@ Part read_part(TextFile& file, TurnInformation turns) {
 Records read_records(TextFile& file, TurnInformation turns) {
   std::vector<Part> parts = read_in_parts(
       file,
-      [turns](TextFile& part) { return read_part(part, turns); },
+      [turns](TextFile& part) { return read_g2o_part(part, turns); },
       [](const Part& a, const Part& b) { return a.records.kind == b.records.kind; });
   Records out = std::move(parts.front().records);
   std::size_t lines = parts.front().lines;

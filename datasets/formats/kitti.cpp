@@ -13,9 +13,9 @@
 namespace loopbench {
 namespace {
 
-constexpr std::array kNames{
+constexpr std::array kKittiColumns{
     "r11", "r12", "r13", "tx", "r21", "r22", "r23", "ty", "r31", "r32", "r33", "tz"};
-using Row = std::array<double, kNames.size()>;
+using Row = std::array<double, kKittiColumns.size()>;
 
 PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
   constexpr double kTolerance = 1e-3;
@@ -42,7 +42,7 @@ void each_row(TextFile& file, Visit visit) {
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (columns.done())
         throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
-      v[i] = columns.number(kNames[i]);
+      v[i] = columns.number(kKittiColumns[i]);
     }
     if (!columns.done())
       throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
@@ -51,7 +51,7 @@ void each_row(TextFile& file, Visit visit) {
 }
 
 /// Without stamps.
-Trajectory read_part(TextFile& file) {
+Trajectory read_kitti_part(TextFile& file) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
   each_row(file, [&](const PoseMatrix& m) {
@@ -77,8 +77,8 @@ std::vector<double> read_times(const std::filesystem::path& path) {
 }
 
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
-  Trajectory out = joined(
-      read_in_parts(file, read_part, [](const Trajectory&, const Trajectory&) { return true; }));
+  Trajectory out = joined(read_in_parts(
+      file, read_kitti_part, [](const Trajectory&, const Trajectory&) { return true; }));
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].stamp = static_cast<double>(i) * options.period;
   }

@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-constexpr std::array kNames{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+constexpr std::array kTumColumns{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
 InputError wrong_row(const TextFile& file, const Line& line) {
   if (count_columns(file, line) == 4 && !line.unterminated) {
@@ -20,16 +20,16 @@ InputError wrong_row(const TextFile& file, const Line& line) {
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
-Trajectory read_part(TextFile& file, Repeats repeats) {
+Trajectory read_tum_part(TextFile& file, Repeats repeats) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
   InOrder order(file, repeats);
-  std::array<double, kNames.size()> v;
+  std::array<double, kTumColumns.size()> v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (columns.done()) throw wrong_row(file, line);
-      v[i] = columns.number(kNames[i]);
+      v[i] = columns.number(kTumColumns[i]);
     }
     if (!columns.done()) throw wrong_row(file, line);
     const Rotation rotation = unit_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
@@ -43,7 +43,7 @@ Trajectory read_part(TextFile& file, Repeats repeats) {
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
   return joined(read_in_parts(
       file,
-      [&](TextFile& part) { return read_part(part, options.repeats); },
+      [&](TextFile& part) { return read_tum_part(part, options.repeats); },
       [](const Trajectory& a, const Trajectory& b) { return a.back().stamp < b.front().stamp; }));
 }
 

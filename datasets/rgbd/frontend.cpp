@@ -5,9 +5,11 @@
 #include <opencv2/core/utility.hpp>
 
 #include "datasets/rgbd/cpu_clock.hpp"
+#include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/pack_stages.hpp"
 #include "datasets/rgbd/stage_cache.hpp"
+#include "datasets/rgbd/tracking/focal_check.hpp"
 
 namespace loopbench {
 namespace {
@@ -92,6 +94,8 @@ Tracked track(const RgbdSource& source,
   Tracked out = tracker.finish();
   const std::vector<std::string> notes = skipped.notes(source.size());
   out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
+  const FocalCheck focal = check_focal(out.keyframes, camera, options.track);
+  if (auto warning = focal_warning(focal, camera)) out.notes.push_back(std::move(*warning));
   out.skipped = skipped.count();
   return out;
 }
@@ -133,6 +137,20 @@ DetectedLoops find_loops(const Tracked& tracked,
   return cache.get(cache.loops(), unpacked_loops, make, pack);
 }
 
+/// Where loops disagree with odometry by more than both say, both are believed so much less. Never
+/// more: what they have in common (the same features, the same camera) no loop shows.
+void temper(Tracked& tracked, DetectedLoops& loops) {
+  constexpr std::size_t kFewest = 8;
+  const double excess = information_excess(tracked.odometry, loops.closures, kFewest);
+  if (!(excess > 1.0)) return;
+  for (Edge& edge : tracked.odometry) edge.information /= excess;
+  for (Edge& edge : loops.closures) edge.information /= excess;
+  tracked.notes.push_back(
+      fmt::format("loops and odometry disagree by more than their residuals say: information "
+                  "divided by {:.2f}",
+                  excess));
+}
+
 }  // namespace
 
 Sequence run_frontend(const RgbdSource& source,
@@ -165,6 +183,7 @@ Sequence run_frontend(const RgbdSource& source,
         source.size()));
   }
   DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
+  temper(tracked, loops);
 
   Sequence out;
   out.name = name;

@@ -38,7 +38,9 @@ struct FrontendHooks {
 /// Images are read and features found on all cores, a few frames ahead of the tracker; no more
 /// images than that are in memory. Kept are the features of keyframes (60 kB each) and poses.
 /// Frames that cannot be read are skipped and said in the provenance's notes; more than
-/// skipped_max of them, or fewer than two tracked keyframes, throw InputError.
+/// skipped_max of them, or fewer than two tracked keyframes, throw InputError. Noted too: focal
+/// lengths that the images contradict (check_focal), and information divided by
+/// information_excess() where that is above 1.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,

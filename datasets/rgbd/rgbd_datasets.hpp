@@ -32,7 +32,7 @@ struct RgbdOptions {
 
 template <class Visit>
 void fields(RgbdOptions& o, Visit visit) {
-  visit("path", o.path, "folder of the recording: TUM RGB-D or 7-Scenes layout");
+  visit("path", o.path, "folder of the recording: TUM RGB-D, 7-Scenes or ICL-NUIM layout");
   visit("name", o.name, "of the sequence; empty: the folder's");
   visit("licence", o.licence, "of the data");
   fields(o.folder, visit);

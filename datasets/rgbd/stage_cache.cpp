@@ -8,7 +8,7 @@ namespace loopbench {
 namespace {
 
 // Raise with any change of what a stage computes from the same input.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kCacheVersion = 2;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ StageCache::StageCache(const std::filesystem::path& folder,
     : folder_(folder) {
   if (folder.empty()) return;
   const std::uint64_t features =
-      mixed(mixed(source.content(), kVersion), to_text(echo(options.features)));
+      mixed(mixed(source.content(), kCacheVersion), to_text(echo(options.features)));
   const std::uint64_t track = mixed(features, to_text(echo(options.track)));
   frames_ = cached_path(folder, "features", features);
   tracked_ = cached_path(folder, "track", track);

@@ -10,7 +10,6 @@
 namespace loopbench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 8.0;       // of a corner [m]
 constexpr double kCornerSpeed = 4.0;  // [m/s]: 2 m/s^2 sideways
 constexpr double kFromStop = 2.5;     // mean speed of a corner taken from standstill [m/s]
@@ -69,7 +68,7 @@ class Route {
       add(straight, straight / mean, speed, end_speed, 0.0);
       if (red > 0.0) add(0.0, red, 0.0, 0.0, 0.0);
       if (turn != 0) {
-        const double arc = 0.5 * kPi * kRadius;
+        const double arc = 0.5 * std::numbers::pi * kRadius;
         add(arc,
             arc / (red > 0.0 ? kFromStop : kCornerSpeed),
             end_speed,

@@ -7,8 +7,6 @@
 namespace loopbench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// amplitude * sin(cycles * angle + phase)
 struct Wave {
   double amplitude;
@@ -33,7 +31,7 @@ struct HandHeld {
   Waves yaw, pitch, roll;  // [rad], over the angle walked
 
   Pose at(double time) const {
-    const double clock = 2.0 * kPi * time / duration;
+    const double clock = 2.0 * std::numbers::pi * time / duration;
     const double angle = clock + sum(hurry, clock);
     return {heading(angle + facing + sum(yaw, angle), sum(pitch, angle), sum(roll, angle)),
             {sum(x, angle), sum(y, angle), sum(z, angle)}};
@@ -45,27 +43,29 @@ constexpr double kNever = std::numbers::sqrt2 - 1.0;
 
 // Amplitudes were fitted to the keyframe statistics that tests/datasets/simulated_path_test.cpp
 // holds them to.
-constexpr HandHeld kRoom{
-    .duration = 48.9,
-    .facing = 0.0,
-    .hurry = {{{0.075, 2, -0.152}, {0.106, 5, -0.122}}},
-    .x = {{{0.999, 1, kPi / 2}, {0.279, 8, kPi / 2 + 2.309}, {0.02, kNever, 0}}},
-    .y = {{{0.792, 1, 0}, {0.317, 8, -0.957}, {0.02, kNever, 2}}},
-    .z = {{{0.088, 2, 0.5}, {-0.174, 5, 1}, {0.02, kNever, 4}}},
-    .yaw = {{{0.4, 3, 1}, {0.3, 11, 0.3}, {0.03, kNever, 1}}},
-    .pitch = {{{0.2, 4, 2}, {0.25, 13, 1}, {0.02, kNever, 3}}},
-    .roll = {{{0.1, 5, 0}, {0.2, 17, 2}, {0.02, kNever, 5}}}};
+constexpr HandHeld kRoom{.duration = 48.9,
+                         .facing = 0.0,
+                         .hurry = {{{0.075, 2, -0.152}, {0.106, 5, -0.122}}},
+                         .x = {{{0.999, 1, std::numbers::pi / 2},
+                                {0.279, 8, std::numbers::pi / 2 + 2.309},
+                                {0.02, kNever, 0}}},
+                         .y = {{{0.792, 1, 0}, {0.317, 8, -0.957}, {0.02, kNever, 2}}},
+                         .z = {{{0.088, 2, 0.5}, {-0.174, 5, 1}, {0.02, kNever, 4}}},
+                         .yaw = {{{0.4, 3, 1}, {0.3, 11, 0.3}, {0.03, kNever, 1}}},
+                         .pitch = {{{0.2, 4, 2}, {0.25, 13, 1}, {0.02, kNever, 3}}},
+                         .roll = {{{0.1, 5, 0}, {0.2, 17, 2}, {0.02, kNever, 5}}}};
 
-constexpr HandHeld kOffice{
-    .duration = 87.09,
-    .facing = kPi,
-    .hurry = {{{-0.042, 2, 4.547}, {0.033, 5, -3.754}}},
-    .x = {{{2.297, 1, kPi / 2}, {0.431, 7, kPi / 2 + 2.887}, {0.02, kNever, 0}}},
-    .y = {{{2.022, 1, 0}, {0.424, 7, 2.546}, {0.02, kNever, 2}}},
-    .z = {{{0.21, 2, 0.5}, {-0.076, 5, 1}, {0.02, kNever, 4}}},
-    .yaw = {{{0.2, 3, 2}, {0.15, 13, 0.7}, {0.03, kNever, 2}}},
-    .pitch = {{{0.12, 4, 1}, {0.13, 16, 2}, {0.02, kNever, 4}}},
-    .roll = {{{0.06, 5, 1}, {0.09, 21, 0}, {0.02, kNever, 0}}}};
+constexpr HandHeld kOffice{.duration = 87.09,
+                           .facing = std::numbers::pi,
+                           .hurry = {{{-0.042, 2, 4.547}, {0.033, 5, -3.754}}},
+                           .x = {{{2.297, 1, std::numbers::pi / 2},
+                                  {0.431, 7, std::numbers::pi / 2 + 2.887},
+                                  {0.02, kNever, 0}}},
+                           .y = {{{2.022, 1, 0}, {0.424, 7, 2.546}, {0.02, kNever, 2}}},
+                           .z = {{{0.21, 2, 0.5}, {-0.076, 5, 1}, {0.02, kNever, 4}}},
+                           .yaw = {{{0.2, 3, 2}, {0.15, 13, 0.7}, {0.03, kNever, 2}}},
+                           .pitch = {{{0.12, 4, 1}, {0.13, 16, 2}, {0.02, kNever, 4}}},
+                           .roll = {{{0.06, 5, 1}, {0.09, 21, 0}, {0.02, kNever, 0}}}};
 
 Path path(const HandHeld& walk, std::int64_t keyframes) {
   return {walk.duration, keyframes, 30.0, 0.3, [&walk](double time) { return walk.at(time); }};

@@ -9,31 +9,20 @@
 #include "datasets/simulated/closures.hpp"
 #include "datasets/simulated/odometry.hpp"
 #include "datasets/simulated/path.hpp"
+#include "datasets/simulated/sampled.hpp"
 
 namespace loopbench {
 namespace {
 
-constexpr double kMostPoses = 1e8;  // 6.4 GB: more is a slip of the pen
+/// The reference is sampled so much finer than the frames, unless told otherwise. A power of two,
+/// so k / frame_rate and 4 k / (4 frame_rate) are the same bits and every frame has a reference
+/// pose.
+constexpr std::size_t kFiner = 4;
 
-Pose flattened(const Pose& pose) {
-  const Vector3 ahead = pose.rotation * Vector3::UnitX();
-  return {heading(std::atan2(ahead.y(), ahead.x()), 0.0, 0.0),
-          {pose.translation.x(), pose.translation.y(), 0.0}};
-}
-
-/// Poses at k / rate from 0 to `seconds`.
-Trajectory sampled(const Path& path, double rate, double seconds, bool planar) {
-  // A tail of rounding must not cost the last pose.
-  const double steps = std::floor(seconds * rate * (1.0 + 1e-12));
-  if (steps >= kMostPoses) {
-    throw OptionError("laps", fmt::format("laps: {} s at {} Hz are too many poses", seconds, rate));
-  }
-  Trajectory out(static_cast<std::size_t>(steps) + 1);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const double stamp = static_cast<double>(k) / rate;
-    const Pose pose = path.at(stamp);
-    out[k] = {stamp, planar ? flattened(pose) : pose};
-  }
+Trajectory every_finer_one(const Trajectory& reference) {
+  Trajectory out;
+  out.reserve(reference.size() / kFiner + 1);
+  for (std::size_t i = 0; i < reference.size(); i += kFiner) out.push_back(reference[i]);
   return out;
 }
 
@@ -76,14 +65,15 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   const Path path = path_of(options.path);
   const double seconds = path.duration * static_cast<double>(options.laps);
   const double frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
-  // Four is a power of two, so k / frame_rate and 4 k / (4 frame_rate) are the same bits and every
-  // frame has a reference pose of its own.
+  const bool finer = options.reference_rate == 0.0;
   const double reference_rate =
-      options.reference_rate > 0.0 ? options.reference_rate : 4.0 * frame_rate;
+      finer ? static_cast<double>(kFiner) * frame_rate : options.reference_rate;
   const std::int64_t wanted =
       options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps;
 
-  const Trajectory truth = sampled(path, frame_rate, seconds, options.planar);
+  Trajectory reference = sampled(options.path, reference_rate, seconds, options.planar);
+  const Trajectory truth = finer ? every_finer_one(reference)
+                                 : sampled(options.path, frame_rate, seconds, options.planar);
   const std::vector<std::size_t> keyframes = chosen(static_cast<std::size_t>(wanted), truth.size());
   Odometry odometry = measure_odometry(truth, keyframes, options);
   shake(odometry.frames, options);
@@ -99,7 +89,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.problem.closures = measure_closures(at(keyframes, truth), same, options);
   out.problem.frames = std::move(odometry.frames);
   out.problem.planar = options.planar;
-  out.reference = sampled(path, reference_rate, seconds, options.planar);
+  out.reference = std::move(reference);
   out.provenance.sensor = "simulated";
   out.provenance.closures = out.problem.closures.empty() ? "none" : "simulated";
   out.provenance.licence = "none needed";

@@ -10,8 +10,8 @@
 namespace loopbench {
 namespace {
 
-/// Double-quoted, as YAML reads it back.
-std::string quoted(const std::string& text) {
+/// Double-yaml_quoted, as YAML reads it back.
+std::string yaml_quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -22,7 +22,7 @@ std::string quoted(const std::string& text) {
 
 std::string list(const std::vector<std::string>& names) {
   std::vector<std::string> out;
-  for (const std::string& name : names) out.push_back(quoted(name));
+  for (const std::string& name : names) out.push_back(yaml_quoted(name));
   return fmt::format("[{}]", fmt::join(out, ", "));
 }
 
@@ -80,7 +80,7 @@ std::string calibration_yaml(const Calibration& c) {
     out += c.rungs[r].method + ":\n";
     const auto options = options_of(c.rungs[r]);
     for (std::size_t j = 0; j < options.size(); ++j) {
-      const Interval& interval = c.intervals[r][j];
+      const RateInterval& interval = c.intervals[r][j];
       out += fmt::format("  {}: {:.6g}  # 90 %: {:.2g} .. {:.2g}\n",
                          options[j].first,
                          options[j].second,

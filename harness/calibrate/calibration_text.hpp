@@ -14,7 +14,7 @@ struct Calibration {
   std::vector<std::string> not_trained_on;  ///< the config's other datasets
   std::size_t every = 1;                    ///< keyframe edges taken as one
   std::vector<Rung> rungs;
-  std::vector<std::vector<Interval>> intervals;  ///< by rung, as options_of()
+  std::vector<std::vector<RateInterval>> intervals;  ///< by rung, as options_of()
   /// Root mean square errors at several stretches: where it grows like the stretch and not like
   /// its root, drift is steady.
   struct Stretch {

@@ -86,11 +86,11 @@ std::vector<std::pair<std::string, double>> options_of(const Rung& rung) {
   return out;
 }
 
-std::vector<Interval> bootstrap(const Rung& rung,
-                                const std::vector<Residuals>& sequences,
-                                std::size_t segment,
-                                int draws,
-                                std::uint64_t seed) {
+std::vector<RateInterval> bootstrap(const Rung& rung,
+                                    const std::vector<Residuals>& sequences,
+                                    std::size_t segment,
+                                    int draws,
+                                    std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<std::vector<double>> values;  // by option
   for (int draw = 0; draw < draws; ++draw) {
@@ -104,7 +104,7 @@ std::vector<Interval> bootstrap(const Rung& rung,
     values.resize(options.size());
     for (std::size_t j = 0; j < options.size(); ++j) values[j].push_back(options[j].second);
   }
-  std::vector<Interval> out;
+  std::vector<RateInterval> out;
   for (std::vector<double>& of : values) {
     std::ranges::sort(of);
     const auto at = [&](double share) {

@@ -11,7 +11,7 @@
 
 namespace loopbench {
 
-struct Interval {
+struct RateInterval {
   double low = 0.0;
   double high = 0.0;
 };
@@ -34,11 +34,11 @@ std::vector<std::pair<std::string, double>> options_of(const Rung& rung);
 /// 90 % intervals of options_of(), from `draws` refits to segments of `segment` edges drawn with
 /// replacement within each sequence. The same seed, the same bits. A sequence's drift is one draw
 /// whatever its length, so drift intervals tell of the edges, not of other sequences.
-std::vector<Interval> bootstrap(const Rung& rung,
-                                const std::vector<Residuals>& sequences,
-                                std::size_t segment,
-                                int draws,
-                                std::uint64_t seed);
+std::vector<RateInterval> bootstrap(const Rung& rung,
+                                    const std::vector<Residuals>& sequences,
+                                    std::size_t segment,
+                                    int draws,
+                                    std::uint64_t seed);
 
 /// Root mean square of the errors of one half over all axes. [m], [rad]
 double root_mean_square(Half half, const std::vector<Residuals>& sequences);

@@ -17,13 +17,19 @@ struct CheckArguments {
   std::string junit;
   std::string markdown;
   bool update = false;
+  bool part = false;
+  std::optional<double> time;  ///< relative limit on times to write with an update
 };
 
 /// Limits are a person's decision: an update keeps them.
 int update(const CheckArguments& arguments) {
   Baseline baseline;
   if (std::filesystem::exists(arguments.baseline)) {
-    baseline.limits = read_baseline(arguments.baseline).limits;
+    baseline.limits = read_limits(arguments.baseline);
+  }
+  if (arguments.time) {
+    std::erase_if(baseline.limits, [](const Tolerance& limit) { return limits_time({limit}); });
+    baseline.limits.insert(baseline.limits.begin(), time_limit(*arguments.time));
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
   baseline.made_by = made_by(arguments.store);
@@ -34,11 +40,12 @@ int update(const CheckArguments& arguments) {
 
 int check_store(const CheckArguments& arguments) {
   if (arguments.update) return update(arguments);
+  if (arguments.time) throw InputError("--time: is a limit to write, so it goes with --update");
   const Baseline baseline = read_baseline(arguments.baseline);
   const Snapshot now = snapshot(arguments.store, baseline.limits);
   GateReport report;
   try {
-    report = check(baseline, now);
+    report = check(baseline, now, arguments.part ? GateExtent::part : GateExtent::whole);
   } catch (const InputError& error) {
     throw InputError(arguments.baseline + ": " + error.what());
   }
@@ -64,6 +71,15 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_option("--markdown", arguments->markdown, "Write the report too")->type_name("FILE");
   command->add_flag(
       "--update", arguments->update, "Write the baseline from this store; its limits are kept");
+  command->add_flag("--part",
+                    arguments->part,
+                    "Only a part of the sweep was run: cells not there are not missed");
+  command
+      ->add_option("--time",
+                   arguments->time,
+                   "With --update: gate times too, each may grow by this share (and 1 ms)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SHARE");
   command->footer("Exit codes: 0 passes, 1 regression, 2 unusable input, 3 internal error.");
   command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }

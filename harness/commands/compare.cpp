@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/compare/stored_intervals.hpp"
 #include "harness/export/comparison.hpp"
@@ -15,14 +14,13 @@
 namespace loopbench {
 namespace {
 
-enum class Format { markdown, terminal, latex, csv, json };
-
 struct CompareArguments {
   std::string store;
   std::string metric = "ate";
   std::vector<std::string> where;
   CompareOptions options;
-  Format format = Format::markdown;
+  ExportFormat format = ExportFormat::markdown;
+  std::string out;
 };
 
 /// The scores of one metric, by its label or its short name with axis ("error x").
@@ -43,6 +41,20 @@ void keep_metric(std::vector<Record>& records, const std::string& metric) {
   });
 }
 
+std::string text(const std::vector<Comparison>& comparisons, ExportFormat format) {
+  if (format == ExportFormat::csv) return csv(comparisons);
+  if (format == ExportFormat::json) return json(comparisons);
+  std::string out;
+  for (const Comparison& comparison : comparisons) {
+    const Sheet shown = sheet(comparison);
+    out += out.empty() ? "" : "\n";
+    out += format == ExportFormat::latex      ? latex(shown)
+           : format == ExportFormat::terminal ? terminal(shown)
+                                              : markdown(shown);
+  }
+  return out;
+}
+
 int print_comparison(CompareArguments arguments) {
   std::vector<Record> records = all_records(arguments.store);
   const std::vector<Record> whole = records;
@@ -60,21 +72,11 @@ int print_comparison(CompareArguments arguments) {
   }
   std::vector<Comparison> comparisons = compare(records, arguments.options);
   add_intervals_from_traces(comparisons, whole, arguments.store);
-  if (arguments.format == Format::csv) {
-    fmt::print("{}", csv(comparisons));
-  } else if (arguments.format == Format::json) {
-    fmt::print("{}", json(comparisons));
-  } else {
-    const auto text = arguments.format == Format::latex ? latex
-                      : arguments.format == Format::terminal
-                          ? terminal
-                          : static_cast<std::string (*)(const Sheet&)>(markdown);
-    bool is_first = true;
-    for (const Comparison& comparison : comparisons) {
-      fmt::print("{}{}", is_first ? "" : "\n", text(sheet(comparison)));
-      is_first = false;
-    }
-  }
+  deliver(text(comparisons, arguments.format),
+          arguments.format,
+          "comparisons",
+          arguments.store,
+          arguments.out);
   return kExitOk;
 }
 
@@ -101,13 +103,15 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
       ->transform(CLI::CheckedTransformer(units).description("runs|sequences"));
   command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
-  const std::map<std::string, Format> formats{{"markdown", Format::markdown},
-                                              {"terminal", Format::terminal},
-                                              {"latex", Format::latex},
-                                              {"csv", Format::csv},
-                                              {"json", Format::json}};
+  const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
+                                                    {"terminal", ExportFormat::terminal},
+                                                    {"latex", ExportFormat::latex},
+                                                    {"csv", ExportFormat::csv},
+                                                    {"json", ExportFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
       ->transform(CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json"));
+  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+      ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }
 

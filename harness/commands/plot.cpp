@@ -4,6 +4,8 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/export/origin.hpp"
+#include "harness/export/write_file.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
 #include "harness/suggest.hpp"
@@ -67,6 +69,7 @@ int write_figures(const PlotArguments& arguments) {
     }
   }
   if (written == 0) throw InputError(arguments.store + ": holds no trajectories to draw");
+  write_file(folder / "provenance.json", json(read_origin(arguments.store)));
   return kExitOk;
 }
 

@@ -1,11 +1,10 @@
 #include "harness/profile/profile.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <regex>
 
 #include "harness/commands/commands.hpp"
+#include "harness/commands/deliver.hpp"
 #include "harness/store/read.hpp"
 
 namespace loopbench {
@@ -15,6 +14,7 @@ struct ProfileArguments {
   std::string store;
   std::string only;
   std::string format = "markdown";
+  std::string out;
   Accuracy accuracy;
 };
 
@@ -31,16 +31,20 @@ int print_profile(const ProfileArguments& arguments) {
   });
   if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
   value(Record{}, arguments.accuracy.value);  // refuses a wrong name before anything is printed
-  bool first = true;
+  const bool is_csv = arguments.format == "csv";
+  std::string out;
   for (const Listing& listing :
        {costs(cells),
         reported(cells),
         scaling(cells),
         pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
-    if (!first) fmt::print("\n");
-    first = false;
-    fmt::print("{}", arguments.format == "csv" ? csv(listing) : markdown(listing));
+    out += (out.empty() ? "" : "\n") + (is_csv ? csv(listing) : markdown(listing));
   }
+  deliver(out,
+          is_csv ? ExportFormat::csv : ExportFormat::markdown,
+          "profile",
+          arguments.store,
+          arguments.out);
   return kExitOk;
 }
 
@@ -63,6 +67,8 @@ void add_profile(CLI::App& app, int& exit_code) {
   command->add_option("--format", arguments->format)
       ->check(CLI::IsMember({"markdown", "csv"}))
       ->capture_default_str();
+  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+      ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
 }
 

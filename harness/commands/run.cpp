@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -10,9 +9,12 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/data_root.hpp"
+#include "harness/commands/interruption.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/config/read_sweep.hpp"
+#include "harness/export/origin.hpp"
 #include "harness/export/text.hpp"
+#include "harness/export/where.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/isolate/isolated_sweep.hpp"
 #include "harness/provenance/build.hpp"
@@ -36,10 +38,6 @@ struct RunArguments {
   bool in_process = false;
   bool dry_run = false;
 };
-
-std::atomic<bool> interrupted = false;
-
-void interrupt(int) { interrupted = true; }
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
@@ -72,18 +70,23 @@ std::string protocol_names(const Sweep& sweep) {
 std::string write_tables(const std::filesystem::path& store,
                          const Sweep& sweep,
                          const std::filesystem::path& out) {
-  const std::vector<Record> records = all_records(store);
+  std::vector<Record> records = all_records(store);
+  write_file(out / "rows.csv", csv(records));
+  keep_where(records, sweep.table.where);
   const std::vector<Table> tables = pivot(records, sweep.table);
   const std::string text = markdown(tables) + "\n" + made_by(read_provenance(store)) + "\n";
-  write_file(out / "table.md", text);
+  const Origin origin = read_origin(store);
+  write_file(out / "table.md", text + "\n" + origin_comment(origin));
+  write_file(out / "provenance.json", json(origin));
   write_file(out / "table.csv", csv(tables));
-  write_file(out / "rows.csv", csv(records));
   return text;
 }
 
-std::string read_file(const std::filesystem::path& file) {
+/// The tables as they were printed: without the comment that the file ends with.
+std::string printed_tables(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.substr(0, text.rfind("\n<!-- "));
 }
 
 int run(const RunArguments& arguments, const Source& source) {
@@ -109,10 +112,9 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
+  const std::atomic<bool>& interrupted = catch_interruption();
   if (!missing.empty()) {
     Progress progress(missing.size());
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
     const auto finished = [&](const CellResult& r) {
       store->write(r);
       ++done;
@@ -135,7 +137,8 @@ int run(const RunArguments& arguments, const Source& source) {
   const bool as_it_was =
       resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
       std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
-  const std::string text = as_it_was ? read_file(out / "table.md") : write_tables(file, sweep, out);
+  const std::string text =
+      as_it_was ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
   if (!as_it_was) store->exported();
   store.reset();
   fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",

@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/where.hpp"
@@ -19,6 +18,7 @@ struct TableArguments {
   std::vector<std::string> where;
   double alpha = 0.05;
   TableFormat format = TableFormat::markdown;
+  std::string out;
 };
 
 std::string text(const std::vector<Table>& tables, TableFormat format) {
@@ -34,6 +34,23 @@ std::string text(const std::vector<Table>& tables, TableFormat format) {
   return out;
 }
 
+ExportFormat carrier(TableFormat format) {
+  switch (format) {
+    case TableFormat::terminal:
+      return ExportFormat::terminal;
+    case TableFormat::latex:
+      return ExportFormat::latex;
+    case TableFormat::csv:
+    case TableFormat::rows:
+      return ExportFormat::csv;
+    case TableFormat::json:
+      return ExportFormat::json;
+    case TableFormat::markdown:
+      break;
+  }
+  return ExportFormat::markdown;
+}
+
 int print_table(const TableArguments& arguments) {
   std::vector<Record> records = all_records(arguments.store);
   keep_where(records, arguments.where);
@@ -41,10 +58,11 @@ int print_table(const TableArguments& arguments) {
     throw InputError(arguments.store +
                      (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
   }
-  fmt::print("{}",
-             arguments.format == TableFormat::rows
-                 ? csv(records)
-                 : text(pivot(records, arguments.spec, arguments.alpha), arguments.format));
+  const std::string shown =
+      arguments.format == TableFormat::rows
+          ? csv(records)
+          : text(pivot(records, arguments.spec, arguments.alpha), arguments.format);
+  deliver(shown, carrier(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
 
@@ -84,6 +102,8 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_option("--format", arguments->format, "How to print; rows is the long table")
       ->transform(
           CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json|rows"));
+  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+      ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/data_root.hpp"
+#include "harness/commands/interruption.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/run/sequences.hpp"
@@ -21,10 +21,6 @@ struct VerifyArguments {
   std::vector<std::filesystem::path> plugins;
 };
 
-std::atomic<bool> interrupted = false;
-
-void interrupt(int) { interrupted = true; }
-
 int run_verify(const VerifyArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   Sweep sweep = read_sweep(arguments.config, known);
@@ -37,8 +33,7 @@ int run_verify(const VerifyArguments& arguments) {
   // The first twice: a method may differ from run to run alone.
   const std::vector<Manner> manners{
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  const std::atomic<bool>& interrupted = catch_interruption();
   std::vector<Difference> found;
   {
     Progress progress(planned.size() * manners.size());

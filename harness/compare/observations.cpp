@@ -1,31 +1,19 @@
 #include "harness/compare/observations.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
+#include "harness/compare/name_order.hpp"
 #include "harness/statistics/average.hpp"
 
 namespace loopbench {
 namespace {
 
-auto kind_of(const Record& r) {
+auto table_kind(const Record& r) {
   return std::tie(r.protocol, r.times, r.metric, r.relation, r.axis);
 }
-using Kind = std::tuple<std::string, std::string, std::string, std::string, std::string>;
-
-/// Numbers names in the order in which they come.
-class Order {
- public:
-  std::size_t index(const std::string& name) {
-    const auto [found, is_new] = index_.emplace(name, names.size());
-    if (is_new) names.push_back(name);
-    return found->second;
-  }
-  std::vector<std::string> names;
-
- private:
-  std::map<std::string, std::size_t> index_;
-};
+using TableKind = std::tuple<std::string, std::string, std::string, std::string, std::string>;
 
 }  // namespace
 
@@ -35,20 +23,20 @@ std::string run_name(const Record& r) {
 
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value_name) {
-  Order methods;
-  Order runs;
+  NameOrder methods;
+  NameOrder runs;
   std::vector<std::string> sequences;
-  std::map<Kind, std::size_t> tables;
+  std::map<TableKind, std::size_t> tables;
   std::vector<Observations> out;
   for (const Record& r : records) {
     methods.index(r.method);
     if (runs.index(run_name(r)) == sequences.size()) sequences.push_back(r.sequence);
-    if (r.metric.empty() || !tables.emplace(kind_of(r), out.size()).second) continue;
+    if (r.metric.empty() || !tables.emplace(table_kind(r), out.size()).second) continue;
     out.emplace_back().kind = r;
   }
   for (Observations& table : out) {
-    table.methods = methods.names;
-    table.runs = runs.names;
+    table.methods = methods.names();
+    table.runs = runs.names();
     table.sequences = sequences;
     table.values.assign(table.methods.size(), {});
     table.status.assign(table.methods.size(), {});
@@ -66,7 +54,7 @@ std::vector<Observations> observations(const std::vector<Record>& records,
   };
   for (const Record& r : records) {
     if (!r.metric.empty()) {
-      put(out[tables.at(kind_of(r))], r);
+      put(out[tables.at(table_kind(r))], r);
     } else {
       for (Observations& table : out) put(table, r);
     }
@@ -75,19 +63,19 @@ std::vector<Observations> observations(const std::vector<Record>& records,
 }
 
 Observations by_sequence(const Observations& by_run) {
-  Order order;
+  NameOrder order;
   for (const std::string& sequence : by_run.sequences) order.index(sequence);
-  Observations out{by_run.kind, by_run.methods, order.names, order.names, {}, {}};
+  Observations out{by_run.kind, by_run.methods, order.names(), order.names(), {}, {}};
   for (std::size_t m = 0; m < by_run.methods.size(); ++m) {
-    std::vector<std::vector<double>> repeats(order.names.size());
-    std::vector<std::string> status(order.names.size());
+    std::vector<std::vector<double>> repeats(order.names().size());
+    std::vector<std::string> status(order.names().size());
     for (std::size_t run = 0; run < by_run.runs.size(); ++run) {
       const std::size_t s = order.index(by_run.sequences[run]);
       if (by_run.values[m][run]) repeats[s].push_back(*by_run.values[m][run]);
       if (!by_run.status[m][run].empty()) status[s] = by_run.status[m][run];
     }
-    std::vector<std::optional<double>>& row = out.values.emplace_back(order.names.size());
-    for (std::size_t s = 0; s < order.names.size(); ++s) {
+    std::vector<std::optional<double>>& row = out.values.emplace_back(order.names().size());
+    for (std::size_t s = 0; s < order.names().size(); ++s) {
       if (!status[s].empty()) continue;
       const bool is_positive = std::ranges::all_of(repeats[s], [](double v) { return v > 0.0; });
       row[s] = is_positive ? geometric_mean(repeats[s]) : mean(repeats[s]);

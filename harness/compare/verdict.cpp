@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined_names(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {
     out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
@@ -15,7 +15,9 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
-std::string p_text(double p) { return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+std::string p_sentence(double p) {
+  return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+}
 
 const MethodVerdict* find(const Comparison& comparison, const std::string& method) {
   const auto found = std::ranges::find(comparison.methods, method, &MethodVerdict::method);
@@ -64,11 +66,11 @@ std::string company(const Comparison& c) {
       if (method.p_best >= c.options.alpha) like.push_back(method.method);
     }
   }
-  std::string out = equal.empty() ? "" : "; the same on every run: " + joined(equal);
+  std::string out = equal.empty() ? "" : "; the same on every run: " + joined_names(equal);
   if (others.empty()) return out;
   if (like.empty()) return out + "; different from all others";
   if (like.size() == others.size()) return out + "; no other method is proven different from it";
-  return out + "; not proven different from " + joined(like);
+  return out + "; not proven different from " + joined_names(like);
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ std::string verdict(const Comparison& c) {
         c.methods.size() - 1,
         c.least_p_holm);
   } else {
-    out += p_text(best.p) + (best.p < c.options.alpha ? "" : ", not significant");
+    out += p_sentence(best.p) + (best.p < c.options.alpha ? "" : ", not significant");
   }
   return out + company(c);
 }
@@ -120,7 +122,7 @@ std::vector<std::string> remarks(const Comparison& c) {
             : fmt::format("{} is not ranked, it has no value: {}", gap.method, gap.why));
   }
   if (!c.oracles.empty()) {
-    out.push_back("not ranked, shown the reference: " + joined(c.oracles));
+    out.push_back("not ranked, shown the reference: " + joined_names(c.oracles));
   }
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
@@ -139,7 +141,7 @@ std::vector<std::string> remarks(const Comparison& c) {
   out.push_back(fmt::format(
       "ranks: Friedman {}; groups share a letter when ranks lie within Nemenyi's critical "
       "difference {:.2f}",
-      p_text(c.friedman_p),
+      p_sentence(c.friedman_p),
       c.critical_difference));
   if (c.least_p_holm >= c.options.alpha) {
     out.push_back(fmt::format(

@@ -8,6 +8,7 @@
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
+#include "harness/export/where.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -32,9 +33,9 @@ const std::vector<std::string> kKeys{"description",
 constexpr int kRunsWhenAlone = 5;
 
 /// Reads one config; knows the file for its messages.
-class Reader {
+class SweepReader {
  public:
-  Reader(std::string file, const Catalogue& catalogue)
+  SweepReader(std::string file, const Catalogue& catalogue)
       : file_(std::move(file)), catalogue_(catalogue) {}
 
   Sweep read(const YamlNode& root) const {
@@ -226,13 +227,21 @@ class Reader {
   }
 
   TableSpec table(const YamlNode& node) const {
-    only_keys(node, {"rows", "columns", "split", "value", "show"});
+    only_keys(node, {"rows", "columns", "split", "value", "show", "where"});
     TableSpec out;
     if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
     if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
     if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
     if (const YamlNode* show = node.find("show")) out.show = words(*show, "show");
     if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
+    if (const YamlNode* rules = node.find("where")) {
+      out.where = words(*rules, "where");
+      try {
+        where(out.where);
+      } catch (const InputError& error) {
+        throw input_error(file_, rules->line, error.what());
+      }
+    }
     return out;
   }
 
@@ -261,7 +270,7 @@ class Reader {
 Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
                   const Catalogue& catalogue) {
-  Sweep sweep = Reader(file.string(), catalogue).read(parse_yaml(text, file.string()));
+  Sweep sweep = SweepReader(file.string(), catalogue).read(parse_yaml(text, file.string()));
   sweep.name = file.stem().string();
   sweep.config = file;
   sweep.text = text;

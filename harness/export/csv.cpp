@@ -41,7 +41,8 @@ std::string csv(const std::vector<Table>& tables) {
 
 std::string csv(const std::vector<Record>& records) {
   std::string out =
-      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,times,metric,"
+      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
+      "times,metric,"
       "relation,axis,unit,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {

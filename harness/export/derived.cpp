@@ -10,7 +10,7 @@ namespace {
 auto place(const Record& r) {
   return std::tie(r.sequence, r.repeat, r.protocol, r.times, r.metric, r.axis);
 }
-using Place =
+using RowPlace =
     std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
 
 bool is_gain_source(const Record& r) {
@@ -46,7 +46,7 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
 }  // namespace
 
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
-  std::map<Place, const Statistics*> base;
+  std::map<RowPlace, const Statistics*> base;
   for (const Record& r : records) {
     if (is_gain_source(r) && r.method == baseline) base.emplace(place(r), &r.statistics);
   }

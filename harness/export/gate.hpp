@@ -18,6 +18,9 @@ std::string json(const Baseline& baseline);
 Baseline parse_baseline(const std::string& text, const std::string& file);
 Baseline read_baseline(const std::filesystem::path& file);
 
+/// The limits alone, whatever format the rest of the file has.
+std::vector<Tolerance> read_limits(const std::filesystem::path& file);
+
 /// A verdict and a table of findings.
 std::string markdown(const GateReport& report, const std::string& sweep);
 

@@ -13,7 +13,7 @@ namespace loopbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 /// The question of a score, without its answer.
 Json question(const GateScore& s) {
@@ -66,24 +66,22 @@ Json written(const Tolerance& limit) {
 }
 
 /// Walks a baseline; every complaint names the place.
-class Reader {
+class BaselineReader {
  public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
+  explicit BaselineReader(std::string file) : file_(std::move(file)) {}
 
   Baseline read(const Json& root) {
     const Json& format = member(root, "loopbench_baseline", "");
     if (format != kFormat) {
-      refuse("loopbench_baseline", fmt::format("is {}, expected {}", format.dump(), kFormat));
+      refuse("loopbench_baseline",
+             fmt::format("is {}, expected {}; --update writes it anew", format.dump(), kFormat));
     }
     Baseline out;
     out.snapshot.sweep = text(root, "sweep", "");
     out.made_by = texts(root, "made_by");
     out.snapshot.sequences = texts(root, "sequences");
     out.snapshot.protocols = texts(root, "protocols");
-    out.limits.clear();
-    each(root, "limits", [&](const Json& entry, const std::string& at) {
-      out.limits.push_back(limit(entry, at));
-    });
+    out.limits = limits(root);
     each(root, "scores", [&](const Json& entry, const std::string& at) {
       questions_.push_back({text(entry, "protocol", at),
                             text(entry, "times", at),
@@ -97,6 +95,14 @@ class Reader {
     });
     each(root, "cells", [&](const Json& entry, const std::string& at) {
       out.snapshot.cells.push_back(cell(entry, at, out.limits));
+    });
+    return out;
+  }
+
+  std::vector<Tolerance> limits(const Json& root) const {
+    std::vector<Tolerance> out;
+    each(root, "limits", [&](const Json& entry, const std::string& at) {
+      out.push_back(limit(entry, at));
     });
     return out;
   }
@@ -249,9 +255,11 @@ std::string json(const Baseline& baseline) {
   return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
 }
 
-Baseline parse_baseline(const std::string& text, const std::string& file) {
+namespace {
+
+Json parsed(const std::string& text, const std::string& file) {
   try {
-    return Reader(file).read(Json::parse(text));
+    return Json::parse(text);
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
@@ -264,12 +272,26 @@ Baseline parse_baseline(const std::string& text, const std::string& file) {
   }
 }
 
-Baseline read_baseline(const std::filesystem::path& file) {
+std::string baseline_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file)) {
     throw InputError(file.string() + ": cannot be read, expected a baseline (--update writes one)");
   }
-  return parse_baseline({std::istreambuf_iterator<char>(in), {}}, file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+Baseline parse_baseline(const std::string& text, const std::string& file) {
+  return BaselineReader(file).read(parsed(text, file));
+}
+
+Baseline read_baseline(const std::filesystem::path& file) {
+  return parse_baseline(baseline_text(file), file.string());
+}
+
+std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
+  return BaselineReader(file.string()).limits(parsed(baseline_text(file), file.string()));
 }
 
 }  // namespace loopbench

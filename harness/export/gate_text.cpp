@@ -11,7 +11,7 @@ const char* name(Finding::Kind kind) {
   return kind == Finding::Kind::improvement ? "improvement" : "new";
 }
 
-std::string counted(std::size_t count, const std::string& what) {
+std::string counted_findings(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
@@ -44,7 +44,7 @@ std::string test_case(const std::string& sweep,
            finding->what;
   }
   return out + fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
-                           xml(counted(regressions.size(), "regression")),
+                           xml(counted_findings(regressions.size(), "regression")),
                            xml(all));
 }
 
@@ -55,11 +55,11 @@ std::string markdown(const GateReport& report, const std::string& sweep) {
             {"cell", "score", "finding", "what"},
             {},
             {fmt::format("{}, {}, {} in {} and {}",
-                         counted(report.count(Finding::Kind::regression), "regression"),
-                         counted(report.count(Finding::Kind::improvement), "improvement"),
-                         counted(report.count(Finding::Kind::added), "new cell"),
-                         counted(report.cells, "cell"),
-                         counted(report.scores, "score"))}};
+                         counted_findings(report.count(Finding::Kind::regression), "regression"),
+                         counted_findings(report.count(Finding::Kind::improvement), "improvement"),
+                         counted_findings(report.count(Finding::Kind::added), "new cell"),
+                         counted_findings(report.cells, "cell"),
+                         counted_findings(report.scores, "score"))}};
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
   }

@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped_latex(const std::string& text) {
   std::string out;
   for (const char c : one_line(text)) {
     switch (c) {
@@ -41,8 +41,8 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string marked(const SheetEntry& entry) {
-  const std::string text = escaped(entry.text);
+std::string marked_latex(const SheetEntry& entry) {
+  const std::string text = escaped_latex(entry.text);
   if (entry.mark == Mark::best) return "\\textbf{" + text + "}";
   if (entry.mark == Mark::second) return "\\underline{" + text + "}";
   return text;
@@ -54,11 +54,12 @@ std::string latex(const Sheet& sheet) {
   std::string out = sheet.title.empty() ? "" : "% " + one_line(sheet.title) + "\n";
   out += "\\begin{tabular}{l" + std::string(sheet.headings.size() - 1, 'r') + "}\n\\toprule\n";
   for (std::size_t c = 0; c < sheet.headings.size(); ++c) {
-    out += (c == 0 ? "" : " & ") + escaped(sheet.headings[c]);
+    out += (c == 0 ? "" : " & ") + escaped_latex(sheet.headings[c]);
   }
   out += " \\\\\n\\midrule\n";
   for (const auto& line : sheet.lines) {
-    for (std::size_t c = 0; c < line.size(); ++c) out += (c == 0 ? "" : " & ") + marked(line[c]);
+    for (std::size_t c = 0; c < line.size(); ++c)
+      out += (c == 0 ? "" : " & ") + marked_latex(line[c]);
     out += " \\\\\n";
   }
   out += "\\bottomrule\n\\end{tabular}\n";

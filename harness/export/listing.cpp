@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped_cell(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '|') out += '\\';
@@ -23,18 +23,18 @@ std::string escaped(const std::string& text) {
 std::string markdown(const Listing& listing) {
   std::vector<std::size_t> widths;
   for (const std::string& column : listing.columns) {
-    widths.push_back(std::max<std::size_t>(2, escaped(column).size()));  // a dash and a colon
+    widths.push_back(std::max<std::size_t>(2, escaped_cell(column).size()));  // a dash and a colon
   }
   for (const auto& row : listing.rows) {
     for (std::size_t c = 0; c < row.size(); ++c) {
-      widths[c] = std::max(widths[c], escaped(row[c]).size());
+      widths[c] = std::max(widths[c], escaped_cell(row[c]).size());
     }
   }
   const auto line = [&](const std::vector<std::string>& texts) {
     std::string out = "|";
     for (std::size_t c = 0; c < texts.size(); ++c) {
-      out += c == 0 ? fmt::format(" {:<{}} |", escaped(texts[c]), widths[c])
-                    : fmt::format(" {:>{}} |", escaped(texts[c]), widths[c]);
+      out += c == 0 ? fmt::format(" {:<{}} |", escaped_cell(texts[c]), widths[c])
+                    : fmt::format(" {:>{}} |", escaped_cell(texts[c]), widths[c]);
     }
     return out + "\n";
   };

@@ -7,7 +7,7 @@ namespace {
 
 /// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
 /// or a sign: names like uniform_position and p < 0.05 stay readable.
-std::string escaped(const std::string& text) {
+std::string escaped_markdown(const std::string& text) {
   const std::string line = one_line(text);
   const auto is_word = [&](std::size_t i) {
     return i < line.size() && std::isalnum(static_cast<unsigned char>(line[i])) != 0;
@@ -31,9 +31,9 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string marked(const SheetEntry& entry) {
+std::string marked_markdown(const SheetEntry& entry) {
   const char* around = entry.mark == Mark::best ? "**" : entry.mark == Mark::second ? "_" : "";
-  return around + escaped(entry.text) + around;
+  return around + escaped_markdown(entry.text) + around;
 }
 
 std::string line_of(const std::vector<std::string>& texts, const std::vector<std::size_t>& wide) {
@@ -47,13 +47,13 @@ std::string line_of(const std::vector<std::string>& texts, const std::vector<std
 
 std::string markdown(const Sheet& sheet) {
   std::vector<std::vector<std::string>> grid(1);
-  for (const std::string& heading : sheet.headings) grid[0].push_back(escaped(heading));
+  for (const std::string& heading : sheet.headings) grid[0].push_back(escaped_markdown(heading));
   for (const auto& line : sheet.lines) {
     grid.emplace_back();
-    for (const SheetEntry& entry : line) grid.back().push_back(marked(entry));
+    for (const SheetEntry& entry : line) grid.back().push_back(marked_markdown(entry));
   }
   const std::vector<std::size_t> wide = widths(grid);
-  std::string out = sheet.title.empty() ? "" : "### " + escaped(sheet.title) + "\n\n";
+  std::string out = sheet.title.empty() ? "" : "### " + escaped_markdown(sheet.title) + "\n\n";
   out += line_of(grid[0], wide);
   std::vector<std::string> rule;
   for (std::size_t c = 0; c < wide.size(); ++c) {
@@ -62,7 +62,7 @@ std::string markdown(const Sheet& sheet) {
   out += line_of(rule, wide);
   for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
   if (!sheet.notes.empty()) out += "\n";
-  for (const std::string& note : sheet.notes) out += "- " + escaped(note) + "\n";
+  for (const std::string& note : sheet.notes) out += "- " + escaped_markdown(note) + "\n";
   return out;
 }
 

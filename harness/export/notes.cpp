@@ -11,7 +11,7 @@ void add_once(std::vector<std::string>& list, const std::string& text) {
   if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
 }
 
-std::string joined(const std::vector<std::string>& list) {
+std::string listed(const std::vector<std::string>& list) {
   std::string out;
   for (const std::string& text : list) out += (out.empty() ? "" : ", ") + text;
   return out;
@@ -42,12 +42,12 @@ std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   Lists<Reason> rows;
   for (const auto& [reason, list] : whats.lists) {
     const auto& [row, status, why] = reason;
-    add_once(rows.of({joined(list), status, why}), row);
+    add_once(rows.of({listed(list), status, why}), row);
   }
   std::vector<std::string> out;
   for (const auto& [reason, list] : rows.lists) {
     const auto& [what, status, why] = reason;
-    const std::string of = list.empty() ? "" : joined(list) + ": ";
+    const std::string of = list.empty() ? "" : listed(list) + ": ";
     out.push_back(of + what + (what.empty() ? "" : " ") + status + ": " + why);
   }
   return out;

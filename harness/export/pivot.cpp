@@ -4,13 +4,16 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/name_order.hpp"
 #include "harness/export/better.hpp"
 #include "harness/export/notes.hpp"
 
 namespace loopbench {
 namespace {
 
-std::string joined(const Record& record, const std::vector<std::string>& names, const char* glue) {
+std::string fields_joined(const Record& record,
+                          const std::vector<std::string>& names,
+                          const char* glue) {
   std::string out;
   for (const std::string& name : names) {
     const std::string text = field(record, name);
@@ -24,33 +27,18 @@ std::string kind(const Record& r) {
   return r.times + " / " + r.metric + " / " + r.relation + " / " + r.axis + " [" + r.unit + "]";
 }
 
-/// Numbers names in the order they first appear.
-class Order {
- public:
-  std::size_t index(const std::string& name) {
-    const auto [found, is_new] = index_.emplace(name, names_.size());
-    if (is_new) names_.push_back(name);
-    return found->second;
-  }
-  const std::vector<std::string>& names() const { return names_; }
-
- private:
-  std::map<std::string, std::size_t> index_;
-  std::vector<std::string> names_;
-};
-
 /// What is compared where the best is marked.
-struct Contest {
+struct CellContest {
   ByRun runs;
   Better better = Better::neither;
 };
 
 struct Builder {
-  Order rows;
-  Order columns;
+  NameOrder rows;
+  NameOrder columns;
   std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
   std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
-  std::map<std::pair<std::size_t, std::size_t>, Contest> contests;
+  std::map<std::pair<std::size_t, std::size_t>, CellContest> contests;
   std::size_t most = 1;                           // records averaged into one cell
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
   std::vector<Missing> missing;
@@ -62,7 +50,7 @@ struct Builder {
 };
 
 void add(Builder& table, const Record& record, const TableSpec& spec) {
-  std::string name = joined(record, spec.rows, ", ");
+  std::string name = fields_joined(record, spec.rows, ", ");
   if (record.oracle) {
     name += " (oracle)";
     table.note("oracle: the method was shown the reference");
@@ -72,7 +60,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   if (record.status != "ok") {
     // Too little coverage is one reason for every metric; an undefined number names itself.
     const bool is_whole = record.metric.empty() || record.status == "incomplete";
-    const std::string what = is_whole ? "" : joined(record, {"metric", "relation"}, " ");
+    const std::string what = is_whole ? "" : fields_joined(record, {"metric", "relation"}, " ");
     table.missing.push_back({name, what, record.status, record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);
@@ -82,7 +70,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     return;
   }
   const std::string unit = record.unit.empty() ? "" : " [" + record.unit + "]";
-  const std::size_t column = table.columns.index(joined(record, spec.columns, " ") + unit);
+  const std::size_t column = table.columns.index(fields_joined(record, spec.columns, " ") + unit);
   TableCell& cell = table.cells[{row, column}];
   const std::string own = kind(record);
   if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
@@ -99,7 +87,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   table.most = std::max(table.most, cell.records);
   const double own_value = value(record, spec.value);
   cell.value = (sum + own_value) / static_cast<double>(cell.records);
-  Contest& contest = table.contests[{row, column}];
+  CellContest& contest = table.contests[{row, column}];
   if (record.oracle) return;  // who was shown the reference does not compete
   contest.runs[record.sequence + "\n" + std::to_string(record.repeat)] = own_value;
   contest.better = better(record);
@@ -187,7 +175,7 @@ TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& rec
 
 std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& given, double alpha) {
   const TableSpec spec = telling_protocols_apart(given, records);
-  Order titles;
+  NameOrder titles;
   std::vector<Builder> builders;
   const auto builder = [&](const std::string& title) -> Builder& {
     const std::size_t index = titles.index(title);
@@ -199,12 +187,12 @@ std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& gi
   };
   for (const Record& record : records) {
     if (!record.metric.empty() && shown(record))
-      add(builder(joined(record, spec.split, ", ")), record, spec);
+      add(builder(fields_joined(record, spec.split, ", ")), record, spec);
   }
   // A cell without any score belongs into every table of its sequence.
   for (const Record& record : records) {
     if (!record.metric.empty()) continue;
-    const std::string own = joined(record, spec.split, ", ");
+    const std::string own = fields_joined(record, spec.split, ", ");
     bool placed = false;
     for (std::size_t t = 0; t < builders.size(); ++t) {
       if (titles.names()[t].starts_with(own)) {

@@ -1,8 +1,19 @@
 #include "harness/gate/baseline.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace loopbench {
+
+Tolerance time_limit(double relative) {
+  return {.where = {"metric=time"}, .relative = relative, .absolute = 1.0, .tie = 0.1};
+}
+
+bool limits_time(const std::vector<Tolerance>& limits) {
+  return std::ranges::any_of(limits, [](const Tolerance& limit) {
+    return std::ranges::count(limit.where, "metric=time") > 0;
+  });
+}
 
 std::string name(const GateCell& cell) {
   const std::string repeat =

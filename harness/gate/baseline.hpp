@@ -24,6 +24,13 @@ struct Tolerance {
   std::optional<double> alpha = 0.01;
 };
 
+/// The limit that makes the gate look at times too: of a cell's median wall time [ms], between runs
+/// on the same CPU, with a test for methods that got slower by a tenth or more.
+Tolerance time_limit(double relative);
+
+/// Whether one of them is about times (its `where` says metric=time): time is not gated otherwise.
+bool limits_time(const std::vector<Tolerance>& limits);
+
 /// One score of one cell: what was asked, and the statistics that some limit is about.
 struct GateScore {
   std::string protocol;
@@ -48,7 +55,7 @@ struct GateCell {
 /// The numbers of one sweep, and what they were made from.
 struct Snapshot {
   std::string sweep;
-  std::map<std::string, std::string> sequences;  ///< label -> options, hashes of files
+  std::map<std::string, std::string> sequences;  ///< label -> all options, hashes of files
   std::map<std::string, std::string> protocols;  ///< label and version -> every rule
   std::vector<GateCell> cells;
 };

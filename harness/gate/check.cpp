@@ -14,6 +14,28 @@
 namespace loopbench {
 namespace {
 
+/// What one of two texts of options, `name: a=1, b=2; file bytes hash`, has and the other has not.
+std::string only_in(const std::string& text, const std::string& other) {
+  const auto parts = [](const std::string& whole) {
+    std::vector<std::string> out{""};
+    for (const char c : whole) {
+      if (c == ',' || c == ';') {
+        out.emplace_back();
+      } else if (c != ' ' || !out.back().empty()) {
+        out.back() += c;
+      }
+    }
+    return out;
+  };
+  const std::vector<std::string> others = parts(other);
+  std::string out;
+  for (const std::string& part : parts(text)) {
+    if (std::ranges::count(others, part) > 0) continue;
+    out += (out.empty() ? "" : ", ") + part;
+  }
+  return out;
+}
+
 void refuse_others(const std::map<std::string, std::string>& baseline,
                    const std::map<std::string, std::string>& now,
                    const std::string& what,
@@ -25,8 +47,9 @@ void refuse_others(const std::map<std::string, std::string>& baseline,
       throw InputError("the baseline has the " + what + " '" + label + "', these results do not");
     }
     if (found->second == text) continue;
-    throw InputError("the baseline is of another " + what + " '" + label + "': it has '" + text +
-                     "', these results have '" + found->second + "'");
+    throw InputError("the baseline is of another " + what + " '" + label + "': it has '" +
+                     only_in(text, found->second) + "', these results have '" +
+                     only_in(found->second, text) + "'");
   }
 }
 
@@ -43,7 +66,8 @@ int status_move(const std::string& before, const std::string& now) {
 
 class Checker {
  public:
-  Checker(const Baseline& baseline, const Snapshot& now) : baseline_(baseline) {
+  Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
+      : baseline_(baseline), extent_(extent) {
     for (const Tolerance& limit : baseline.limits) keeps_.push_back(where(limit.where));
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     for (const GateCell& cell : baseline.snapshot.cells) add(cell);
@@ -83,10 +107,11 @@ class Checker {
   }
 
   void add(const GateCell& before) {
+    const auto found = now_.find(key(before));
+    if (found == now_.end() && extent_ == GateExtent::part) return;
     ++report_.cells;
     report_.names.push_back(name(before));
     seen_.emplace(key(before), true);
-    const auto found = now_.find(key(before));
     if (found == now_.end()) {
       find(Finding::Kind::regression, name(before), "", "vanished");
       return;
@@ -150,6 +175,7 @@ class Checker {
   }
 
   const Baseline& baseline_;
+  GateExtent extent_;
   std::vector<std::function<bool(const Record&)>> keeps_;
   std::map<CellKey, const GateCell*> now_;
   std::map<CellKey, bool> seen_;
@@ -163,10 +189,10 @@ std::size_t GateReport::count(Finding::Kind kind) const {
   return static_cast<std::size_t>(std::ranges::count(findings, kind, &Finding::kind));
 }
 
-GateReport check(const Baseline& baseline, const Snapshot& now) {
+GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
   refuse_others(baseline.snapshot.sequences, now.sequences, "sequence", true);
   refuse_others(baseline.snapshot.protocols, now.protocols, "protocol", false);
-  return Checker(baseline, now).report();
+  return Checker(baseline, now, extent).report();
 }
 
 }  // namespace loopbench

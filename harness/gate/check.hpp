@@ -31,9 +31,14 @@ struct GateReport {
   bool passes() const { return count(Finding::Kind::regression) == 0; }
 };
 
+/// Whether `now` is all of the sweep, or a part of it whose missing cells are not missed.
+enum class GateExtent { whole, part };
+
 /// Throws InputError when the baseline's numbers were made from other inputs or by other rules,
 /// saying which. A sequence that is gone is not another input: its cells vanished. O(n log n) and
 /// a test per method and score.
-GateReport check(const Baseline& baseline, const Snapshot& now);
+GateReport check(const Baseline& baseline,
+                 const Snapshot& now,
+                 GateExtent extent = GateExtent::whole);
 
 }  // namespace loopbench

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "datasets/core/error.hpp"
+#include "harness/export/derived.hpp"
 #include "harness/store/read.hpp"
 
 namespace loopbench {
@@ -37,17 +38,28 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   Snapshot out;
   out.sweep = run.at("sweep");
   out.protocols = protocols(run.at("protocol"));
-  out.cells = gate_cells(read_records(store), limits);
+  std::vector<Record> records = read_records(store);
+  if (limits_time(limits)) {
+    for (Record& time : run_times(records)) records.push_back(std::move(time));
+    const auto made = read_provenance(store);
+    const auto cpu = made.find("cpu");
+    // Times on another machine are not worse or better, they are others.
+    out.protocols["time"] = cpu == made.end() ? "on an unknown CPU" : "on " + cpu->second;
+  }
+  out.cells = gate_cells(records, limits);
   if (out.cells.empty()) throw InputError(store.string() + ": holds no cell, nothing to check");
   const auto inputs = read_inputs(store);
+  const auto options = read_dataset_options(store);
   for (const CellRecord& cell : read_cells(store)) {
     const std::string label = cell.repeat == 0
                                   ? cell.sequence
                                   : cell.sequence + " (repeat " + std::to_string(cell.repeat) + ")";
     if (out.sequences.contains(label)) continue;
     const auto files = inputs.find(label);
-    out.sequences[label] =
-        cell.dataset_options + (files == inputs.end() ? "" : inputs_of(files->second));
+    const auto own = options.find(label);
+    // One that never finished loading has only what the config says of it.
+    out.sequences[label] = (own == options.end() ? cell.dataset_options : own->second) +
+                           (files == inputs.end() ? "" : inputs_of(files->second));
   }
   return out;
 }

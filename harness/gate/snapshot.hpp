@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// The numbers of a store that `limits` are about, with the options of its sequences, the hashes of
+/// The numbers of a store that `limits` are about, with all options of its sequences, the hashes of
 /// the files they were read from, and the rules of its protocols. Throws InputError when it is not
 /// a store or holds no cell.
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits);

@@ -11,6 +11,7 @@
 #include "harness/isolate/cell_queue.hpp"
 #include "harness/isolate/pack_result.hpp"
 #include "harness/isolate/worker_process.hpp"
+#include "harness/run/loading.hpp"
 
 namespace loopbench {
 namespace {
@@ -186,7 +187,7 @@ class IsolatedSweep {
     if (header.kind == Header::Kind::loaded) {
       auto facts = std::make_shared<SequenceFacts>();
       if (!unpacked(body, *facts)) return false;
-      keep(queue_.group_of(header.cell), std::move(facts));
+      keep(header.cell, std::move(facts));
       return true;
     }
     if (header.kind == Header::Kind::result) {
@@ -210,13 +211,16 @@ class IsolatedSweep {
     }
   }
 
-  void keep(std::size_t group, std::shared_ptr<const SequenceFacts> facts) {
-    std::shared_ptr<const SequenceFacts>& kept = facts_[group];
+  void keep(std::size_t cell, std::shared_ptr<const SequenceFacts> facts) {
+    std::shared_ptr<const SequenceFacts>& kept = facts_[queue_.group_of(cell)];
     if (kept &&
         !std::ranges::equal(kept->inputs, facts->inputs, {}, &InputFile::hash, &InputFile::hash)) {
       throw InputError(facts->inputs.front().path + " or a file read with it changed meanwhile");
     }
-    if (!kept) kept = std::move(facts);
+    if (kept) return;
+    // Every worker loads its own, but once is enough for who reads it.
+    tell(context_.sweep.datasets[context_.cells[cell].dataset].label, facts->notes);
+    kept = std::move(facts);
   }
 
   void finish(CellResult& result, std::size_t cell) {

@@ -27,7 +27,9 @@ class LoadedSequences {
   const Entry& load(const Cell& cell);
 
  private:
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< of poses and edges
+  /// Of poses and edges. Repeats follow each other and are not asked for again: memory they give
+  /// back is warm, more of it would have to be fetched from the system page by page.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   const WorkerContext& context_;
   std::list<Entry> entries_;  ///< last used first

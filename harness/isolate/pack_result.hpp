@@ -17,6 +17,12 @@ requires std::same_as<std::remove_const_t<T>, Count>
 void walk(Archive& a, T& count) { a(count.name)(count.value); }
 
 template <class Archive, class T>
+requires std::same_as<std::remove_const_t<T>, Section>
+void walk(Archive& a, T& section) {
+  a(section.kind)(section.begin)(section.end)(section.what);
+}
+
+template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Score>
 void walk(Archive& a, T& score) {
   a(score.relation)(score.axis)(score.unit)(score.statistics)(score.why_undefined);
@@ -35,7 +41,7 @@ void walk(Archive& a, T& file) { a(file.path)(file.bytes)(file.hash); }
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
-  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size);
+  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 
@@ -45,7 +51,7 @@ requires std::same_as<std::remove_const_t<T>, CellResult>
 void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
   a(r.peak_memory)(r.added_memory)(r.allocations);
-  a(r.report.phases)(r.report.counts)(r.report.notes);
+  a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections);
   a(r.scores)(r.trace.times)(r.trace.samples);
 }
 

@@ -2,16 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
 namespace {
 
-/// Single-quoted gnuplot text: a quote is doubled, a line break cannot stand in it.
-std::string quoted(const std::string& text) {
+/// Single-gnuplot_quoted gnuplot text: a quote is doubled, a line break cannot stand in it.
+std::string gnuplot_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
@@ -23,6 +25,24 @@ std::string data_block(const std::string& name, const PlotSeries& series) {
     out += p.allFinite() ? fmt::format("{:.6g} {:.6g} {:.6g}\n", p.x(), p.y(), p.z()) : "\n";
   }
   return out + "EOD\n";
+}
+
+/// Heights of a path in the plane are one number, a range that gnuplot warns about and widens.
+std::string height_range(const PlotPanel& panel) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double across = 0.0;
+  for (const PlotSeries& series : panel.series) {
+    for (const Vector3& p : series.points) {
+      if (!p.allFinite()) continue;
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+      across = std::max({across, std::abs(p.x()), std::abs(p.y())});
+    }
+  }
+  if (!panel.spatial || low > high || high - low > 1e-6 * across) return "set zrange [*:*]\n";
+  const double pad = across > 0.0 ? 0.1 * across : 1.0;
+  return fmt::format("set zrange [{:.6g}:{:.6g}]\n", low - pad, high + pad);
 }
 
 std::string panel_script(const PlotPanel& panel, std::size_t index) {
@@ -37,15 +57,15 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                          name,
                          panel.spatial ? "1:2:3" : "1:2",
                          series.as_points ? "points pt 7 ps 0.5" : "lines lw 1.4",
-                         quoted(series.color),
-                         quoted(series.name));
+                         gnuplot_quoted(series.color),
+                         gnuplot_quoted(series.name));
   }
-  return blocks +
+  return blocks + height_range(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
-                     quoted(panel.title),
-                     quoted(panel.x_label),
-                     quoted(panel.y_label),
-                     quoted(panel.spatial ? panel.z_label : ""),
+                     gnuplot_quoted(panel.title),
+                     gnuplot_quoted(panel.x_label),
+                     gnuplot_quoted(panel.y_label),
+                     gnuplot_quoted(panel.spatial ? panel.z_label : ""),
                      panel.spatial || !panel.same_scale ? "set size noratio" : "set size ratio -1",
                      panel.spatial ? "splot" : "plot",
                      plots);
@@ -74,7 +94,7 @@ void write_figure(const std::filesystem::path& file,
       "'#666666'\n"
       "set multiplot layout {},{}\n",
       terminal(file, 640 * columns, 480 * rows),
-      quoted(file.string()),
+      gnuplot_quoted(file.string()),
       rows,
       columns);
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);

@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostPoints = 800;  // of a curve: a page shows no more
+constexpr std::size_t kMostPlotted = 800;  // of a curve: a page shows no more
 constexpr const char* kReferenceColor = "#9aa1ab";
 constexpr std::array kColors{"#d93025",
                              "#0b6fd3",
@@ -22,7 +22,7 @@ constexpr std::array kColors{"#d93025",
 std::vector<Vector3> positions(const std::vector<TracePose>& poses) {
   std::vector<Vector3> out;
   for (const TracePose& p : poses) out.emplace_back(p.x, p.y, p.z);
-  return thinned(out, kMostPoints);
+  return thinned(out, kMostPlotted);
 }
 
 Vector3 position(const TraceSample& s) { return {s.estimate.x, s.estimate.y, s.estimate.z}; }
@@ -50,7 +50,7 @@ void add_errors(std::vector<PlotPanel>& panels,
       const double value = axis < 3 ? error(s)(static_cast<Eigen::Index>(axis)) : s.error_angle;
       series.points.emplace_back(length[i], value, 0.0);
     }
-    series.points = thinned(series.points, kMostPoints);
+    series.points = thinned(series.points, kMostPlotted);
     panels[axis].series.push_back(std::move(series));
   }
 }
@@ -96,7 +96,7 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
     for (const TraceSample& sample : trace->samples) estimate.push_back(position(sample));
     const std::string color = kColors[m % kColors.size()];
     for (PlotPanel& map : maps) {
-      map.series.push_back({methods[m], color, false, thinned(estimate, kMostPoints)});
+      map.series.push_back({methods[m], color, false, thinned(estimate, kMostPlotted)});
     }
     add_errors(errors, *trace, methods[m], color);
   }

@@ -10,7 +10,7 @@ namespace {
 
 /// All options, defaults included, whole numbers written as real ones where the default is real:
 /// saying a default or writing 1 for 1.0 is no change.
-std::string in_full(const std::vector<OptionInfo>& options, const Params& given) {
+Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   Params out;
   for (const OptionInfo& option : options) out.emplace(option.name, option.value);
   for (const auto& [name, value] : given) {
@@ -19,8 +19,12 @@ std::string in_full(const std::vector<OptionInfo>& options, const Params& given)
     const bool real = place != out.end() && std::holds_alternative<double>(place->second);
     out[name] = real && whole != nullptr ? Param(static_cast<double>(*whole)) : value;
   }
+  return out;
+}
+
+std::string hashed(const Params& params) {
   Fields fields;
-  for (const auto& [name, value] : out) fields.add(name).add(to_text(value));
+  for (const auto& [name, value] : params) fields.add(name).add(to_text(value));
   return fields.hashed();
 }
 
@@ -29,7 +33,7 @@ std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
   for (const Choice& stage : choice.stages) {
     const auto version = catalogue.versions.find(stage.name);
     fields.add(stage.name)
-        .add(in_full(find_method(catalogue, stage.name).options, stage.options))
+        .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
         .add(version == catalogue.versions.end() ? "" : version->second);
   }
   return fields.hashed();
@@ -44,7 +48,8 @@ std::string of_judging(const Sweep& sweep, const Catalogue& catalogue) {
     // The label is in the rows, so it is content here.
     fields.add(metric.label)
         .add(metric.metric.name)
-        .add(in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options));
+        .add(hashed(
+            in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)));
   }
   for (const Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
@@ -70,8 +75,15 @@ const std::string& CellKeys::asked(const Cell& cell) {
   const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
   const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
-  fields.add(choice.dataset.name).add(in_full(entry.options, options));
+  fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
   return place->second = fields.hashed();
+}
+
+std::string CellKeys::dataset_in_full(const Cell& cell) const {
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
+  const Params options = in_full(entry.options, full_options(choice, entry, cell.repeat));
+  return choice.dataset.name + ": " + to_text(options);
 }
 
 std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,

@@ -26,6 +26,9 @@ class CellKeys {
   /// What the config asks of a cell's sequence: a hash of dataset, options and seed.
   const std::string& asked(const Cell& cell);
 
+  /// The same in words: "simulated: closures.angle=30.0, ...", every option, defaults included.
+  std::string dataset_in_full(const Cell& cell) const;
+
   /// `inputs`: the files the sequence was read from; empty when it never finished loading. O(1).
   std::string key(const Cell& cell, const std::vector<InputFile>& inputs);
 

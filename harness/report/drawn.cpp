@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "harness/report/data.hpp"
 #include "harness/report/packed.hpp"
@@ -9,18 +10,20 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostPoints = 400;    // of a cell: beyond that a screen shows no more
+constexpr std::size_t kMostPointsOfACell = 400;  // of a cell: beyond that a screen shows no more
+constexpr std::size_t kGoodPoints = 200;    // enough for a curve: then another repeat says more
 constexpr std::size_t kFewestPoints = 60;   // below it curves turn into polygons
+constexpr std::size_t kLeastPoints = 10;    // below it there is no curve
 constexpr std::size_t kMostClosures = 200;  // of a sequence; more hide the trajectory
 constexpr double kBytesOfAPoint = 14.0;     // four words of 16 bits in base64, and a share of grids
 
 using Column = std::vector<double>;
 
-struct Path {
+struct DrawnPath {
   Column t, x, y, z;
 };
 
-std::string json(const Path& path) {
+std::string json(const DrawnPath& path) {
   return fmt::format("\"t\":{},\"x\":{},\"y\":{},\"z\":{}",
                      packed(path.t),
                      packed(path.x),
@@ -28,8 +31,8 @@ std::string json(const Path& path) {
                      packed(path.z));
 }
 
-std::string sequence_json(const SequenceTrace& trace, std::size_t most) {
-  Path path;
+std::string reference_json(const SequenceTrace& trace, std::size_t most) {
+  DrawnPath path;
   for (const std::size_t i : thinned_places(trace.reference.size(), most)) {
     const TracePose& pose = trace.reference[i];
     path.t.push_back(pose.stamp);
@@ -37,19 +40,22 @@ std::string sequence_json(const SequenceTrace& trace, std::size_t most) {
     path.y.push_back(pose.y);
     path.z.push_back(pose.z);
   }
-  std::string closures;
+  return json(path);
+}
+
+std::string closures_json(const SequenceTrace& trace) {
+  std::string out;
   for (const std::size_t i : thinned_places(trace.closures.size(), kMostClosures)) {
-    closures += fmt::format("{}[{:.7g},{:.7g}]",
-                            closures.empty() ? "" : ",",
-                            trace.closures[i].from_stamp,
-                            trace.closures[i].to_stamp);
+    out += fmt::format("{}[{:.7g},{:.7g}]",
+                       out.empty() ? "" : ",",
+                       trace.closures[i].from_stamp,
+                       trace.closures[i].to_stamp);
   }
-  return fmt::format(
-      "{{{},\"closures\":[{}],\"all_closures\":{}}}", json(path), closures, trace.closures.size());
+  return fmt::format("{{\"closures\":[{}],\"all\":{}}}", out, trace.closures.size());
 }
 
 struct CellErrors {
-  Path reference;  ///< where it was judged
+  DrawnPath reference;  ///< where it was judged
   Column x, y, z, angle;
 };
 
@@ -69,50 +75,105 @@ CellErrors errors(const CellTrace& trace, std::size_t most) {
   return out;
 }
 
-/// Cells of the first repeat of their sequence, by place in `cells`.
-std::vector<std::size_t> first_repeats(const std::vector<CellRecord>& cells) {
-  std::map<std::string, std::int64_t> first;
-  for (const CellRecord& cell : cells) {
-    const auto [found, is_new] = first.emplace(cell.sequence, cell.repeat);
-    if (!is_new) found->second = std::min(found->second, cell.repeat);
-  }
+/// The repeats of each sequence, in order.
+std::map<std::string, std::set<std::int64_t>> repeats_of(const std::vector<CellRecord>& cells) {
+  std::map<std::string, std::set<std::int64_t>> out;
+  for (const CellRecord& cell : cells) out[cell.sequence].insert(cell.repeat);
+  return out;
+}
+
+/// Cells of the first `repeats` repeats of their sequence, by place in `cells`.
+std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::size_t repeats) {
+  const auto known = repeats_of(cells);
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (cells[i].repeat == first.at(cells[i].sequence)) out.push_back(i);
+    const std::set<std::int64_t>& own = known.at(cells[i].sequence);
+    const auto before = std::distance(own.begin(), own.find(cells[i].repeat));
+    if (static_cast<std::size_t>(before) < repeats) out.push_back(i);
   }
   return out;
 }
+
+/// A sequence as it grows: its reference, then the closures of each of its repeats.
+struct DrawnSequence {
+  double origin = 0.0;  ///< [s]
+  std::string reference;
+  std::map<std::int64_t, std::string> runs;
+
+  std::string text() const {
+    std::string all;
+    for (const auto& [repeat, closures] : runs) {
+      all += fmt::format("{}\"{}\":{}", all.empty() ? "" : ",", repeat, closures);
+    }
+    return fmt::format("{{{},\"runs\":{{{}}}}}", reference, all);
+  }
+};
 
 }  // namespace
 
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
   const double share =
       static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(1, cells));
-  return std::clamp(static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPoints);
+  return std::clamp(
+      static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPointsOfACell);
 }
 
-std::string traces_json(const ReportContent& content, std::size_t bytes) {
+Thinning usual_thinning(const ReportContent& content, std::size_t bytes) {
+  std::size_t repeats = 1;
+  for (const auto& [sequence, own] : repeats_of(content.cells)) {
+    repeats = std::max(repeats, own.size());
+  }
+  for (;; --repeats) {
+    const std::size_t points = points_of_a_cell(drawn_cells(content.cells, repeats).size(), bytes);
+    if (repeats == 1 || points >= kGoodPoints) return {points, repeats};
+  }
+}
+
+bool thin(Thinning& thinning, double share) {
+  const bool is_fine = thinning.points > kFewestPoints;
+  if (!is_fine && thinning.repeats > 1) {
+    thinning.repeats = (thinning.repeats + 1) / 2;
+    return true;
+  }
+  const std::size_t least = is_fine ? kFewestPoints : kLeastPoints;
+  if (thinning.points <= least) return false;
+  const auto wanted = static_cast<std::size_t>(share * static_cast<double>(thinning.points));
+  thinning.points = std::max(least, std::min(thinning.points - 1, wanted));
+  return true;
+}
+
+std::string traces_json(const ReportContent& content, const Thinning& thinning) {
   Traces traces(content.store);
-  const std::vector<std::size_t> drawn = first_repeats(content.cells);
-  const std::size_t most = points_of_a_cell(drawn.size(), bytes);
-  std::map<std::string, std::string> sequences;
+  std::map<std::string, DrawnSequence> sequences;
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
   std::string grids;
   std::string cells;
-  for (const std::size_t i : drawn) {
+  for (const std::size_t i : drawn_cells(content.cells, thinning.repeats)) {
     const CellRecord& cell = content.cells[i];
-    if (!sequences.contains(cell.sequence)) {
-      const std::optional<SequenceTrace> trace = traces.sequence(cell.position);
-      if (trace) sequences.emplace(cell.sequence, sequence_json(*trace, most));
+    DrawnSequence* sequence = nullptr;
+    if (const auto known = sequences.find(cell.sequence);
+        known != sequences.end() && known->second.runs.contains(cell.repeat)) {
+      sequence = &known->second;
+    } else if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
+      sequence = &sequences[cell.sequence];
+      sequence->origin = trace->origin.stamp;
+      if (sequence->reference.empty()) {
+        sequence->reference = reference_json(*trace, thinning.points);
+      }
+      sequence->runs.emplace(cell.repeat, closures_json(*trace));
     }
     const std::optional<CellTrace> trace = traces.cell(cell.position);
     if (!trace || trace->samples.empty()) continue;
-    const CellErrors e = errors(*trace, most);
+    const CellErrors e = errors(*trace, thinning.points);
     const auto [grid, is_new] =
         grid_of.emplace(std::pair{cell.sequence, e.reference.t}, grid_of.size());
     if (is_new) grids += (grids.empty() ? "{" : ",\n{") + json(e.reference) + "}";
+    const std::vector<Section> sections = traces.sections(cell.position);
+    const std::string cut = sections.empty() || sequence == nullptr
+                                ? ""
+                                : ",\"cut\":" + cut_json(sections, sequence->origin);
     cells +=
-        fmt::format("{}\"{}\":{{\"g\":{},\"times\":\"{}\",\"x\":{},\"y\":{},\"z\":{},\"a\":{}}}",
+        fmt::format("{}\"{}\":{{\"g\":{},\"times\":\"{}\",\"x\":{},\"y\":{},\"z\":{},\"a\":{}{}}}",
                     cells.empty() ? "" : ",\n",
                     i,
                     grid->second,
@@ -120,15 +181,16 @@ std::string traces_json(const ReportContent& content, std::size_t bytes) {
                     packed(e.x),
                     packed(e.y),
                     packed(e.z),
-                    packed(e.angle));
+                    packed(e.angle),
+                    cut);
   }
   std::string all;
   for (const std::string& name : content.sequences) {
     const auto found = sequences.find(name);
-    all += (all.empty() ? "" : ",\n") + (found == sequences.end() ? "null" : found->second);
+    all += (all.empty() ? "" : ",\n") + (found == sequences.end() ? "null" : found->second.text());
   }
   return fmt::format("{{\"points\":{},\"sequences\":[{}],\"grids\":[{}],\"cells\":{{{}}}}}",
-                     most,
+                     thinning.points,
                      all,
                      grids,
                      cells);

@@ -1,8 +1,12 @@
 #include "harness/report/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "datasets/core/error.hpp"
 #include "harness/export/comparison.hpp"
 #include "harness/report/assets.hpp"
 #include "harness/report/data.hpp"
@@ -12,10 +16,10 @@
 namespace loopbench {
 namespace {
 
-using Values = std::map<std::string, std::string, std::less<>>;
+using Placeholders = std::map<std::string, std::string, std::less<>>;
 
 /// The template with every {{name}} replaced, in one pass: what is put in is not looked at again.
-std::string filled(std::string_view page, const Values& values) {
+std::string filled(std::string_view page, const Placeholders& values) {
   std::string out;
   while (true) {
     const std::size_t open = page.find("{{");
@@ -47,9 +51,11 @@ std::string scripts() {
                            "map",
                            "space",
                            "along",
+                           "cut",
                            "spread",
                            "sweeps",
                            "pareto",
+                           "detection",
                            "tables",
                            "start"}) {
     out += "<script>\n" + asset_text(std::string("page/") + name + ".js") + "</script>\n";
@@ -63,20 +69,31 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
   const std::string scores = "{\"scores\":" + scores_json(content) +
                              ",\"comparisons\":" + json(content.comparisons) + ",\"traces\":";
-  Values values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
-                {"style", asset_text("page/report.css")},
-                {"summary", summary_html(content)},
-                {"verdicts", verdicts_html(content)},
-                {"comparison", comparison_html(content)},
-                {"scores", scores_html(content)},
-                {"failures", failures_html(content)},
-                {"costs", costs_html(content)},
-                {"provenance", provenance_html(content)},
-                {"scripts", scripts()}};
+  Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
+                      {"style", asset_text("page/report.css")},
+                      {"summary", summary_html(content)},
+                      {"verdicts", verdicts_html(content)},
+                      {"comparison", comparison_html(content)},
+                      {"scores", scores_html(content)},
+                      {"failures", failures_html(content)},
+                      {"costs", costs_html(content)},
+                      {"provenance", provenance_html(content)},
+                      {"scripts", scripts()}};
   std::size_t taken = scores.size();
   for (const auto& [name, text] : values) taken += text.size();
-  values["data"] = script_text(scores + traces_json(content, bytes - std::min(bytes, taken)) + "}");
-  return filled(asset_text("page/report.html"), values);
+  Thinning thinning = usual_thinning(content, bytes - std::min(bytes, taken));
+  for (;;) {
+    values["data"] = script_text(scores + traces_json(content, thinning) + "}");
+    std::string html = filled(asset_text("page/report.html"), values);
+    if (html.size() <= bytes) return html;
+    const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));
+    const double room = static_cast<double>(bytes - std::min(bytes, taken));
+    if (thin(thinning, room / std::max(1.0, traces))) continue;
+    throw InputError(fmt::format("{}: the report takes {:.2f} MB at least, --size allows {:.2f}",
+                                 content.store.string(),
+                                 std::ceil(1e-4 * static_cast<double>(html.size())) / 100.0,
+                                 1e-6 * static_cast<double>(bytes)));
+  }
 }
 
 }  // namespace loopbench

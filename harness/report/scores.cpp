@@ -19,10 +19,10 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.5g}", value) : "null";
 }
 
-using Kind =
+using ScoreKind =
     std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
 
-Kind kind_of(const Record& r) {
+ScoreKind score_kind(const Record& r) {
   return {r.protocol, r.times, r.metric, r.relation, r.axis, r.unit};
 }
 
@@ -41,12 +41,12 @@ const char* better_name(const Record& r) {
 }  // namespace
 
 std::string scores_json(const ReportContent& content) {
-  std::map<Kind, std::size_t> place;
+  std::map<ScoreKind, std::size_t> place;
   nlohmann::json kinds = nlohmann::json::array();
   std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
   for (const Record& r : content.records) {
     if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != "ok") continue;
-    const auto [found, is_new] = place.emplace(kind_of(r), kinds.size());
+    const auto [found, is_new] = place.emplace(score_kind(r), kinds.size());
     if (is_new) {
       kinds.push_back({{"label", field(r, "score")},
                        {"protocol", r.protocol},

@@ -17,7 +17,7 @@ std::string fact(std::size_t number, const std::string& what, const std::string&
   return fmt::format("<div class=\"fact {}\"><b>{}</b> {}</div>", kind, number, html_text(what));
 }
 
-std::string counted(std::size_t number, const std::string& one) {
+std::string plural(std::size_t number, const std::string& one) {
   return number == 1 ? one : one + "s";
 }
 
@@ -46,7 +46,7 @@ std::string key_figure(const Comparison& c) {
   }
   out += fmt::format("{} {}",
                      c.observations,
-                     counted(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
+                     plural(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
   return out + (proven ? "" : ", not proven") + "</span></div>";
 }
 
@@ -60,12 +60,12 @@ std::string summary_html(const ReportContent& content) {
     repeats.insert(cell.repeat);
   }
   std::string out = "<div class=\"facts\">" +
-                    fact(content.methods.size(), counted(content.methods.size(), "method")) +
-                    fact(content.sequences.size(), counted(content.sequences.size(), "sequence")) +
-                    fact(repeats.size(), counted(repeats.size(), "repeat"));
+                    fact(content.methods.size(), plural(content.methods.size(), "method")) +
+                    fact(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
+                    fact(repeats.size(), plural(repeats.size(), "repeat"));
   for (const auto& [status, number] : statuses) {
     const bool is_bad = status != "ok" && status != "declined" && status != "incomplete";
-    out += fact(number, counted(number, "cell") + " " + status, is_bad ? "bad" : "");
+    out += fact(number, plural(number, "cell") + " " + status, is_bad ? "bad" : "");
   }
   out += "</div>\n";
   const Comparison* headline = content.headline();

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kRed = "#d62728";
 constexpr const char* kBlue = "#1f4fd6";
 constexpr const char* kGreen = "#2ca02c";
-constexpr std::size_t kMostPoints = 600;  // a curve: beyond that a page only grows
+constexpr std::size_t kMostPointsOfACurve = 600;  // a curve: beyond that a page only grows
 
 struct Span {
   double begin = -std::numeric_limits<double>::infinity();
@@ -40,7 +40,7 @@ std::vector<Vector3> positions(const Trajectory& poses, const Span& span) {
   for (const StampedPose& p : poses) {
     if (p.stamp >= span.begin && p.stamp <= span.end) out.push_back(p.world_from_body.translation);
   }
-  return thinned(out, kMostPoints);
+  return thinned(out, kMostPointsOfACurve);
 }
 
 PlotPanel panel(const PaperCell& ours, const PaperCell& raw, const Span& span, bool spatial) {

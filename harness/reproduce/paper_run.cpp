@@ -8,7 +8,7 @@
 namespace loopbench {
 namespace {
 
-const std::string kBaseline = "ORB_SLAM2";
+const std::string kPaperBaseline = "ORB_SLAM2";
 
 /// "first rest of it" into both.
 std::pair<std::string, std::string> split_label(const std::string& label) {
@@ -21,7 +21,7 @@ PaperCell named(const Sweep& sweep, const Cell& cell) {
   PaperCell out;
   std::tie(out.sequence, out.input) = split_label(sweep.datasets[cell.dataset].label);
   const std::string& method = sweep.methods[cell.method].label;
-  if (method == kBaseline) {
+  if (method == kPaperBaseline) {
     out.variant = method;
     return out;
   }
@@ -114,7 +114,7 @@ const PaperCell* find_cell(const std::vector<PaperCell>& cells,
                            const std::string& reading,
                            const std::string& variant) {
   for (const PaperCell& cell : cells) {
-    const bool reads = variant == kBaseline || cell.reading == reading;
+    const bool reads = variant == kPaperBaseline || cell.reading == reading;
     if (cell.sequence == like.sequence && cell.input == like.input && reads &&
         cell.variant == variant) {
       return &cell;

@@ -10,6 +10,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/kappa.hpp"
 #include "methods/smoothers/manifold/window_fit.hpp"
+#include "metrics/median.hpp"
 
 namespace loopbench {
 namespace {
@@ -163,12 +164,6 @@ Claim family_claim(const Quoted& quoted, const Run& run) {
     claim.verdict = decides.won_by(quoted.family) ? Verdict::holds : Verdict::does_not_hold;
   }
   return claim;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {

@@ -7,8 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "metrics/loop_detection.hpp"
-
 namespace loopbench {
 namespace {
 
@@ -45,14 +43,9 @@ std::string loading_line(const std::string& stage, std::size_t done, std::size_t
       "[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", kBar - filled, done, total, stage);
 }
 
-void tell(const std::string& label, const Sequence& sequence) {
+void tell(const std::string& label, const std::vector<std::string>& notes) {
   std::string out;
-  for (const std::string& note : sequence.provenance.notes) {
-    out += fmt::format("{}: {}\n", label, note);
-  }
-  if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
-    out += fmt::format("{}: {}\n", label, to_text(judge_detection(sequence, {})));
-  }
+  for (const std::string& note : notes) out += fmt::format("{}: {}\n", label, note);
   fmt::print(stderr, "{}", out);
 }
 

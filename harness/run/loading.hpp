@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "datasets/core/sequence.hpp"
 #include "datasets/rgbd/frontend.hpp"
 
 namespace loopbench {
@@ -12,9 +12,8 @@ namespace loopbench {
 /// else in $XDG_CACHE_HOME/loopbench, else in ~/.cache/loopbench.
 FrontendHooks loading_hooks();
 
-/// Prints a sequence's notes on stderr, each after `label`, and how well its place recogniser did
-/// when one ran and there is a reference.
-void tell(const std::string& label, const Sequence& sequence);
+/// Prints the notes of a sequence on stderr, each after `label`.
+void tell(const std::string& label, const std::vector<std::string>& notes);
 
 /// "[####......] 120/415  tracking".
 std::string loading_line(const std::string& stage, std::size_t done, std::size_t total);

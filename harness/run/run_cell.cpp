@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "harness/run/allocations.hpp"
 #include "harness/run/incomplete.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
@@ -46,12 +47,14 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   for (int run = 0; run < runs; ++run) {
     curve.reset();  // or its end would be in the next one's time
     Report report;
+    const std::optional<std::int64_t> asked_before = allocations();
     const double cpu_begin = process_cpu_seconds();
     const auto begin = Clock::now();
     curve = method.estimate(problem, report);
     const std::chrono::duration<double> took = Clock::now() - begin;
     result.seconds.push_back(took.count());
     result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
+    if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
     result.report = std::move(report);
   }
   if (before) {
@@ -99,8 +102,14 @@ void judge(CellResult& result,
   fenced(none, [&] {
     Evaluation evaluation =
         evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
-    evaluation.context = {
-        &sequence.reference, &at_keyframes, &sequence.problem, &curve, row.times, protocol};
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          row.times,
+                          protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
     ScoreResult usual = row;
     usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
     if (!usual.why.empty()) {
@@ -139,7 +148,9 @@ void judge_without_reference(CellResult& result,
                           &sequence.problem,
                           &curve,
                           Times::keyframes,
-                          evaluation.protocol};
+                          evaluation.protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
     const ScoreResult row{p, Times::keyframes, "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;

@@ -63,7 +63,7 @@ void run_sweep(const Sweep& sweep,
     result.facts = sequences.facts(cells[i]);
     if (jobs > 1) {  // the process is more than this cell
       result.cpu_seconds.clear();
-      result.peak_memory = result.added_memory = std::nullopt;
+      result.peak_memory = result.added_memory = result.allocations = std::nullopt;
     }
     sequences.done(cells[i]);
     const std::lock_guard lock(mutex);

@@ -1,6 +1,7 @@
 #include "harness/run/sequence_facts.hpp"
 
 #include "harness/provenance/hash.hpp"
+#include "metrics/loop_detection.hpp"
 
 namespace loopbench {
 
@@ -25,6 +26,10 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
               count(problem.closures),
               count(problem.frames),
               count(sequence.reference)};
+  out.notes = sequence.provenance.notes;
+  if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
+    out.notes.push_back(to_text(judge_detection(sequence, {})));
+  }
   if (with_trace) out.trace = sequence_trace(sequence);
   return out;
 }

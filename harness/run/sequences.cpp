@@ -56,6 +56,7 @@ std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
         std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
     slot.facts =
         std::make_shared<const SequenceFacts>(sequence_facts(*slot.sequence, sweep_.traces));
+    tell(sweep_.datasets[cell.dataset].label, slot.facts->notes);
   }
   return slot.sequence;
 }
@@ -93,7 +94,6 @@ Sequence load_sequence(const Cell& cell,
     if (is_seed(option)) options[option.name] = full.at(option.name);
   }
   Sequence sequence = entry.load(options, root);
-  tell(choice.label, sequence);
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference");
   return sequence;

@@ -3,16 +3,10 @@
 #include <algorithm>
 
 #include "harness/store/traces.hpp"
+#include "metrics/median.hpp"
 
 namespace loopbench {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 std::string option_text(const std::vector<Choice>& stages) {
   std::string out;
@@ -31,7 +25,7 @@ std::string text_of(const Worker& worker) {
 }  // namespace
 
 void remove_cell(Database& database, std::int64_t id) {
-  for (const char* table : {"score", "phase", "count", "note", "trace"}) {
+  for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
     database.prepare(std::string("DELETE FROM ") + table + " WHERE cell = ?").bind(id).run();
   }
   database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
@@ -47,6 +41,7 @@ CellWriter::CellWriter(Database& database)
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
+      section_(database.prepare("INSERT INTO section VALUES (?,?,?,?,?)")),
       trace_(database.prepare("INSERT INTO trace VALUES (?,?,?)")) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
@@ -62,12 +57,15 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   remove_.reset();
   for (const std::int64_t id : before) remove_cell(database_, id);
 
-  if (result.facts) write_facts(keys.asked(result.cell), *result.facts);
+  if (result.facts) write_facts(result.cell, keys, *result.facts);
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
   for (const Phase& p : result.report.phases) phase_.bind(id).bind(p.name).bind(p.seconds).run();
   for (const Count& c : result.report.counts) count_.bind(id).bind(c.name).bind(c.value).run();
   for (const std::string& text : result.report.notes) note_.bind(id).bind(text).run();
+  for (const Section& s : result.report.sections) {
+    section_.bind(id).bind(s.kind).bind(s.begin).bind(s.end).bind(s.what).run();
+  }
   if (!result.trace.samples.empty()) {
     trace_.bind(id)
         .bind(to_text(result.trace.times))
@@ -101,7 +99,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(std::int64_t{result.oracle_method})
       .bind(text_of(result.worker))
       .bind(static_cast<std::int64_t>(result.seconds.size()))
-      .bind(median(result.seconds))
+      .bind(result.seconds.empty() ? 0.0 : median(result.seconds))
       .bind(timed ? *low : 0.0)
       .bind(timed ? *high : 0.0)
       .bind(cpu)
@@ -145,7 +143,8 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
   }
 }
 
-void CellWriter::write_facts(const std::string& asked, const SequenceFacts& facts) {
+void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts) {
+  const std::string& asked = keys.asked(cell);
   if (facts_.contains(asked)) return;
   database_.prepare("DELETE FROM input WHERE asked = ?").bind(asked).run();
   Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?)");
@@ -159,8 +158,9 @@ void CellWriter::write_facts(const std::string& asked, const SequenceFacts& fact
         .run();
   }
   const SequenceSize& size = facts.size;
-  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?)")
+  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?,?)")
       .bind(asked)
+      .bind(keys.dataset_in_full(cell))
       .bind(size.keyframes)
       .bind(size.odometry)
       .bind(size.closures)

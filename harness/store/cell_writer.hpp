@@ -23,7 +23,7 @@ class CellWriter {
   void write_rows(const CellResult& result, CellKeys& keys);
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
-  void write_facts(const std::string& asked, const SequenceFacts& facts);
+  void write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts);
 
   Database& database_;
   Statement remove_;
@@ -32,6 +32,7 @@ class CellWriter {
   Statement phase_;
   Statement count_;
   Statement note_;
+  Statement section_;
   Statement trace_;
   std::set<std::string> facts_;  ///< sequences whose facts are written, by `asked`
 };

@@ -39,6 +39,7 @@ constexpr std::pair<const char*, const char*> kDetails[] = {
     {"phase", "name, seconds"},
     {"count", "name, value"},
     {"note", "text"},
+    {"section", "kind, begin_stamp, end_stamp, what"},
     {"trace", "times, samples"}};
 
 class Merge {

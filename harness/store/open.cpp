@@ -18,8 +18,10 @@ void check_schema(Database& database, const std::filesystem::path& file) {
   Statement version = database.prepare("PRAGMA user_version");
   const std::int64_t found = version.step() ? version.integer() : 0;
   if (found == kSchemaVersion) return;
+  const bool older = found > 0 && found < kSchemaVersion;
   throw InputError(file.string() + ": is not a store of results of this version (schema " +
-                   std::to_string(found) + ", expected " + std::to_string(kSchemaVersion) + ")");
+                   std::to_string(found) + ", expected " + std::to_string(kSchemaVersion) + ")" +
+                   (older ? "; run its config again: --fresh keeps it as previous.sqlite" : ""));
 }
 
 Database open_store(const std::filesystem::path& given) {

@@ -26,6 +26,13 @@ std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
   return none ? std::nullopt : std::optional<T>(value);
 }
 
+/// "LABEL" or "LABEL (repeat N)" from the next two columns.
+std::string sequence_label(Statement& row) {
+  const std::string label = row.text();
+  const std::int64_t repeat = row.integer();
+  return repeat > 0 ? label + " (repeat " + std::to_string(repeat) + ")" : label;
+}
+
 /// Calls `add` with the record and a statement at the column after the cell's id, for every row.
 template <class Add>
 void add_details(Database& database,
@@ -165,15 +172,26 @@ std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem:
       "JOIN input i ON i.asked = c.asked WHERE c.position IS NOT NULL ORDER BY 1, 2, 3");
   std::map<std::string, std::vector<InputFile>> out;
   while (rows.step()) {
-    std::string label = rows.text();
-    const std::int64_t repeat = rows.integer();
-    if (repeat > 0) label += " (repeat " + std::to_string(repeat) + ")";
+    const std::string label = sequence_label(rows);
     rows.integer();  // number
     InputFile input;
     input.path = rows.text();
     input.bytes = static_cast<std::uint64_t>(rows.integer());
     input.hash = rows.text();
     out[label].push_back(std::move(input));
+  }
+  return out;
+}
+
+std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  Statement rows = database.prepare(
+      "SELECT DISTINCT c.sequence, c.repeat, s.options FROM cell c "
+      "JOIN sequence s ON s.asked = c.asked WHERE c.position IS NOT NULL");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    const std::string label = sequence_label(rows);
+    out[label] = rows.text();
   }
   return out;
 }

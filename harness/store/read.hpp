@@ -28,4 +28,7 @@ std::map<std::string, std::string> read_provenance(const std::filesystem::path& 
 /// The files each sequence was read from, by "LABEL" or "LABEL (repeat N)".
 std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file);
 
+/// "DATASET: every option, defaults included" of each sequence that was loaded, by the same labels.
+std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file);
+
 }  // namespace loopbench

@@ -3,7 +3,7 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 3;
+inline constexpr int kSchemaVersion = 4;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -18,8 +18,9 @@ inline constexpr const char* kSchema = R"sql(
     bytes INTEGER NOT NULL,
     hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128)
     PRIMARY KEY (asked, number)) WITHOUT ROWID;
-  CREATE TABLE sequence (              -- how much a method is given
+  CREATE TABLE sequence (              -- what it is, and how much of it a method is given
     asked TEXT PRIMARY KEY,
+    options TEXT NOT NULL,             -- dataset: all of its options, defaults included
     keyframes INTEGER NOT NULL,
     odometry INTEGER NOT NULL,         -- edges
     closures INTEGER NOT NULL,
@@ -74,6 +75,12 @@ inline constexpr const char* kSchema = R"sql(
   CREATE TABLE phase (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, seconds REAL);
   CREATE TABLE count (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, value REAL);
   CREATE TABLE note (cell INTEGER NOT NULL REFERENCES cell(id), text TEXT);
+  CREATE TABLE section (               -- stretch of the way that the method treated as one
+    cell INTEGER NOT NULL REFERENCES cell(id),
+    kind TEXT NOT NULL,                -- segment, window, ...
+    begin_stamp REAL NOT NULL,         -- [s]
+    end_stamp REAL NOT NULL,           -- [s]
+    what TEXT NOT NULL);               -- chosen there, may be empty
   CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/run/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
@@ -92,6 +99,7 @@ inline constexpr const char* kSchema = R"sql(
   CREATE INDEX phase_cell ON phase(cell);
   CREATE INDEX count_cell ON count(cell);
   CREATE INDEX note_cell ON note(cell);
+  CREATE INDEX section_cell ON section(cell);
 )sql";
 
 }  // namespace loopbench

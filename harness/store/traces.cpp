@@ -33,6 +33,23 @@ std::optional<CellTrace> Traces::cell(std::int64_t position) {
   return out;
 }
 
+std::vector<Section> Traces::sections(std::int64_t position) {
+  Statement rows = database_.prepare(
+      "SELECT s.kind, s.begin_stamp, s.end_stamp, s.what FROM section s JOIN cell c ON c.id = "
+      "s.cell "
+      "WHERE c.position = ? ORDER BY s.rowid");
+  rows.bind(position);
+  std::vector<Section> out;
+  while (rows.step()) {
+    Section& section = out.emplace_back();
+    section.kind = rows.text();
+    section.begin = rows.real();
+    section.end = rows.real();
+    section.what = rows.text();
+  }
+  return out;
+}
+
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   Statement row = database_.prepare(
       "SELECT s.origin_stamp, s.origin_x, s.origin_y, s.origin_z, s.reference, s.keyframes, "

@@ -7,6 +7,7 @@
 
 #include "harness/run/trace.hpp"
 #include "harness/store/sqlite.hpp"
+#include "methods/report.hpp"
 
 namespace loopbench {
 
@@ -18,6 +19,9 @@ class Traces {
 
   /// Of the cell at that position of the sweep (Record::cell); nothing when none was kept.
   std::optional<CellTrace> cell(std::int64_t position);
+
+  /// How the method of that cell cut up the way; empty when it told nothing. Stamps [s].
+  std::vector<Section> sections(std::int64_t position);
 
   /// Of the sequence of the cell at that position; nothing when none was kept.
   std::optional<SequenceTrace> sequence(std::int64_t position);

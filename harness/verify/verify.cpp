@@ -30,7 +30,7 @@ Hash hash_of_values(const T&... values) {
 Print print_of(const CellResult& r) {
   return {{hash_of_values(r.status, r.why, r.signal),
            hash_of_values(r.scores),
-           hash_of_values(r.report.counts, r.report.notes),
+           hash_of_values(r.report.counts, r.report.notes, r.report.sections),
            hash_of_values(r.trace.times, r.trace.samples)},
           r.status == Status::crashed || r.status == Status::timeout ||
               r.status == Status::out_of_memory};

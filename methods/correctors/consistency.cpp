@@ -9,9 +9,9 @@ namespace loopbench {
 namespace {
 
 /// The chain by odometry alone, from the first keyframe on, and its noise as prefix sums.
-class Chain {
+class CheckedChain {
  public:
-  explicit Chain(const Problem& problem, double odometry_scale) {
+  explicit CheckedChain(const Problem& problem, double odometry_scale) {
     const double variance = odometry_scale * odometry_scale;
     poses_.emplace_back();
     noise_.emplace_back(Matrix6::Zero());
@@ -63,13 +63,13 @@ double squared(const PairError& pair) {
 }  // namespace
 
 PairError pair_error(const Problem& problem, const Edge& first, const Edge& second) {
-  return Chain(problem, 1.0).loop(first, second);
+  return CheckedChain(problem, 1.0).loop(first, second);
 }
 
 ConsistentClosures consistent_closures(const Problem& problem, const Consistency& options) {
   const std::vector<Edge>& closures = problem.closures;
   if (closures.size() < 2) return {std::vector<std::size_t>(closures.size(), 0), true};
-  const Chain chain(problem, options.odometry_scale);
+  const CheckedChain chain(problem, options.odometry_scale);
   const double most = options.chi2.value_or(problem.planar ? 11.345 : 16.812);
   BitGraph agree(closures.size());
   for (std::size_t k = 0; k < closures.size(); ++k) {

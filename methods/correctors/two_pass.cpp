@@ -52,7 +52,7 @@ class BentChain {
       const Vector3 old_at = at.translation;
       before += std::pow(scale, share_before) *
                 (exp_so3(share_before * phi) * Vector3(old_at - old_before));
-      at = normalized({exp_so3(w[k] * phi) * at.rotation, before});
+      at = normalized(Pose{exp_so3(w[k] * phi) * at.rotation, before});
       old_before = old_at;
       share_before = w[k];
     }

@@ -7,9 +7,9 @@ namespace {
 
 /// Poses being corrected. Those after the last closed loop share one rigid motion, which is
 /// applied when a loop reaches them: otherwise every loop would touch the whole tail.
-class Chain {
+class UniformChain {
  public:
-  explicit Chain(const Trajectory& keyframes) : poses_(keyframes) {}
+  explicit UniformChain(const Trajectory& keyframes) : poses_(keyframes) {}
 
   void settle(std::size_t end) {
     for (; settled_ < end; ++settled_) {
@@ -28,8 +28,8 @@ class Chain {
     const Vector3 shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
     const auto moved = [&](double share, const Pose& before) {
       const Rotation part = exp_so3(share * phi);
-      return normalized(
-          {part * before.rotation, part * (before.translation - pivot) + pivot + share * shift});
+      return normalized(Pose{part * before.rotation,
+                             part * (before.translation - pivot) + pivot + share * shift});
     };
     for (std::size_t k = 0; k < w.size(); ++k) {
       Pose& at = poses_[loop.from + 1 + k].world_from_body;
@@ -64,7 +64,7 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   const std::vector<Edge>& loops = problem.closures;
   const std::vector<double> shares = step_shares(problem.keyframes, options_.weights);
   std::vector<bool> frozen(problem.keyframes.size(), false);
-  Chain chain(problem.keyframes);
+  UniformChain chain(problem.keyframes);
   std::size_t fallbacks = 0, skipped = 0, scaled = 0;
   for (const Edge& loop : loops) {
     scaled += loop.scale != 1.0 ? 1 : 0;

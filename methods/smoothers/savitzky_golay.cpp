@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostTerms = SavitzkyGolay::kMostDegree + 1;
 
 /// Keyframes first..last - 1.
-struct Window {
+struct Neighbours {
   std::size_t first, last;
   std::size_t size() const { return last - first; }
 };
@@ -32,7 +32,10 @@ Vector3 log_near(const Rotation& rotation, const Vector3& near) {
 /// p_{k+1} = (x - alpha_k) p_k - beta_k p_{k-1}.
 class LocalPolynomial {
  public:
-  LocalPolynomial(const Trajectory& keyframes, std::size_t centre, Window window, std::size_t terms)
+  LocalPolynomial(const Trajectory& keyframes,
+                  std::size_t centre,
+                  Neighbours window,
+                  std::size_t terms)
       : centre_(keyframes[centre]), terms_(terms) {
     half_ = std::max(keyframes[window.last - 1].stamp - centre_.stamp,
                      centre_.stamp - keyframes[window.first].stamp);
@@ -78,7 +81,9 @@ class LocalPolynomial {
 
  private:
   /// [offset in the world; turn in the body] of the window's keyframes from the centre.
-  static std::vector<Twist> around(const Trajectory& keyframes, std::size_t centre, Window window) {
+  static std::vector<Twist> around(const Trajectory& keyframes,
+                                   std::size_t centre,
+                                   Neighbours window) {
     std::vector<Twist> out(window.size());
     const Pose& origin = keyframes[centre].world_from_body;
     const auto put = [&](std::size_t i, const Vector3& near) {
@@ -132,7 +137,10 @@ class LocalCurve final : public Curve {
 };
 
 /// Grows towards the nearer neighbour until it holds `least` keyframes.
-Window widened(Window window, const Trajectory& keyframes, std::size_t centre, std::size_t least) {
+Neighbours widened(Neighbours window,
+                   const Trajectory& keyframes,
+                   std::size_t centre,
+                   std::size_t least) {
   while (window.size() < least) {
     const bool can_left = window.first > 0;
     const bool can_right = window.last < keyframes.size();
@@ -166,7 +174,7 @@ std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Repor
   const std::size_t width = std::min(static_cast<std::size_t>(options_.window), keyframes.size());
   std::vector<LocalPolynomial> pieces;
   pieces.reserve(keyframes.size());
-  Window window{0, 0};
+  Neighbours window{0, 0};
   double members = 0.0;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     if (options_.seconds) {
@@ -181,7 +189,7 @@ std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Repor
       window.first = std::min(wanted, keyframes.size() - width);
       window.last = window.first + width;
     }
-    const Window enough = widened(window, keyframes, i, terms);
+    const Neighbours enough = widened(window, keyframes, i, terms);
     members += static_cast<double>(enough.size());
     pieces.emplace_back(keyframes, i, enough, terms);
   }

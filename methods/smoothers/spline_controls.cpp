@@ -9,11 +9,11 @@ namespace loopbench {
 namespace {
 
 /// The largest miss that still counts as passing through [rad]; rounding reaches 1e-15.
-constexpr double kTolerance = 1e-13;
-/// Where rounding stops Newton short of kTolerance, this is still called a solution [rad].
-constexpr double kGoodEnough = 1e-11;
-constexpr int kMostSteps = 30;
-constexpr int kMostHalvings = 12;
+constexpr double kCubicTolerance = 1e-13;
+/// Where rounding stops Newton short of kCubicTolerance, this is still called a solution [rad].
+constexpr double kCubicGoodEnough = 1e-11;
+constexpr int kCubicSteps = 30;
+constexpr int kCubicHalvings = 12;
 
 using Row = TridiagonalRow<Matrix3, Vector3>;
 
@@ -117,11 +117,11 @@ std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
   ControlRotations out{first_guess(basis, rotations), 0};
   std::vector<Row> rows = linearised(basis, out.rotations, rotations);
   double miss = largest_miss(rows);
-  for (; miss > kTolerance && out.iterations < kMostSteps; ++out.iterations) {
+  for (; miss > kCubicTolerance && out.iterations < kCubicSteps; ++out.iterations) {
     const std::vector<Vector3> step = solve_tridiagonal(rows);
     bool better = false;
     double share = 1.0;
-    for (int halving = 0; halving <= kMostHalvings && !better; ++halving, share *= 0.5) {
+    for (int halving = 0; halving <= kCubicHalvings && !better; ++halving, share *= 0.5) {
       std::vector<Rotation> trial = out.rotations;
       for (std::size_t i = 0; i < step.size(); ++i) {
         trial[i + 1] = (exp_so3(share * step[i]) * trial[i + 1]).normalized();
@@ -135,7 +135,7 @@ std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
     }
     if (!better) break;
   }
-  if (miss > kGoodEnough) return std::nullopt;
+  if (miss > kCubicGoodEnough) return std::nullopt;
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/provenance/hash.hpp"
 
 namespace loopbench {
 namespace {
@@ -64,6 +65,24 @@ TEST(Cells, DerivedSeedsDifferAndKeepTheFirst) {
       EXPECT_TRUE(seen.insert(derived).second);
     }
   }
+}
+
+TEST(Hash, IsMurmur3) {
+  // SMHasher's verification: keys {}, {0}, {0, 1}, ... with seeds 256, 255, ...; the hash of all
+  // their hashes begins with 0x6384BA69.
+  std::string key;
+  std::string hashes;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const Hash hash = hash_of(key, 256 - i);
+    hashes.append(reinterpret_cast<const char*>(&hash), sizeof hash);
+    key.push_back(static_cast<char>(i));
+  }
+  EXPECT_EQ(hash_of(hashes).low & 0xffffffffu, 0x6384BA69u);
+}
+
+TEST(Hash, FieldsDoNotRunTogether) {
+  EXPECT_NE(Fields().add("ab").add("c").hashed(), Fields().add("a").add("bc").hashed());
+  EXPECT_NE(Fields().add("").hashed(), Fields().hashed());
 }
 
 }  // namespace

@@ -11,55 +11,13 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/along_intervals.hpp"
 #include "harness/export/comparison.hpp"
+#include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
 namespace {
 
-Record score(const std::string& sequence, int repeat, const std::string& method, double rmse) {
-  Record r;
-  r.sequence = sequence;
-  r.repeat = repeat;
-  r.method = method;
-  r.protocol = "loopbench";
-  r.times = "dense";
-  r.metric = "ate";
-  r.relation = "translation";
-  r.axis = "3d";
-  r.unit = "m";
-  r.statistics.rmse = rmse;
-  return r;
-}
-
-Record failed(const std::string& sequence, int repeat, const std::string& method) {
-  Record r;
-  r.sequence = sequence;
-  r.repeat = repeat;
-  r.method = method;
-  r.status = "failed";
-  return r;
-}
-
-/// Eight runs over two sequences of very different size: dual is 10 to 17 % below uniform on all
-/// of them, raw twice as bad, copy uniform but for the last bits.
-std::vector<Record> sweep() {
-  std::vector<Record> out;
-  for (int i = 0; i < 8; ++i) {
-    const std::string sequence = i < 4 ? "room" : "city";
-    const double size = i < 4 ? 0.05 : 50.0;
-    const int repeat = i % 4;
-    out.push_back(score(sequence, repeat, "uniform", size));
-    out.push_back(score(sequence, repeat, "raw", 2.0 * size));
-    out.push_back(score(sequence, repeat, "dual", (0.90 - 0.01 * i) * size));
-    out.push_back(score(sequence, repeat, "copy", size * (1.0 + 1e-13)));
-  }
-  return out;
-}
-
-Comparison compared(const std::vector<Record>& records, CompareOptions options = {}) {
-  if (options.baseline.empty()) options.baseline = "uniform";
-  return compare(records, options).at(0);
-}
+using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 TEST(Compare, GivesTheNumbersOfAHandWorkedSweep) {
   const Comparison c = compared(sweep());

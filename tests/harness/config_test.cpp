@@ -49,6 +49,11 @@ TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   }
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_NE(result.out.find(" 0 failed;"), std::string::npos) << result.out;
+  const std::string baseline = LOOPBENCH_CONFIGS "/../results/reference/" + GetParam() + ".json";
+  if (!std::filesystem::exists(baseline)) return;
+  const CommandResult checked =
+      loopbench_command("check out --part --baseline '" + baseline + "'", folder_);
+  EXPECT_EQ(checked.exit_code, 0) << checked.err << checked.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs,

@@ -128,6 +128,60 @@ TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {
   EXPECT_EQ(check(counted, now).count(Finding::Kind::regression), 1u);
 }
 
+TEST(Gate, MissesNoCellOfAPart) {
+  Snapshot part = sweep();
+  part.cells.resize(4);
+  EXPECT_EQ(check(baseline(), part).count(Finding::Kind::regression), 12u);
+  const GateReport report = check(baseline(), part, GateExtent::part);
+  EXPECT_TRUE(report.findings.empty());
+  EXPECT_EQ(report.cells, 4u);
+  rmse(part, 3) *= 2.0;
+  EXPECT_FALSE(check(baseline(), part, GateExtent::part).passes());
+}
+
+TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
+  EXPECT_FALSE(limits_time({Tolerance{}}));
+  Baseline timed = baseline();
+  timed.limits.insert(timed.limits.begin(), time_limit(0.5));
+  EXPECT_TRUE(limits_time(timed.limits));
+  timed.limits[0].alpha = 0.05;  // eight runs cannot show less after Holm over four tests
+  const auto add_times = [](Snapshot& to, double ms) {
+    for (GateCell& cell : to.cells) {
+      cell.scores.push_back(ate(ms));
+      cell.scores.back().metric = "time";
+    }
+  };
+  add_times(timed.snapshot, 10.0);
+  Snapshot now = sweep();
+  add_times(now, 10.9);  // within the limit, and less than the tenth that a test takes for a move
+  EXPECT_TRUE(check(timed, now).findings.empty());
+  now.cells[1].scores.back().values["rmse"] = 16.1;
+  const GateReport slow = check(timed, now);
+  ASSERT_EQ(slow.findings.size(), 1u);
+  EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, may move 6)");
+  now = sweep();
+  add_times(now, 12.0);  // a fifth on all runs
+  EXPECT_FALSE(check(timed, now).passes());
+}
+
+TEST(Gate, TellsTheOptionsThatDiffer) {
+  const auto with = [](const std::string& text) {
+    return refusal_of([&] {
+      Baseline old = baseline();
+      old.snapshot.sequences["room"] = "simulated: laps=1, path=room; a.txt 3 beef";
+      Snapshot now = sweep();
+      now.sequences["room"] = text;
+      check(old, now);
+    });
+  };
+  EXPECT_EQ(with("simulated: laps=2, path=room; a.txt 3 beef"),
+            "the baseline is of another sequence 'room': it has 'simulated: laps=1', these "
+            "results have 'simulated: laps=2'");
+  EXPECT_EQ(with("simulated: laps=1, path=room; a.txt 3 cafe"),
+            "the baseline is of another sequence 'room': it has 'a.txt 3 beef', these results "
+            "have 'a.txt 3 cafe'");
+}
+
 TEST(Gate, RefusesOtherInputsAndProtocols) {
   EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences["room"] = "path=city"; }); }),
             "the baseline is of another sequence 'room': it has 'path=room', these results have "
@@ -166,7 +220,8 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
   EXPECT_EQ(refusal("").find("b.json:1: is not JSON: "), 0u);
   EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
   EXPECT_EQ(refusal("{}"), "b.json: loopbench_baseline: is missing");
-  EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"), "b.json: loopbench_baseline: is 9, expected 1");
+  EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"),
+            "b.json: loopbench_baseline: is 9, expected 2; --update writes it anew");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const std::size_t at = text.find(from);

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "harness/run/allocations.hpp"
 
 namespace loopbench {
 namespace {
@@ -109,6 +114,37 @@ TEST(Listing, ReadsAsMarkdownAndAsCsv) {
   const Listing listing{"t", {"a", "b"}, {{"x|y", "1"}}, {"note"}};
   EXPECT_EQ(markdown(listing), "### t\n\n| a    |  b |\n| ---- | -: |\n| x\\|y |  1 |\n\n- note\n");
   EXPECT_EQ(csv(listing), "table,a,b\nt,x|y,1\n");
+}
+
+TEST(Allocations, CountCallsOfEveryKindOnEveryThread) {
+  const std::optional<std::int64_t> before = allocations();
+  if (!before) GTEST_SKIP() << "not counted under sanitizers";
+  // Volatile, or the compiler sees that nobody looks and asks for nothing.
+  void* volatile block = std::malloc(10);
+  block = std::realloc(block, 1000);
+  std::free(block);
+  block = std::calloc(3, 5);
+  std::free(block);
+  block = std::aligned_alloc(64, 128);
+  std::free(block);
+  void* aligned = nullptr;
+  ASSERT_EQ(posix_memalign(&aligned, 32, 32), 0);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(aligned) % 32, 0u);
+  std::free(aligned);
+  EXPECT_EQ(posix_memalign(&aligned, 3, 32), EINVAL);
+  int* volatile one = new int(7);
+  delete one;
+  EXPECT_EQ(*allocations() - *before, 6);
+  std::int64_t inside = 0;
+  std::thread([&] {
+    const std::int64_t begun = *allocations();
+    for (int i = 0; i < 1000; ++i) {
+      int* volatile more = new int(i);
+      delete more;
+    }
+    inside = *allocations() - begun;
+  }).join();
+  EXPECT_EQ(inside, 1000);
 }
 
 }  // namespace

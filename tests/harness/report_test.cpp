@@ -156,12 +156,12 @@ TEST_F(OfASweep, NeedsNothingBesideIt) {
   }
 }
 
-TEST_F(OfASweep, HoldsScoresAndTracesOfTheFirstRepeat) {
+TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
   const nlohmann::json all = data();
   EXPECT_EQ(all["scores"]["cells"].size(), 36u);  // 2 sequences, 6 methods, 3 repeats
   EXPECT_EQ(all["scores"]["baseline"], "straight");
-  EXPECT_EQ(all["traces"]["cells"].size(), 8u);  // 2 sequences, 4 methods that ran
-  EXPECT_EQ(all["traces"]["grids"].size(), 2u);  // all methods of a sequence share their stamps
+  EXPECT_EQ(all["traces"]["cells"].size(), 24u);  // 2 sequences, 4 methods that ran, 3 repeats
+  EXPECT_EQ(all["traces"]["grids"].size(), 2u);   // all methods of a sequence share their stamps
   const nlohmann::json& cell = all["scores"]["cells"][0];
   const auto found = std::ranges::find_if(content_->records, [](const Record& r) {
     return r.cell == content_->cells[0].position && r.metric == "ate";
@@ -169,7 +169,43 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfTheFirstRepeat) {
   ASSERT_NE(found, content_->records.end());
   EXPECT_NEAR(cell["v"][0][0].get<double>(), found->statistics.rmse, 1e-4 * found->statistics.rmse);
   EXPECT_LT(html_->size(), 500'000u);
-  EXPECT_TRUE(has(report_html(*content_, 0), "\"points\":60,"));
+  const nlohmann::json& cut = all["traces"]["cells"]["3"]["cut"];  // straight has none, <i>& has
+  EXPECT_EQ(cut[0]["kind"], "window");
+  EXPECT_EQ(cut[0]["names"][0], "shifted");
+  EXPECT_FALSE(all["traces"]["cells"]["0"].contains("cut"));
+}
+
+TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {
+  const std::size_t least = [&] {
+    try {
+      report_html(*content_, 1000);
+    } catch (const InputError& error) {
+      const std::string why = error.what();
+      const std::size_t at = why.find("takes ") + 6;
+      return static_cast<std::size_t>(std::llround(1e6 * std::stod(why.substr(at))));
+    }
+    return std::size_t{0};
+  }();
+  ASSERT_GT(least, 100'000u);
+  EXPECT_LE(report_html(*content_, least).size(), least);
+  EXPECT_THROW(report_html(*content_, least - 20'000), InputError);
+}
+
+TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
+  Thinning thinning{400, 5};
+  EXPECT_TRUE(thin(thinning, 0.5));
+  EXPECT_EQ(thinning.points, 200u);
+  EXPECT_TRUE(thin(thinning, 0.1));
+  EXPECT_EQ(thinning.points, 60u);
+  EXPECT_TRUE(thin(thinning, 0.9));
+  EXPECT_EQ(thinning.repeats, 3u);
+  EXPECT_TRUE(thin(thinning, 0.9) && thin(thinning, 0.9));
+  EXPECT_EQ(thinning.repeats, 1u);
+  EXPECT_TRUE(thin(thinning, 0.99));
+  EXPECT_EQ(thinning.points, 59u);
+  EXPECT_TRUE(thin(thinning, 0.0));
+  EXPECT_EQ(thinning.points, 10u);
+  EXPECT_FALSE(thin(thinning, 0.5));
 }
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
@@ -203,20 +239,25 @@ TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
 const char* const kProbe = R"(<script>
   const said = [];
   for (const id of ["controls", "map", "space", "before", "after", "along-x", "along-a", "boxes",
-                    "forest", "sweep-figures", "pareto-here", "verdicts", "scores", "failures"]) {
+                    "forest", "cut-map", "cut-strip", "sweep-figures", "pareto-here", "verdicts", "scores", "failures"]) {
     const box = document.getElementById(id).getBoundingClientRect();
     if (box.width < 100 || box.height < 40) said.push(id + " is not to be seen");
   }
   const count = (what) => document.querySelectorAll(what).length;
   if (count("#map path.curve") < 2) said.push("no curves on the map");
   if (count("#boxes circle") < 12) said.push("runs are missing");
-  if (count("script") > 14 || count("b[onclick], main i") > 0) said.push("a name became markup");
+  if (count("script") > 15 || count("b[onclick], main i") > 0) said.push("a name became markup");
   const change = (element, value) => {
     element.value = value;
     element.dispatchEvent(new Event("change"));
   };
+  if (count("#cut-strip rect[style*=fill]") < 1) said.push("no windows");
+  const repeat = [...document.querySelectorAll("#controls label")].find((l) => l.textContent.startsWith("Repeat"));
+  change(repeat.querySelector("select"), "2");
+  if (!document.querySelector("#map figcaption").textContent.endsWith("repeat 3")) said.push("repeat");
+  change(repeat.querySelector("select"), "0");
   change(document.querySelector("#controls select"), "1");
-  if (!document.querySelector("#map figcaption").textContent.endsWith("b")) said.push("sequence");
+  if (!document.querySelector("#map figcaption").textContent.endsWith("b, repeat 1")) said.push("sequence");
   for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "0"]) {
     for (const id of ["map", "space"]) {
       document.querySelector(`#${id} svg`).dispatchEvent(

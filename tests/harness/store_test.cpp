@@ -1,99 +1,15 @@
-/// Keys, resuming, what is refused, traces, merging: on the tiny catalogue, in this process.
-#include "harness/store/store.hpp"
-
+/// Keys, resuming, what is refused, traces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "harness/config/read_sweep.hpp"
-#include "harness/run/run_sweep.hpp"
-#include "harness/store/merge.hpp"
-#include "tests/support/store_text.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/support/tiny_catalogue.hpp"
+#include "tests/support/tiny_store.hpp"
 
 namespace loopbench {
 namespace {
 
-using Labels = std::vector<std::string>;
-
-/// The bias of the tiny line, from a file.
-struct FileOptions {
-  std::string path;
-};
-template <class Visit>
-void fields(FileOptions& o, Visit visit) {
-  visit("path", o.path, "file with the bias");
-}
-Sequence load_file(const FileOptions& options, const DataRoot& root) {
-  const std::filesystem::path file = root.find(options.path);
-  tiny::LineOptions line;
-  std::ifstream(file) >> line.bias;
-  Sequence out = tiny::load_line(line, root);
-  out.provenance.inputs = {file};
-  return out;
-}
-
-std::string config(const std::string& methods, const std::string& more = "") {
-  return "datasets: [{dataset: line, bias: 0.1, label: a}, {dataset: line, bias: 0.2, label: b}]\n"
-         "methods: [" +
-         methods + "]\nmetrics: [ate]\nbaseline: straight\n" + more;
-}
-const std::string kUsual = config("straight, {method: shift, by: 1, label: shifted}");
-
-class StoreTest : public testing::Test {
- protected:
-  struct Ran {
-    Labels cells;  ///< "SEQUENCE / METHOD", in order
-    Resumed resumed;
-  };
-
-  /// Runs what the store misses of the config, on one thread.
-  Ran run(const std::string& text, Retry retry = Retry::none, const std::string& only = "") {
-    const Sweep sweep = parse_sweep(text, folder_.path() / "c.yaml", known_);
-    CellKeys keys(sweep, known_, root_, build_);
-    const std::vector<bool> with_seed = seeded(sweep, known_);
-    Store store(file_, keys, {{"commit", commit_}});
-    Ran out;
-    out.resumed = store.resume(cells(sweep, with_seed, ""), cells(sweep, with_seed, only), retry);
-    Sequences sequences(sweep, known_, root_, out.resumed.missing);
-    const std::atomic<bool> stop = false;
-    run_sweep(sweep, out.resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
-      store.write(r);
-      out.cells.push_back(sweep.datasets[r.cell.dataset].label + " / " +
-                          sweep.methods[r.cell.method].label);
-    });
-    return out;
-  }
-
-  Labels methods_of(const std::string& sequence) const {
-    Labels out;
-    for (const CellRecord& cell : read_cells(file_)) {
-      if (cell.sequence == sequence) out.push_back(cell.method);
-    }
-    return out;
-  }
-
-  void expect_refused(const std::string& reason) {
-    try {
-      run(kUsual);
-      ADD_FAILURE() << "was not refused";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-    }
-  }
-
-  TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_.path() / "results.sqlite";
-  DataRoot root_{{folder_.path()}};
-  std::string build_ = "build one";
-  std::string commit_ = "c0ffee";
-  Catalogue known_ = [] {
-    Catalogue out = tiny::catalogue();
-    out.datasets.push_back(dataset<FileOptions>("file", "bias from a file", load_file));
-    return out;
-  }();
-};
+using namespace tiny_store;  // NOLINT: the fixture and its config
+using StoreTest = TinyStore;
 
 TEST_F(StoreTest, RunningAgainRunsNothing) {
   EXPECT_EQ(run(kUsual).cells.size(), 4u);
@@ -194,6 +110,18 @@ TEST_F(StoreTest, OnlyLeavesTheOthersAsTheyAre) {
   EXPECT_EQ(methods_of("b"), (Labels{"straight", "shifted"}));
 }
 
+TEST_F(StoreTest, KeepsHowAMethodCutUpTheWayAndAllThatADatasetIs) {
+  run(kUsual);
+  Traces traces(file_);
+  const std::vector<Section> cut = traces.sections(1);
+  ASSERT_EQ(cut.size(), 1u);
+  EXPECT_EQ(cut[0].kind + " " + cut[0].what, "window shifted");
+  EXPECT_EQ(cut[0].begin, 0.0);
+  EXPECT_EQ(cut[0].end, 3.0);
+  EXPECT_TRUE(traces.sections(0).empty());
+  EXPECT_EQ(read_dataset_options(file_).at("b"), "line: bias=0.2, seed=1");
+}
+
 TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
   folder_.file("x/bias", "0.1");
   folder_.file("bias2", "0.1");
@@ -254,7 +182,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
   run(kUsual);
   Database(file_, Database::Mode::read).execute("PRAGMA user_version = 2");
-  expect_refused("schema 2, expected 3");
+  expect_refused("schema 2, expected 4");
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {
@@ -300,67 +228,6 @@ TEST_F(StoreTest, TracesAreThinnedEvenlyAndCountFromTheFirstReferencePose) {
   ASSERT_EQ(trace.closures.size(), 1u);
   EXPECT_EQ(trace.closures[0].to_stamp, 5000.0f);
   EXPECT_EQ(trace.closures[0].to_x, 4005000.0f);  // keyframes stay in their own world
-}
-
-TEST_F(StoreTest, MergedHalvesAreTheWhole) {
-  run(kUsual);
-  const std::string whole = store_text(file_);
-  const std::filesystem::path parts[] = {folder_.path() / "1.sqlite", folder_.path() / "2.sqlite"};
-  file_ = parts[0];
-  run(kUsual, Retry::none, "a / |b / straight");
-  file_ = parts[1];
-  run(kUsual, Retry::none, "b / ");
-  const std::filesystem::path out = folder_.path() / "merged" / "results.sqlite";
-  const Merged merged = merge_stores({parts[1], parts[0]}, out, false);
-  EXPECT_EQ(merged.cells, 4u);
-  EXPECT_EQ(merged.twice, 1u);
-  EXPECT_EQ(store_text(out), whole);
-  EXPECT_THROW(merge_stores({parts[0], parts[1]}, out, false), InputError) << "it is there";
-  file_ = out;
-  EXPECT_EQ(run(kUsual).cells, Labels{}) << "and goes on like any other";
-}
-
-TEST_F(StoreTest, MergePrefersWhatDidNotFail) {
-  const auto fails = [&] {
-    const Sweep sweep = parse_sweep(kUsual, "c.yaml", known_);
-    CellKeys keys(sweep, known_, root_, build_);
-    Store store(file_, keys, {});
-    CellResult r;
-    r.cell = cells(sweep, seeded(sweep, known_), "").at(1);
-    r.status = Status::failed;
-    r.why = "not now";
-    store.write(r);
-  };
-  file_ = folder_.path() / "1.sqlite";
-  fails();
-  file_ = folder_.path() / "2.sqlite";
-  run(kUsual, Retry::none, "a / ");
-  const std::filesystem::path out = folder_.path() / "3.sqlite";
-  merge_stores({folder_.path() / "1.sqlite", file_}, out, false);
-  for (const CellRecord& cell : read_cells(out)) EXPECT_EQ(cell.status, "ok");
-  EXPECT_EQ(read_cells(out).size(), 2u);
-}
-
-TEST_F(StoreTest, MergeRefusesWhatDoesNotBelongTogether) {
-  const std::filesystem::path one = file_ = folder_.path() / "1.sqlite";
-  run(kUsual);
-  const std::filesystem::path other_options = file_ = folder_.path() / "2.sqlite";
-  run(config("straight, {method: shift, by: 2, label: shifted}"));
-  const std::filesystem::path other_build = file_ = folder_.path() / "3.sqlite";
-  build_ = "build two";
-  run(kUsual);
-  const std::filesystem::path out = folder_.path() / "out.sqlite";
-  EXPECT_THROW(merge_stores({one, other_options}, out, false), InputError);
-  EXPECT_THROW(merge_stores({one, other_build}, out, false), InputError);
-  EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_EQ(merge_stores({one, other_build}, out, true).cells, 8u);
-  Labels methods;
-  for (const CellRecord& cell : read_cells(out)) {
-    if (cell.sequence == "a") methods.push_back(cell.method);
-  }
-  EXPECT_EQ(
-      methods,
-      (Labels{"straight", "shifted", "straight (build build tw)", "shifted (build build tw)"}));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
 }
 
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
-  EXPECT_EQ(run("compare r --format json").out.rfind("[\n  {\n    \"protocol\"", 0), 0u);
+  EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
   EXPECT_EQ(run("compare r --format csv").out.rfind("protocol,times,metric", 0), 0u);
   EXPECT_TRUE(has(run("compare r --format latex").out, "\\begin{tabular}{lrrrrrrrrr}\n\\toprule"));
   EXPECT_TRUE(
@@ -80,6 +80,66 @@ TEST_F(VerdictCli, CompareRefusesByName) {
   refusal("r --over planets");
   folder_->file("empty.sqlite", "");
   EXPECT_TRUE(has(refusal("empty.sqlite"), "empty.sqlite: is not a store"));
+}
+
+TEST_F(VerdictCli, EveryExportCarriesWhatMadeIt) {
+  const auto ends = [](const std::string& text, const std::string& end) {
+    return text.size() >= end.size() &&
+           text.compare(text.size() - end.size(), end.size(), end) == 0;
+  };
+  const std::string markdown = run("table r").out;
+  const std::string comment = markdown.substr(markdown.find("<!-- provenance\n"));
+  for (const char* fact : {"\ncommit: ",
+                           "\ncompiler: ",
+                           "\ncpu: ",
+                           "\nseeds:\n",
+                           "\nprotocol: ",
+                           "\nconfig:\n  datasets:\n",
+                           "  repeats: 4\n"}) {
+    EXPECT_TRUE(has(comment, fact)) << fact << comment;
+  }
+  EXPECT_TRUE(ends(comment, "-->\n"));
+  EXPECT_EQ(comment.find("--", 4), comment.size() - 4) << "nothing within may end it";
+  const std::string latex = run("compare r --format latex").out;
+  EXPECT_TRUE(has(latex, "\n% commit: "));
+  EXPECT_TRUE(has(latex, "\n%   metrics: [ate]\n"));
+  EXPECT_EQ(run("table r --format csv -o t/x.csv").out, "");
+  EXPECT_EQ(read("t/x.csv"), run("table r --format csv").out);
+  const std::string beside = read("t/x.provenance.json");
+  EXPECT_TRUE(has(beside, "\"commit\": \"")) << beside;
+  EXPECT_TRUE(has(beside, "\\nmetrics: [ate]\\n")) << beside;
+  EXPECT_EQ(read("r/provenance.json"), beside);
+  EXPECT_TRUE(has(read("r/table.md"), "<!-- provenance\n"));
+  EXPECT_TRUE(has(run("table r --format json").out, "\n\"tables\": [\n"));
+}
+
+TEST_F(VerdictCli, ATableKeepsTheRowsItsConfigAsksFor) {
+  std::string text = kConfig;
+  folder_->file("w.yaml", text + "table: {where: ['method!=raw', unit=m], show: [ate]}\n");
+  const CommandResult result = run("run w.yaml --out w --only room");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(has(result.out, "| uniform "));
+  EXPECT_FALSE(has(result.out, "| raw ")) << result.out;
+  EXPECT_FALSE(has(result.out, "[deg]")) << result.out;
+  EXPECT_TRUE(has(read("w/rows.csv"), ",raw,"));
+  folder_->file("w.yaml", text + "table: {where: [metrc=ate]}\n");
+  const CommandResult slip = run("run w.yaml --dry-run");
+  EXPECT_EQ(slip.exit_code, 2);
+  EXPECT_EQ(slip.err.find("loopbench: w.yaml:8: where: 'metrc=ate': "), 0u) << slip.err;
+}
+
+TEST_F(VerdictCli, TheGateLooksAtTimesWhenTold) {
+  ASSERT_EQ(run("check r --baseline t.json --update --time 0.5").exit_code, 0);
+  EXPECT_TRUE(
+      has(read("t.json"), "{\"where\":[\"metric=time\"],\"value\":\"rmse\",\"relative\":0.5"));
+  EXPECT_TRUE(has(read("t.json"), "\"metric\":\"time\""));
+  EXPECT_EQ(run("check r --baseline t.json").exit_code, 0);
+  std::string other = read("t.json");
+  const std::size_t cpu = other.find("\"time\":\"on ");
+  ASSERT_NE(cpu, std::string::npos) << other;
+  folder_->file("t2.json", other.insert(cpu + 11, "another "));
+  EXPECT_EQ(run("check r --baseline t2.json").exit_code, 2);
+  EXPECT_EQ(run("check r --baseline t.json --time 1").exit_code, 2);
 }
 
 TEST_F(VerdictCli, TablesEscapeNamesInEveryFormat) {

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 
 #include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/short_segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
@@ -138,6 +140,33 @@ TEST(Scheme, EverySchemeOwnsEveryEdgeOnce) {
         EXPECT_EQ(edge, last) << name;
       }
     }
+  }
+}
+
+TEST(DmReport, TellsHowItCutUpTheWay) {
+  const Trajectory keyframes = wandering(60, 5);
+  Report report;
+  Dm({.planar = 4, .spatial = 7}).smooth(keyframes_only(keyframes), report);
+  std::map<std::string, std::vector<Section>> kinds;
+  for (const Section& section : report.sections) kinds[section.kind].push_back(section);
+  const auto counted = [&](const std::string& name) {
+    for (const Count& count : report.counts) {
+      if (count.name == name) return static_cast<std::size_t>(count.value);
+    }
+    return std::size_t{0};
+  };
+  EXPECT_EQ(kinds["segment"].size(), counted("segments"));
+  EXPECT_EQ(kinds["window"].size(), counted("windows"));
+  EXPECT_EQ(kinds["spatial window"].size(), counted("spatial_windows"));
+  EXPECT_GT(kinds["segment"].size(), 1u);
+  for (const char* kind : {"segment", "window", "spatial window"}) {  // end to end
+    double reached = keyframes.front().stamp;
+    for (const Section& section : kinds[kind]) {
+      EXPECT_EQ(section.begin, reached) << kind;
+      reached = section.end;
+      EXPECT_EQ(section.what.empty(), section.kind == "segment");
+    }
+    EXPECT_EQ(reached, keyframes.back().stamp) << kind;
   }
 }
 

@@ -61,6 +61,38 @@ TEST(LoopDetection, EqualScoresCountTogether) {
   EXPECT_EQ(judged(s).full_precision_recall, 0.0);
 }
 
+TEST(LoopDetection, GivesRowsAndDeclinesWhereThereIsNothingToJudge) {
+  Sequence s = out_and_back();
+  s.loop_candidates = {{2, 4, 9.0, true}, {3, 5, 8.0, true}, {0, 6, 7.0, false}};
+  Evaluation evaluation;
+  evaluation.context.problem = &s.problem;
+  evaluation.context.reference = &s.reference;
+  DetectionRule rule;
+  rule.radius = 0.5;
+  rule.min_gap = 1.5;
+  EXPECT_THROW(loop_detection(evaluation, rule), Undefined);  // two files
+  evaluation.context.loop_candidates = &s.loop_candidates;
+  const std::vector<Score> rows = loop_detection(evaluation, rule);
+  const auto value = [&](const std::string& relation, const std::string& axis = "") {
+    for (const Score& row : rows) {
+      if (row.relation == relation && row.axis == axis) return row.statistics.mean;
+    }
+    return -1.0;
+  };
+  EXPECT_EQ(value("revisits"), 3.0);
+  EXPECT_EQ(value("closures"), 2.0);
+  EXPECT_EQ(value("precision"), 0.5);
+  EXPECT_NEAR(value("average_precision"), 1.0 / 3.0 + 2.0 / 3.0 / 3.0, 1e-12);
+  EXPECT_EQ(value("precision_at_recall", "0.3"), 1.0);
+  EXPECT_NEAR(value("precision_at_recall", "0.4"), 2.0 / 3.0, 1e-12);
+  EXPECT_EQ(value("precision_at_recall", "1.0"), 0.0);
+  s.loop_candidates.clear();
+  EXPECT_THROW(loop_detection(evaluation, rule), Undefined);
+  s.loop_candidates = {{2, 4, 9.0, true}};
+  s.reference.clear();
+  EXPECT_THROW(loop_detection(evaluation, rule), Undefined);
+}
+
 TEST(LoopDetection, NeedsAReferenceAndFindsNoRevisitWhereThereIsNone) {
   Sequence s = out_and_back();
   s.reference.resize(4);

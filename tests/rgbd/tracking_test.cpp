@@ -4,6 +4,7 @@
 
 #include "datasets/random.hpp"
 #include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/loops/place_index.hpp"
 #include "datasets/rgbd/loops/vocabulary.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
@@ -115,6 +116,38 @@ Features two_groups() {
     out.descriptors.back() = static_cast<std::uint8_t>(i % 4);  // a little of its own
   }
   return out;
+}
+
+Pose step_of(double x) { return {Rotation::Identity(), Vector3(x, 0.0, 0.0)}; }
+
+TEST(NormalisedGap, IsTheGapOverItsVarianceWorkedByHand) {
+  // Along a straight way turns do not move x to first order: variances 1 + 1 + 1, gap 3 metres.
+  const std::vector<Edge> odometry{{0, 1, step_of(1.0)}, {1, 2, step_of(1.0)}};
+  const std::vector<double> gaps = normalised_gaps(odometry, {{0, 2, step_of(5.0)}});
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_NEAR(gaps[0], 9.0 / 3.0 / 6.0, 1e-12);
+}
+
+TEST(NormalisedGap, IsOneOnAverageWhenTheInformationIsRight) {
+  Random random(3, Purpose::odometry);
+  const auto noise = [&] { return twist(0.01 * random.normal3(), 0.01 * random.normal3()); };
+  const Matrix6 information = Matrix6::Identity() * 1e4;
+  const Pose step{exp_so3({0.1, 0.2, -0.1}), {0.3, 0.1, -0.2}};
+  std::vector<double> gaps;
+  for (int run = 0; run < 200; ++run) {
+    std::vector<Edge> odometry;
+    Pose way{Rotation::Identity(), Vector3::Zero()};
+    for (std::size_t i = 0; i < 8; ++i) {
+      odometry.push_back({i, i + 1, step * exp_se3(noise()), information});
+      if (i >= 2) way = way * step;
+    }
+    const std::vector<Edge> loop{{2, 8, way * exp_se3(noise()), information}};
+    gaps.push_back(normalised_gaps(odometry, loop)[0]);
+    EXPECT_EQ(information_excess(odometry, loop, 2), 1.0);  // too few to tell
+  }
+  double sum = 0.0;
+  for (const double gap : gaps) sum += gap;
+  EXPECT_NEAR(sum / 200.0, 1.0, 0.12);  // three standard deviations of the mean
 }
 
 TEST(Descriptors, DistanceIsTheShareOfBits) {

@@ -26,6 +26,9 @@ inline std::string store_text(const std::filesystem::path& file) {
            c.worker + "|" + c.status + "|" + c.signal + "|" + c.why + "\n";
     for (const Count& count : c.counts) out += count.name + "=" + exact(count.value) + "\n";
     for (const std::string& note : c.notes) out += "note " + note + "\n";
+    for (const Section& s : traces.sections(c.position)) {
+      out += s.kind + " " + exact(s.begin) + " " + exact(s.end) + " " + s.what + "\n";
+    }
     if (const auto trace = traces.cell(c.position)) {
       out += "trace " + std::to_string(trace->samples.size());
       for (const TraceSample& s : trace->samples) {

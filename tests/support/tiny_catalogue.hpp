@@ -48,6 +48,8 @@ struct Shift final : Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override {
     if (options.fail) throw std::runtime_error("told to fail");
     report.count("iterations", 3);
+    report.sections.push_back(
+        {"window", problem.keyframes.front().stamp, problem.keyframes.back().stamp, "shifted"});
     Trajectory out = problem.keyframes;
     for (StampedPose& p : out) p.world_from_body.translation.z() += options.by;
     return out;

@@ -132,16 +132,19 @@ std::vector<ImagePair> chosen(const std::vector<ImagePair>& all, const FolderOpt
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
                                                    const FolderOptions& options) {
   const bool tum = fs::exists(folder / "rgb.txt");
-  if (!tum && !is_seven_scenes(folder)) {
+  const bool icl_nuim = is_icl_nuim(folder);
+  if (!tum && !icl_nuim && !is_seven_scenes(folder)) {
     throw input_error(folder.string(),
                       0,
-                      "holds no recording: expected rgb.txt and depth.txt (TUM RGB-D) or "
-                      "frame-000000.color.png (7-Scenes)");
+                      "holds no recording: expected rgb.txt and depth.txt (TUM RGB-D), "
+                      "frame-000000.color.png (7-Scenes) or associations.txt (ICL-NUIM)");
   }
-  Recording recording =
-      tum ? read_tum_layout(folder, options) : read_seven_scenes_layout(folder, options);
-  const bool registered =
-      options.depth == DepthGeometry::automatic ? tum : options.depth == DepthGeometry::registered;
+  Recording recording = tum        ? read_tum_layout(folder, options)
+                        : icl_nuim ? read_icl_nuim_layout(folder, options)
+                                   : read_seven_scenes_layout(folder, options);
+  const bool registered = options.depth == DepthGeometry::automatic
+                              ? tum || icl_nuim
+                              : options.depth == DepthGeometry::registered;
   const std::size_t all = recording.frames.size();
   recording.frames = chosen(recording.frames, options);
   if (recording.frames.empty()) {

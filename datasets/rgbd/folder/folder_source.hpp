@@ -1,4 +1,4 @@
-/// A recording on disk: TUM RGB-D or 7-Scenes layout.
+/// A recording on disk: TUM RGB-D, 7-Scenes or ICL-NUIM layout.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline auto choices(CameraChoice) {
                     std::pair{"fr3", CameraChoice::fr3}};
 }
 
-/// Whether depth pixels already are colour pixels. `automatic`: yes in TUM layout, no in 7-Scenes.
+/// Whether depth pixels already are colour pixels. `automatic`: no in 7-Scenes, else yes.
 /// `kinect`: no; they are brought there by unregistered_kinect(), whose intrinsics replace the
 /// folder's, and the reference, which is the depth camera's, is moved to the colour camera.
 enum class DepthGeometry { automatic, registered, kinect };
@@ -46,7 +46,7 @@ void fields(FolderOptions& o, Visit visit) {
   visit("camera", o.camera, "intrinsics: camera.yaml, or those published for TUM's cameras");
   visit("depth", o.depth, "whether depth pixels are colour pixels, or how they become so");
   visit("pair_gap", o.pair_gap, "farthest that depth and colour lie apart [s]", Between{0, 1});
-  visit("rate", o.rate, "of a 7-Scenes folder, which has no stamps [Hz]", Above{0});
+  visit("rate", o.rate, "of a 7-Scenes or ICL-NUIM folder, which has no stamps [Hz]", Above{0});
   visit("every", o.every, "take each so many-th frame", Between{1});
   visit("first", o.first, "frame to begin with", Between{0});
   visit("frames", o.frames, "take at most so many; 0: all", Between{0});
@@ -54,8 +54,10 @@ void fields(FolderOptions& o, Visit visit) {
 
 /// `folder` holds rgb.txt and depth.txt (TUM), with groundtruth.txt and camera.yaml if there are;
 /// or frame-000000.color.png, .depth.png, .pose.txt and so on (7-Scenes; intrinsics as its authors
-/// give them, 585 px about the middle). Throws InputError: neither layout, a broken list,
-/// intrinsics unknown. An image that is missing or broken is found only when it is read.
+/// give them, 585 px about the middle); or associations.txt and no rgb.txt, with *.gt.freiburg if
+/// there is (ICL-NUIM's "TUM compatible PNGs"; its published intrinsics, y turned down). Throws
+/// InputError: no such layout, a broken list, intrinsics unknown. An image that is missing or
+/// broken is found only when it is read.
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const std::filesystem::path& folder,
                                                    const FolderOptions& options);
 

@@ -28,4 +28,9 @@ bool is_seven_scenes(const std::filesystem::path& folder);
 Recording read_seven_scenes_layout(const std::filesystem::path& folder,
                                    const FolderOptions& options);
 
+bool is_icl_nuim(const std::filesystem::path& folder);
+/// Stamps are the numbers of the images over the rate; the reference, written with y up, is
+/// mirrored. Throws InputError.
+Recording read_icl_nuim_layout(const std::filesystem::path& folder, const FolderOptions& options);
+
 }  // namespace loopbench

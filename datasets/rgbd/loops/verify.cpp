@@ -2,28 +2,14 @@
 
 #include <algorithm>
 
+#include "datasets/rgbd/tracking/observations.hpp"
+
 namespace loopbench {
 namespace {
 
 constexpr std::size_t kNeighbours = 1;  // on each side, whose points help
 constexpr std::size_t kFewest = 12;     // matches worth a RANSAC
 constexpr double kRadius = 0.02;        // of the second search, over image width
-
-std::vector<Observation> observed(const std::vector<Seen>& points,
-                                  const Features& features,
-                                  const std::vector<Match>& matches) {
-  std::vector<Observation> out;
-  for (const Match& match : matches) {
-    const Feature& f = features.points[match.b];
-    const double depth = static_cast<double>(f.depth);
-    out.push_back({points[match.a].in_world,
-                   static_cast<double>(f.u),
-                   static_cast<double>(f.v),
-                   depth > 0.0 ? 1.0 / depth : 0.0,
-                   static_cast<double>(f.sigma)});
-  }
-  return out;
-}
 
 /// Points of one keyframe where another stands in the middle of the world.
 void collect(const Keyframe& keyframe,
@@ -62,7 +48,7 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   collect(keyframes[from], {}, camera, points, looks);
   const std::vector<Match> wide = match_everywhere(looks, here, options.match);
   if (wide.size() < kFewest) return out;
-  const std::vector<Observation> first = observed(points, here, wide);
+  const std::vector<Observation> first = observations(points, here, wide);
   const std::optional<Pose> found = pose_by_ransac(first, camera, options.pose);
   if (!found) return out;
   const RefinedPose rough = refine_pose(first, camera, *found, options.pose);
@@ -77,7 +63,7 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   const std::vector<Match> near = match_near(
       points, looks, here, camera, rough.world_from_camera, kRadius * camera.width, options.match);
   const RefinedPose pose =
-      refine_pose(observed(points, here, near), camera, rough.world_from_camera, options.pose);
+      refine_pose(observations(points, here, near), camera, rough.world_from_camera, options.pose);
   if (pose.inliers < 6) return out;
   out.edge.from_from_to = pose.world_from_camera;
   out.edge.information = pose.information;

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kKMeansRounds = 6;
 
 Features alike(const Features& features) {
   Features out;
@@ -109,7 +109,7 @@ void Vocabulary::grow(std::size_t node,
   }
   Features middles = far_apart(all, members, branches_, mixed(seed_, std::uint64_t{node}));
   std::vector<std::vector<std::size_t>> groups;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kKMeansRounds; ++round) {
     groups.assign(branches_, {});
     for (const std::size_t i : members) groups[nearest(middles, 0, branches_, all, i)].push_back(i);
     for (std::size_t k = 0; k < branches_; ++k) recentre(middles, k, all, groups[k]);

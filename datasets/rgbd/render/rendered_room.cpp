@@ -12,7 +12,8 @@
 namespace loopbench {
 namespace {
 
-constexpr std::uint64_t kVersion = 1;     // of the pictures: what is cached under another is stale
+constexpr std::uint64_t kPictureVersion =
+    1;                                    // of the pictures: what is cached under another is stale
 const Vector3 kHalfRoom(2.7, 2.4, 1.35);  // [m]; the path stays within 1.3 x 1.1 x 0.3
 
 /// x right, y down, z ahead, in a body with x ahead, y left, z up.
@@ -66,7 +67,7 @@ class RenderedRoom final : public RgbdSource {
   }
 
   std::uint64_t content() const override {
-    return mixed(mixed(kVersion, "rendered_room"), to_text(echo(options_)));
+    return mixed(mixed(kPictureVersion, "rendered_room"), to_text(echo(options_)));
   }
 
   Provenance provenance() const override {

@@ -9,8 +9,8 @@ namespace loopbench {
 namespace {
 
 constexpr int kTaps = 5;               // samples along the smear
-constexpr float kNearest = 0.5f;       // [m]
-constexpr float kFarthest = 4.5f;      // [m]
+constexpr float kNearestSeen = 0.5f;   // [m]
+constexpr float kFarthestSeen = 4.5f;  // [m]
 constexpr float kNoise = 1.425e-3f;    // [m at 1 m]
 constexpr float kBaseline = 0.075f;    // projector to camera [m]
 constexpr float kKinectFocal = 580.f;  // [px of its 640]
@@ -84,7 +84,7 @@ RgbdFrame sensed(const Rendered& perfect,
           o.dropouts > 0.0 &&
           (perfect.slant.at(x, y) < kGrazing || beside_edge(perfect.depth, x, y) ||
            uniform(mixed(seed ^ 0xd409, patch)) < hole || uniform(mixed(chance)) < hole);
-      if (dropped || exact < kNearest || exact > kFarthest) continue;
+      if (dropped || exact < kNearestSeen || exact > kFarthestSeen) continue;
       const float sigma = kNoise * static_cast<float>(o.depth_noise);
       float measured = exact + sigma * exact * exact * about_normal(mixed(chance, 3u));
       if (jitter) {

@@ -6,9 +6,9 @@
 namespace loopbench {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr int kRefineRounds = 4;
 constexpr int kSteps = 6;                   // a round
-constexpr double kNearest = 0.05;           // [m]
+constexpr double kInFront = 0.05;           // [m]
 constexpr double kChi2[] = {5.991, 7.815};  // 95 % of two and of three numbers
 
 struct Residual {
@@ -25,7 +25,7 @@ Residual residual(const Observation& o,
                   const PoseOptions& options) {
   Residual out;
   const Vector3 p = camera_from_world * o.in_world;
-  if (p.z() < kNearest) return out;
+  if (p.z() < kInFront) return out;
   out.ahead = true;
   const double iz = 1.0 / p.z();
   const double pixel = 1.0 / (options.pixel_sigma * o.sigma);
@@ -54,7 +54,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Pose& begin,
                         const PoseOptions& options) {
   RefinedPose out{begin, std::vector<bool>(observations.size(), true)};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRefineRounds; ++round) {
     for (int step = 0; step < kSteps; ++step) {
       const Pose camera_from_world = out.world_from_camera.inverse();
       Matrix6 H = Matrix6::Zero();

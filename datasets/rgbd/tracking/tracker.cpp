@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "datasets/derive/odometry.hpp"
+#include "datasets/rgbd/tracking/observations.hpp"
 
 namespace loopbench {
 namespace {
@@ -15,23 +16,6 @@ constexpr double kNarrower = 0.2;        // second search, about the pose found 
 constexpr std::size_t kPointsToBegin = 50;
 constexpr double kVelocityHolds = 0.5;  // a velocity older than this says nothing [s]
 constexpr double kGuess = 0.5;          // of an edge that was not measured [m], [rad]
-
-std::vector<Observation> observed(const std::vector<Seen>& points,
-                                  const Features& features,
-                                  const std::vector<Match>& matches) {
-  std::vector<Observation> out;
-  out.reserve(matches.size());
-  for (const Match& match : matches) {
-    const Feature& f = features.points[match.b];
-    const double depth = static_cast<double>(f.depth);
-    out.push_back({points[match.a].in_world,
-                   static_cast<double>(f.u),
-                   static_cast<double>(f.v),
-                   depth > 0.0 ? 1.0 / depth : 0.0,
-                   static_cast<double>(f.sigma)});
-  }
-  return out;
-}
 
 double median_depth(const Features& features) {
   std::vector<float> depths;
@@ -60,7 +44,7 @@ std::optional<Tracker::Located> Tracker::settle(const Features& features,
                                                 const std::vector<Match>& matches) const {
   const auto least = static_cast<std::size_t>(options_.inliers_min);
   if (matches.size() < least) return std::nullopt;
-  const std::vector<Observation> first = observed(map_.points(), features, matches);
+  const std::vector<Observation> first = observations(map_.points(), features, matches);
   const std::optional<Pose> found = pose_by_ransac(first, camera_, options_.pose);
   if (!found) return std::nullopt;
   const RefinedPose near = refine_pose(first, camera_, *found, options_.pose);
@@ -75,7 +59,7 @@ std::optional<Tracker::Located> Tracker::settle(const Features& features,
                                         radius,
                                         options_.match);
   const RefinedPose pose = refine_pose(
-      observed(map_.points(), features, again), camera_, near.world_from_camera, options_.pose);
+      observations(map_.points(), features, again), camera_, near.world_from_camera, options_.pose);
   if (pose.inliers < least) return std::nullopt;
   Located out;
   out.world_from_camera = pose.world_from_camera;

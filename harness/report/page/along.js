@@ -18,7 +18,7 @@
     for (const [id, key, name, label] of parts) {
       const host = document.getElementById(id);
       host.replaceChildren();
-      R.caption(host, name === "rotation" ? "Rotation" : `Along ${name}`, R.scores.sequences[s]);
+      R.caption(host, name === "rotation" ? "Rotation" : `Along ${name}`, R.runName(s));
       if (!traces.length) { R.nothing(host, "No method shown has a trajectory here."); continue; }
       R.chart(host, {
         label: `${label} of ${methods.map((m) => m.label).join(", ")}`, height: 250, zoom: true,

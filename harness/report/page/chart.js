@@ -49,7 +49,9 @@
   // o: {label, width, height, margin, x: {label, domain, log}, y: likewise or {band}, equal, zoom,
   // draw(group, x, y)}; draw is called again at every zoom.
   R.chart = (host, o) => {
-    const width = o.width || 600, height = o.height || 420;
+    // As wide as there is room, so that letters keep their size on a telephone.
+    const width = o.width || Math.max(330, Math.min(600, host.clientWidth || 600));
+    const height = Math.round((o.height || 420) * (o.y.band ? 1 : Math.min(1, 0.3 + (0.7 * width) / 600)));
     const margin = { top: 10, right: 14, bottom: 44, left: 60, ...o.margin };
     const inner = { width: width - margin.left - margin.right, height: height - margin.top - margin.bottom };
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${width} ${height}`)

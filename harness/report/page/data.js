@@ -39,17 +39,29 @@
     return { t, x, y, z, s };
   };
 
-  // {t, x, y, z, s, closures} of a sequence's reference, or null.
-  R.reference = cached((s) => {
+  const reference = cached((s) => {
     const packed = raw.traces.sequences[s];
-    return packed && { ...path(packed), closures: packed.closures, allClosures: packed.all_closures };
+    return packed && { ...path(packed), runs: packed.runs };
   });
+  // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the run that is shown;
+  // or null.
+  R.reference = (s) => {
+    const found = reference(s);
+    const run = found && (found.runs[R.state.repeat] || Object.values(found.runs)[0]);
+    return found && { ...found, closures: run.closures, allClosures: run.all };
+  };
   const grid = cached((g) => path(raw.traces.grids[g]));
 
   const drawn = new Map();
+  const placeOf = (s, m, n) => `${s},${m},${n}`;
+  const repeats = R.scores.sequences.map(() => new Set());
   raw.scores.cells.forEach((cell, i) => {
-    if (raw.traces.cells[i]) drawn.set(cell.s * R.methods.length + cell.m, i);
+    if (!raw.traces.cells[i]) return;
+    drawn.set(placeOf(cell.s, cell.m, cell.n), i);
+    repeats[cell.s].add(cell.n);
   });
+  // The repeats of a sequence whose trajectories are drawn.
+  R.repeats = (s) => d3.sort(repeats[s]);
   const errors = cached((i) => {
     const packed = raw.traces.cells[i];
     const reference = grid(packed.g);
@@ -62,10 +74,22 @@
     };
   });
 
-  // The drawn estimate of a method on a sequence (its first repeat) with its errors, or null.
+  // The drawn estimate of a method on the shown run of a sequence with its errors, or null.
   R.trace = (s, m) => {
-    const i = drawn.get(s * R.methods.length + m);
+    const i = drawn.get(placeOf(s, m, R.state.repeat));
     return i === undefined ? null : errors(i);
+  };
+
+  // How the method of a cell cut up the way: [{kind, begin, end, what, all}], or null.
+  R.cutOf = cached((i) => {
+    const cell = raw.traces.cells[i];
+    return (cell && cell.cut && cell.cut.map((part) => ({
+      kind: part.kind, all: part.all, begin: R.unpack(part.b), end: R.unpack(part.e), what: part.w.map((name) => part.names[name]),
+    }))) || null;
+  });
+  R.cut = (s, m) => {
+    const i = drawn.get(placeOf(s, m, R.state.repeat));
+    return i === undefined ? null : R.cutOf(i);
   };
 
   // Values of a score: one for each cell of the method, on one sequence or (s null) on all.

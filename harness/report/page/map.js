@@ -26,7 +26,7 @@
     const s = R.state.sequence;
     const reference = R.reference(s);
     const methods = R.shown().filter((m) => R.trace(s, m.place));
-    R.caption(host, "From above (xoy)", R.scores.sequences[s]);
+    R.caption(host, "From above (xoy)", R.runName(s));
     if (!reference) return R.nothing(host, "No trajectories were kept of this sequence (traces: false).");
     const traces = methods.map((m) => R.trace(s, m.place));
     R.chart(host, {

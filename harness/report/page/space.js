@@ -58,7 +58,7 @@
     host.replaceChildren();
     const s = R.state.sequence;
     const reference = R.reference(s);
-    R.caption(host, "In space", R.scores.sequences[s]);
+    R.caption(host, "In space", R.runName(s));
     if (!reference) return R.nothing(host, "No trajectories were kept of this sequence (traces: false).");
     const methods = R.shown().filter((m) => R.trace(s, m.place));
     const traces = methods.map((m) => R.trace(s, m.place));

@@ -23,6 +23,16 @@
     choice("Statistic", indexed(R.scores.statistics), state.statistic, (v) => (state.statistic = Number(v))),
     choice("Along", [["s", "path"], ["t", "time"]], state.abscissa, (v) => (state.abscissa = v)));
   form.append(row);
+  // Which repeat: only where trajectories of several are in the page.
+  const repeat = element("select");
+  repeat.addEventListener("change", () => { state.repeat = Number(repeat.value); R.changed(); });
+  const repeatField = element("label", { className: "field" }, "Repeat", repeat);
+  row.children[0].after(repeatField);
+  R.follow(() => {
+    const own = R.repeats(state.sequence);
+    repeatField.hidden = own.length < 2;
+    repeat.replaceChildren(...own.map((n) => element("option", { value: n, textContent: n + 1, selected: n === state.repeat })));
+  });
 
   const chips = element("div", { className: "chips" });
   const summary = element("summary");

@@ -48,9 +48,17 @@
   R.state = {
     // report.html?sequence=driving opens on that one.
     sequence: Math.max(0, R.scores.sequences.indexOf(new URLSearchParams(location.search).get("sequence"))),
-    kind, statistic: 0, abscissa: "s", shown: new Set(shown),
+    repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
+  // A sequence without that repeat shows its first one.
+  R.keepRepeat = () => {
+    const own = R.repeats(R.state.sequence);
+    if (!own.includes(R.state.repeat)) R.state.repeat = own.length ? own[0] : 0;
+  };
+  R.keepRepeat();
+  // "room", or "room, repeat 3" where there are several to choose from.
+  R.runName = (s) => R.scores.sequences[s] + (R.repeats(s).length > 1 ? `, repeat ${R.state.repeat + 1}` : "");
   R.usual = shown;
   R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));
   R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +
@@ -58,5 +66,8 @@
 
   const followers = [];
   R.follow = (draw) => followers.push(draw);
-  R.changed = () => followers.forEach((draw) => draw());
+  R.changed = () => {
+    R.keepRepeat();
+    followers.forEach((draw) => draw());
+  };
 })();

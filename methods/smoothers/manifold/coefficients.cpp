@@ -9,28 +9,39 @@ std::string alpha(int i, int j) {
   return "alpha(" + std::to_string(i) + "," + std::to_string(j) + ")";
 }
 
+int degree_of(const Polynomial& curve) {
+  const auto& c = curve.coefficients;
+  return c[3] != 0.0 ? 3 : c[2] != 0.0 ? 2 : 1;
+}
+
+std::string named(const Graph<Polynomial>& piece) {
+  const int degree = degree_of(piece.curve);
+  return degree == 3 ? "cubic" : degree == 2 ? "parabola" : "line";
+}
+std::string named(const Graph<Sine>&) { return "sin1"; }
+std::string named(const Graph<Rational>&) { return "rat02"; }
+std::string named(const Graph<Hyperbola>&) { return "hyperbola"; }
+std::string named(const AsImplicit&) { return "implicit"; }
+std::string named(const AsArc&) { return "arc"; }
+std::string named(const AsArcPolynomial&) { return "arc polynomial"; }
+std::string named(const AsRegression&) { return "regression spline"; }
+std::string named(const AsChord&) { return "chord"; }
+std::string named(const AsSpline&) { return "spline"; }
+
+template <class Function>
+std::string described(const Graph<Function>& piece) {
+  return named(piece) + ": " + text(coefficients(piece.curve));
+}
 std::string described(const Graph<Polynomial>& piece) {
-  const auto& c = piece.curve.coefficients;
-  const int degree = c[3] != 0.0 ? 3 : c[2] != 0.0 ? 2 : 1;
-  return "polynomial: " + text(coefficients(piece.curve, degree));
-}
-std::string described(const Graph<Sine>& piece) {
-  return "sin1: " + text(coefficients(piece.curve));
-}
-std::string described(const Graph<Rational>& piece) {
-  return "rat02: " + text(coefficients(piece.curve));
-}
-std::string described(const Graph<Hyperbola>& piece) {
-  return "hyperbola: " + text(coefficients(piece.curve));
+  return "polynomial: " + text(coefficients(piece.curve, degree_of(piece.curve)));
 }
 std::string described(const AsImplicit& piece) {
-  return "implicit: " + text(coefficients(piece.curve));
+  return named(piece) + ": " + text(coefficients(piece.curve));
 }
-std::string described(const AsArc&) { return "arc"; }
-std::string described(const AsArcPolynomial&) { return "arc polynomial"; }
-std::string described(const AsRegression&) { return "regression spline"; }
-std::string described(const AsChord&) { return "chord"; }
-std::string described(const AsSpline&) { return "spline"; }
+template <class Shape>
+std::string described(const Shape& piece) {
+  return named(piece);
+}
 
 }  // namespace
 
@@ -117,6 +128,10 @@ std::vector<Coefficient> coefficients(const Quadric& surface, double base_height
 
 std::string description(const PlanarPiece& piece) {
   return std::visit([](const auto& shape) { return described(shape); }, piece);
+}
+
+std::string family_name(const PlanarPiece& piece) {
+  return std::visit([](const auto& shape) { return named(shape); }, piece);
 }
 
 std::string text(const std::vector<Coefficient>& coefficients) {

@@ -32,6 +32,9 @@ std::vector<Coefficient> coefficients(const Quadric& surface, double base_height
 /// Of a piece, with the family's name; only the name for pieces that are no curve of a family.
 std::string description(const PlanarPiece& piece);
 
+/// The name alone: "parabola", "sin1", "arc".
+std::string family_name(const PlanarPiece& piece);
+
 /// "alpha(2,0) = 1.238, ...".
 std::string text(const std::vector<Coefficient>& coefficients);
 

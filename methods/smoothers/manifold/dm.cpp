@@ -118,6 +118,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   }
   describe(dense, report);
   count(report, "segments", runs.size());
+  describe(nodes, runs, report);
 
   Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
   Laying laying{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
@@ -131,6 +132,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
     if (!fit)
       fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, judge));
     describe(*fit, report);
+    describe(nodes, *fit, report);
     if (options_.report_coefficients) note_coefficients(*fit, report);
     parts.planar =
         laid<Vector3>(nodes,
@@ -145,6 +147,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
     laying.size = static_cast<std::size_t>(options_.spatial);
     SpatialFit fit = fit_spatial(nodes, runs, parts.spline, up, spatial_rule(options_));
     describe(fit, report);
+    describe(nodes, fit, report);
     if (options_.report_coefficients) note_coefficients(fit, up.dot(nodes.base), report);
     parts.spatial =
         laid<double>(nodes,

@@ -18,6 +18,10 @@ std::string nodes_of(const Window& window) {
          std::to_string(window.fitted.last) + ": ";
 }
 
+Section section(const char* kind, const Nodes& nodes, NodeRange range, std::string what) {
+  return {kind, nodes.stamps[range.first], nodes.stamps[range.last], std::move(what)};
+}
+
 }  // namespace
 
 void count(Report& report, const char* name, std::size_t value) {
@@ -44,6 +48,28 @@ void describe(const SpatialFit& fit, Report& report) {
   count(report, "spatial_windows", fit.windows.size());
   count(report, "spatial_truncated", fit.truncated);
   count(report, "spatial_fallbacks", fit.fallbacks);
+}
+
+void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report) {
+  for (const NodeRange& segment : segments) {
+    report.sections.push_back(section("segment", nodes, segment, ""));
+  }
+}
+
+void describe(const Nodes& nodes, const PlanarFit& fit, Report& report) {
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    report.sections.push_back(
+        section("window", nodes, fit.windows[k].owned, family_name(fit.pieces[k])));
+  }
+}
+
+void describe(const Nodes& nodes, const SpatialFit& fit, Report& report) {
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    report.sections.push_back(section("spatial window",
+                                      nodes,
+                                      fit.windows[k].owned,
+                                      fit.pieces[k].surface ? "quadric" : "own height"));
+  }
 }
 
 void describe(const Continuity& jumps, Report& report) {

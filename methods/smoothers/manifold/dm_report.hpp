@@ -14,6 +14,11 @@ void count(Report& report, const char* name, std::size_t value);
 void describe(const Densified& dense, Report& report);
 void describe(const PlanarFit& fit, Report& report);
 void describe(const SpatialFit& fit, Report& report);
+/// Sections: the segments, the windows with their families, the surfaces of the windows in space.
+void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report);
+void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
+void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
+
 void describe(const Continuity& jumps, Report& report);
 void describe(const MovingFrames& frames, Report& report);
 

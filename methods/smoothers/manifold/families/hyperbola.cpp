@@ -10,7 +10,7 @@ namespace {
 // Poles tried on each side, in half ranges from the middle. The last is a line for all purposes.
 constexpr double kFirst = 1.0 + 2.0 * kPoleMargin;
 constexpr double kLast = 100.0;
-constexpr int kStarts = 8;
+constexpr int kHyperbolaStarts = 8;
 
 }  // namespace
 
@@ -32,9 +32,9 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
   };
   Parameters best;
   double least = std::numeric_limits<double>::infinity();
-  for (int start = 0; start < 2 * kStarts; ++start) {
+  for (int start = 0; start < 2 * kHyperbolaStarts; ++start) {
     Parameters q = Parameters::Zero(3);
-    q[0] = kFirst * std::pow(kLast / kFirst, (start / 2) / (kStarts - 1.0));
+    q[0] = kFirst * std::pow(kLast / kFirst, (start / 2) / (kHyperbolaStarts - 1.0));
     if (start % 2 == 1) q[0] = -q[0];
     Residuals r(count);
     Slopes J(count, 3);

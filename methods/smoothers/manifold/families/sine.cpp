@@ -8,7 +8,7 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr int kStarts = 12;
+constexpr int kSineStarts = 12;
 constexpr double kLongest = 8.0;   // [of the range of x] the first start: hardly more than a bend
 constexpr double kShortest = 4.0;  // [spacings] below it samples no longer tell the wavelength
 constexpr double kTallest = 2.0;   // [of the range of y]
@@ -51,9 +51,9 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
     return r.squaredNorm();
   };
   std::optional<Parameters> best;
-  for (int start = 0; start < kStarts; ++start) {
+  for (int start = 0; start < kSineStarts; ++start) {
     Parameters q = Parameters::Zero(unknowns);
-    q[0] = slowest * std::pow(fastest / slowest, start / (kStarts - 1.0));
+    q[0] = slowest * std::pow(fastest / slowest, start / (kSineStarts - 1.0));
     Residuals r(count);
     Slopes J(count, unknowns);
     evaluate(points, centre, q, r, J);  // the linear ones are zero: r = -y

@@ -1,0 +1,87 @@
+// Source: Handa et al. 2014, ICL-NUIM, "TUM RGB-D compatible PNGs" and its page of conventions.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+#include "datasets/rgbd/folder/layouts.hpp"
+
+namespace loopbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// fy is published as -480: y points up there, down here.
+Camera icl_nuim_camera() {
+  Camera out;
+  out.fx = 481.2;
+  out.fy = 480.0;
+  return out;
+}
+
+/// Mirrors what was written in axes with y up.
+Pose with_y_down(const Pose& pose) {
+  const Vector3 mirror(1.0, -1.0, 1.0);
+  const Matrix3 R = mirror.asDiagonal() * pose.rotation.toRotationMatrix() * mirror.asDiagonal();
+  return {Rotation(Eigen::Quaterniond(R).normalized()), mirror.cwiseProduct(pose.translation)};
+}
+
+/// "livingRoom0.gt.freiburg", "traj2.gt.freiburg": the first by name; empty where there is none.
+fs::path icl_nuim_truth(const fs::path& folder) {
+  fs::path out;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".gt.freiburg") && (out.empty() || entry.path() < out)) out = entry.path();
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_icl_nuim(const fs::path& folder) {
+  return fs::exists(folder / "associations.txt") && !fs::exists(folder / "rgb.txt");
+}
+
+Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& options) {
+  Recording out;
+  out.camera = icl_nuim_camera();
+  const fs::path camera = folder / "camera.yaml";
+  if (fs::exists(camera)) {
+    out.camera = read_camera(camera);
+    out.lists.push_back(camera);
+  }
+  TextFile list(folder / "associations.txt");
+  out.lists.push_back(folder / "associations.txt");
+  Line line;
+  double before = -1.0;
+  while (list.next(line)) {
+    Columns columns(list, line);
+    columns.number("number of the depth image");
+    const std::string depth(columns.word());
+    const double number = columns.number("number of the colour image");
+    const std::string colour(columns.word());
+    if (depth.empty() || colour.empty() || !columns.done()) {
+      throw list.error(line.number, "expected four columns, `number depth number colour`");
+    }
+    if (!(number > before)) throw list.error(line.number, "number does not increase");
+    before = number;
+    out.frames.push_back({number / options.rate, folder / colour, folder / depth});
+  }
+  if (out.frames.empty()) throw list.error(0, "lists no image");
+  const fs::path truth = icl_nuim_truth(folder);
+  if (truth.empty()) {
+    out.notes.emplace_back("no *.gt.freiburg: nothing can be judged against a reference");
+    return out;
+  }
+  out.lists.push_back(truth);
+  ReadOptions how;
+  how.format = Format::tum;
+  for (const StampedPose& pose : read_trajectory(truth, how)) {
+    out.reference.push_back({pose.stamp / options.rate, with_y_down(pose.world_from_body)});
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,37 @@
+#include "harness/commands/deliver.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "harness/export/origin.hpp"
+#include "harness/export/write_file.hpp"
+#include "harness/provenance/made_by.hpp"
+
+namespace loopbench {
+
+void deliver(const std::string& text,
+             ExportFormat format,
+             const std::string& key,
+             const std::filesystem::path& store,
+             const std::string& file) {
+  const bool is_read_by_a_person = file.empty() && isatty(STDOUT_FILENO) == 1;
+  std::string out = text;
+  const Origin origin = read_origin(store);
+  if (format == ExportFormat::json) {
+    out = with_origin(origin, key, text);
+  } else if (format == ExportFormat::terminal) {
+    out += "\n" + made_by(origin.provenance) + "\n";
+  } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
+    out += "\n" + origin_comment(origin);
+  } else if (format == ExportFormat::latex && !is_read_by_a_person) {
+    out += origin_lines(origin, "% ");
+  }
+  if (file.empty()) {
+    fmt::print("{}", out);
+    return;
+  }
+  write_file(file, out);
+  if (format == ExportFormat::csv) write_file(origin_file(file), json(origin));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,20 @@
+#include "harness/commands/interruption.hpp"
+
+#include <csignal>
+
+namespace loopbench {
+namespace {
+
+std::atomic<bool> interruption = false;
+
+void note_interruption(int) { interruption = true; }
+
+}  // namespace
+
+const std::atomic<bool>& catch_interruption() {
+  std::signal(SIGINT, note_interruption);
+  std::signal(SIGTERM, note_interruption);
+  return interruption;
+}
+
+}  // namespace loopbench

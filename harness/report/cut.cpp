@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "harness/report/data.hpp"
+#include "harness/report/packed.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::size_t kMostSections = 600;  // of a kind: more are thinner than a pixel
+
+struct CutKind {
+  std::size_t all = 0;
+  std::vector<double> begin, end;
+  std::vector<std::string> names;
+  std::vector<std::size_t> what;
+
+  void add(const Section& section, double origin) {
+    ++all;
+    if (begin.size() == kMostSections) return;
+    begin.push_back(section.begin - origin);
+    end.push_back(section.end - origin);
+    const auto known = std::ranges::find(names, section.what);
+    what.push_back(static_cast<std::size_t>(known - names.begin()));
+    if (known == names.end()) names.push_back(section.what);
+  }
+};
+
+std::string cut_text(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string cut_json(const std::vector<Section>& sections, double origin) {
+  std::vector<std::string> order;
+  std::map<std::string, CutKind> kinds;
+  for (const Section& section : sections) {
+    const auto [found, is_new] = kinds.try_emplace(section.kind);
+    if (is_new) order.push_back(section.kind);
+    found->second.add(section, origin);
+  }
+  std::string out;
+  for (const std::string& name : order) {
+    const CutKind& kind = kinds.at(name);
+    out += fmt::format("{}{{\"kind\":{},\"all\":{},\"b\":{},\"e\":{},\"names\":{},\"w\":{}}}",
+                       out.empty() ? "" : ",",
+                       cut_text(name),
+                       kind.all,
+                       packed(kind.begin),
+                       packed(kind.end),
+                       cut_text(kind.names),
+                       cut_text(kind.what));
+  }
+  return "[" + out + "]";
+}
+
+}  // namespace loopbench

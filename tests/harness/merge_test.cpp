@@ -1,0 +1,74 @@
+/// Stores put together, and which are not.
+#include "harness/store/merge.hpp"
+
+#include "tests/support/tiny_store.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace tiny_store;  // NOLINT: the fixture and its config
+using MergeTest = TinyStore;
+
+TEST_F(MergeTest, MergedHalvesAreTheWhole) {
+  run(kUsual);
+  const std::string whole = store_text(file_);
+  const std::filesystem::path parts[] = {folder_.path() / "1.sqlite", folder_.path() / "2.sqlite"};
+  file_ = parts[0];
+  run(kUsual, Retry::none, "a / |b / straight");
+  file_ = parts[1];
+  run(kUsual, Retry::none, "b / ");
+  const std::filesystem::path out = folder_.path() / "merged" / "results.sqlite";
+  const Merged merged = merge_stores({parts[1], parts[0]}, out, false);
+  EXPECT_EQ(merged.cells, 4u);
+  EXPECT_EQ(merged.twice, 1u);
+  EXPECT_EQ(store_text(out), whole);
+  EXPECT_THROW(merge_stores({parts[0], parts[1]}, out, false), InputError) << "it is there";
+  file_ = out;
+  EXPECT_EQ(run(kUsual).cells, Labels{}) << "and goes on like any other";
+}
+
+TEST_F(MergeTest, PrefersWhatDidNotFail) {
+  const auto fails = [&] {
+    const Sweep sweep = parse_sweep(kUsual, "c.yaml", known_);
+    CellKeys keys(sweep, known_, root_, build_);
+    Store store(file_, keys, {});
+    CellResult r;
+    r.cell = cells(sweep, seeded(sweep, known_), "").at(1);
+    r.status = Status::failed;
+    r.why = "not now";
+    store.write(r);
+  };
+  file_ = folder_.path() / "1.sqlite";
+  fails();
+  file_ = folder_.path() / "2.sqlite";
+  run(kUsual, Retry::none, "a / ");
+  const std::filesystem::path out = folder_.path() / "3.sqlite";
+  merge_stores({folder_.path() / "1.sqlite", file_}, out, false);
+  for (const CellRecord& cell : read_cells(out)) EXPECT_EQ(cell.status, "ok");
+  EXPECT_EQ(read_cells(out).size(), 2u);
+}
+
+TEST_F(MergeTest, RefusesWhatDoesNotBelongTogether) {
+  const std::filesystem::path one = file_ = folder_.path() / "1.sqlite";
+  run(kUsual);
+  const std::filesystem::path other_options = file_ = folder_.path() / "2.sqlite";
+  run(config("straight, {method: shift, by: 2, label: shifted}"));
+  const std::filesystem::path other_build = file_ = folder_.path() / "3.sqlite";
+  build_ = "build two";
+  run(kUsual);
+  const std::filesystem::path out = folder_.path() / "out.sqlite";
+  EXPECT_THROW(merge_stores({one, other_options}, out, false), InputError);
+  EXPECT_THROW(merge_stores({one, other_build}, out, false), InputError);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(merge_stores({one, other_build}, out, true).cells, 8u);
+  Labels methods;
+  for (const CellRecord& cell : read_cells(out)) {
+    if (cell.sequence == "a") methods.push_back(cell.method);
+  }
+  EXPECT_EQ(
+      methods,
+      (Labels{"straight", "shifted", "straight (build build tw)", "shifted (build build tw)"}));
+}
+
+}  // namespace
+}  // namespace loopbench
