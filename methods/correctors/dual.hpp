@@ -14,7 +14,8 @@ namespace loopbench {
 ///
 ///     (A S A' + S_L) lambda = c,   e_i = -S_i sum_k A_ki' lambda_k,
 ///
-/// then relinearised until it stands still. Every block of A S A' is a difference of one prefix sum
+/// then relinearised, and near the end curved as loops are (loop_newton.hpp), until it stands still:
+/// some ten iterations. Every block of A S A' is a difference of one prefix sum
 /// over the chain, so an iteration costs O(n + (6 K)^3) for n keyframes and K closures, and memory
 /// O(n + (6 K)^2): no sparse solver. For many loops a pose graph is the better choice.
 ///
