@@ -44,7 +44,7 @@ struct TableSpec {
   std::vector<std::string> columns{"score"};
   std::vector<std::string> split{"sequence", "times"};
   std::string value = "rmse";
-  std::vector<std::string> show;  ///< only these scores, by their short names; empty: all
+  std::vector<std::string> show;   ///< only these scores, by their short names; empty: all
   std::vector<std::string> where;  ///< only rows these rules keep, see export/where; empty: all
 };
 

@@ -19,7 +19,8 @@ struct Origin {
 /// Throws InputError when it is not a store.
 Origin read_origin(const std::filesystem::path& store);
 
-/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for a file beside a CSV.
+/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for a file beside a
+/// CSV.
 std::string json(const Origin& origin);
 
 /// {"provenance": that, KEY: VALUE}; `value` is JSON.

@@ -27,22 +27,32 @@ std::string data_block(const std::string& name, const PlotSeries& series) {
   return out + "EOD\n";
 }
 
-/// Heights of a path in the plane are one number, a range that gnuplot warns about and widens.
-std::string height_range(const PlotPanel& panel) {
+/// All of one number is a range that gnuplot warns about: heights of a path in the plane, errors
+/// across it. Widened here to `least` or a tenth of the number.
+std::string axis_range(const char* axis,
+                       const std::vector<PlotSeries>& series,
+                       Eigen::Index coordinate,
+                       double least) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  double across = 0.0;
-  for (const PlotSeries& series : panel.series) {
-    for (const Vector3& p : series.points) {
+  for (const PlotSeries& each : series) {
+    for (const Vector3& p : each.points) {
       if (!p.allFinite()) continue;
-      low = std::min(low, p.z());
-      high = std::max(high, p.z());
-      across = std::max({across, std::abs(p.x()), std::abs(p.y())});
+      low = std::min(low, p(coordinate));
+      high = std::max(high, p(coordinate));
     }
   }
-  if (!panel.spatial || low > high || high - low > 1e-6 * across) return "set zrange [*:*]\n";
-  const double pad = across > 0.0 ? 0.1 * across : 1.0;
-  return fmt::format("set zrange [{:.6g}:{:.6g}]\n", low - pad, high + pad);
+  const double pad = std::max(least, 0.1 * std::abs(low));
+  if (low > high || high - low > 1e-9 * pad) return fmt::format("set {}range [*:*]\n", axis);
+  return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, low - pad, high + pad);
+}
+
+std::string ranges(const PlotPanel& panel) {
+  constexpr double kLeastHeight = 1.0;   // [m]
+  constexpr double kLeastError = 0.001;  // [m] or [deg]
+  const bool is_map = panel.spatial || panel.same_scale;
+  return axis_range("y", panel.series, 1, is_map ? kLeastHeight : kLeastError) +
+         axis_range("z", panel.series, 2, kLeastHeight);
 }
 
 std::string panel_script(const PlotPanel& panel, std::size_t index) {
@@ -60,7 +70,7 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                          gnuplot_quoted(series.color),
                          gnuplot_quoted(series.name));
   }
-  return blocks + height_range(panel) +
+  return blocks + ranges(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
                      gnuplot_quoted(panel.title),
                      gnuplot_quoted(panel.x_label),
