@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 #include <string>
-#include <tuple>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/ate.hpp"
 #include "metrics/position_only.hpp"
 #include "metrics/rpy.hpp"
@@ -21,11 +21,13 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
   if (const std::string why = why_no_attitude(evaluation); !is_distance && !why.empty()) {
     throw Undefined("ape: " + why);
   }
-  const auto& [reference, estimate] = std::tie(evaluation.reference, evaluation.estimate);
+  const Trajectory& reference = evaluation.reference;
+  const Trajectory& estimate = evaluation.estimate;
   const std::size_t n = reference.size();
   Rpy turns(relation == Relation::rpy ? n : 0);
   std::vector<double> errors(relation == Relation::rpy ? 0 : n);
-  for (std::size_t i = 0; i < n; ++i) {
+  const AngleFormula angle = evaluation.protocol.angle;
+  const auto set = [&](std::size_t i) {
     const Pose& Q = reference[i].world_from_body;
     const Pose& P = estimate[i].world_from_body;
     if (relation == Relation::rpy) {
@@ -33,9 +35,12 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
     } else if (relation == Relation::point_distance) {
       errors[i] = (P.translation - Q.translation).norm();
     } else {
-      errors[i] = measure(relation, P.inverse() * Q, evaluation.protocol.angle);
+      errors[i] = measure(relation, way(P, Q), angle);
     }
-  }
+  };
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) set(i);
+  });
   const int ddof = evaluation.protocol.ddof;
   if (relation == Relation::rpy) return turns.scores(ddof);
   return {{to_text(relation), "3d", unit(relation), statistics(std::move(errors), ddof)}};

@@ -2,6 +2,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
+#include "metrics/motion.hpp"
 #include "metrics/position_only.hpp"
 
 namespace loopbench {
@@ -15,7 +16,7 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
       const Pose& reference = evaluation.reference[i].world_from_body;
       const Pose& estimate = evaluation.estimate[i].world_from_body;
       metres[i] = (reference.translation - estimate.translation).norm();
-      degrees[i] = kDegrees * angle_between(estimate.rotation, reference.rotation);
+      degrees[i] = kDegrees * log_angle(estimate.rotation.conjugate() * reference.rotation);
     }
   });
   const int ddof = evaluation.protocol.ddof;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/ape.hpp"
 
 namespace loopbench {
@@ -10,11 +11,13 @@ std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptio
   const std::size_t n = evaluation.reference.size();
   std::array<std::vector<double>, 3> metres;
   for (std::vector<double>& axis : metres) axis.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector3 error = evaluation.estimate[i].world_from_body.translation -
-                          evaluation.reference[i].world_from_body.translation;
-    for (int a = 0; a < 3; ++a) metres[static_cast<std::size_t>(a)][i] = std::abs(error[a]);
-  }
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Vector3 error = evaluation.estimate[i].world_from_body.translation -
+                            evaluation.reference[i].world_from_body.translation;
+      for (int a = 0; a < 3; ++a) metres[static_cast<std::size_t>(a)][i] = std::abs(error[a]);
+    }
+  });
   const int ddof = evaluation.protocol.ddof;
   std::vector<Score> out{{"translation", "x", "m", statistics(std::move(metres[0]), ddof)},
                          {"translation", "y", "m", statistics(std::move(metres[1]), ddof)},

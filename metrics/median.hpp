@@ -5,8 +5,9 @@
 
 namespace loopbench {
 
-/// The mean of the middle two for an even count. Not empty, no NaN. O(n): a pass that counts
-/// values by their leading bits, then a selection among those that share the middle's.
+/// The mean of the middle two for an even count. Not empty, no NaN. O(n): one pass that
+/// keeps what lies about the middle of a sample, then a selection among those; where the sample is
+/// unlike the rest, a selection among all.
 double median(std::span<const double> values);
 
 }  // namespace loopbench

@@ -1,6 +1,9 @@
 #include "metrics/moments.hpp"
 
 #include <algorithm>
+#include <vector>
+
+#include "datasets/core/parallel.hpp"
 
 namespace loopbench {
 namespace {
@@ -55,12 +58,17 @@ Moments merged(const Moments& a, const Moments& b) {
 }  // namespace
 
 Moments moments(const Trajectory& reference, const Trajectory& estimate) {
-  Moments out;
-  for (std::size_t begin = 0; begin < reference.size(); begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, reference.size());
-    const Moments block = block_moments(reference, estimate, begin, end);
-    out = begin == 0 ? block : merged(out, block);
-  }
+  if (reference.empty()) return {};
+  std::vector<Moments> blocks((reference.size() + kBlock - 1) / kBlock);
+  in_blocks(reference.size(), [&](std::size_t first, std::size_t last) {
+    // A block belongs to the thread that has its first pair.
+    for (std::size_t k = (first + kBlock - 1) / kBlock; k * kBlock < last; ++k) {
+      const std::size_t end = std::min((k + 1) * kBlock, reference.size());
+      blocks[k] = block_moments(reference, estimate, k * kBlock, end);
+    }
+  });
+  Moments out = blocks.front();
+  for (std::size_t k = 1; k < blocks.size(); ++k) out = merged(out, blocks[k]);
   return out;
 }
 

@@ -45,6 +45,16 @@ void check_segments(const SegmentRule& rule) {
   }
 }
 
+void check_max_pairs(const Protocol& p) {
+  const std::string count = std::to_string(p.max_pairs);
+  if (!is_of_whole_files(p.pairs) && p.max_pairs != Protocol{}.max_pairs) {
+    refuse("max_pairs", count, "only pairs tum and tum_random are drawn");
+  }
+  if (p.pairs == PairRule::tum_random && p.max_pairs == 0) {
+    refuse("max_pairs", count, "pairs tum_random would be every pose with every other; use tum");
+  }
+}
+
 }  // namespace
 
 void check(const Protocol& p) {
@@ -62,6 +72,7 @@ void check(const Protocol& p) {
       refuse("project", to_text(p.project), rule + " are taken from the files, not flattened");
     }
   }
+  check_max_pairs(p);
   if (p.segments.precision == Precision::float32) {
     const bool is_devkit = p.segments.end == SegmentEnd::beyond && p.form == ErrorForm::kitti &&
                            p.angle == AngleFormula::trace;

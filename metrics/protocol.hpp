@@ -67,9 +67,10 @@ inline auto choices(Plane) {
 enum class PairRule {
   all,          ///< every start, with the end nearest to `delta` within the tolerance
   consecutive,  ///< evo's: one stretch after the other
-  tum,  ///< evaluate_rpe.py --fixed_delta: every estimate pose of the file, probing bisection, last
-        ///< left out
-  tum_random,  ///< evaluate_rpe.py alone: 10000 pairs as Python draws them, whatever delta is
+  /// evaluate_rpe.py --fixed_delta: every estimate pose of the file, probing bisection, last left
+  /// out; of more than max_pairs that many, as Python draws them
+  tum,
+  tum_random,  ///< evaluate_rpe.py alone: max_pairs as Python draws them, whatever delta is
 };
 inline auto choices(PairRule) {
   return std::array{std::pair{"all", PairRule::all},
@@ -165,6 +166,7 @@ struct Protocol {
   int align_first = 0;
   Plane project = Plane::none;
   PairRule pairs = PairRule::all;
+  int max_pairs = 10'000;
   PairsFrom pairs_from = PairsFrom::reference;
   double tolerance = 0.1;
   ErrorForm form = ErrorForm::evo;
@@ -184,6 +186,7 @@ void fields(Protocol& o, Visit visit) {
   visit("align_first", o.align_first, "pairs the alignment sees, 0 for all", Between{0.0});
   visit("project", o.project, "plane to flatten onto, after alignment");
   visit("pairs", o.pairs, "which pairs a relative error takes");
+  visit("max_pairs", o.max_pairs, "of tum's pairs, more are drawn from; 0 for all", Between{0.0});
   visit("pairs_from", o.pairs_from, "whose path or turning measures a stretch");
   visit("tolerance", o.tolerance, "how far a stretch may miss, as part of it [-]", Between{0.0});
   visit("form", o.form, "the relative error of two motions");

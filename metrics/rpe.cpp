@@ -111,10 +111,13 @@ std::vector<double> distances(const Motions& motions, Relation relation) {
 /// Who is to blame when no two poses are that far apart.
 enum class Measured { reference, estimate };
 
-std::vector<Score> scores(const Motions& motions, const RpeOptions& options, Measured measured) {
+std::vector<Score> scores(const Motions& motions,
+                          std::size_t poses,
+                          const RpeOptions& options,
+                          Measured measured) {
   if (motions.pairs.empty()) {
-    const std::string why = "rpe: none of " + std::to_string(motions.estimate.size()) +
-                            " poses is " + to_text(options.delta) + " " + to_text(options.unit) +
+    const std::string why = "rpe: none of " + std::to_string(poses) + " poses is " +
+                            to_text(options.delta) + " " + to_text(options.unit) +
                             " before another";
     if (measured == Measured::reference) throw Undefined(why);
     throw std::runtime_error(why);
@@ -152,12 +155,13 @@ PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
 TumMotions random_motions(const Paired& whole,
                           double offset,
                           const Alignment& alignment,
+                          std::size_t max_pairs,
                           const RpeOptions& options) {
   if (options.delta != RpeOptions{}.delta || options.unit != RpeOptions{}.unit) {
     throw Undefined("rpe: pairs tum_random have no stretch of " + to_text(options.delta) + " " +
                     to_text(options.unit) + "; ask for rpe without delta and unit");
   }
-  return tum_random_motions(whole, offset, alignment);
+  return tum_random_motions(whole, offset, alignment, max_pairs);
 }
 
 }  // namespace
@@ -169,12 +173,14 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
   const PairRule rule = rule_of(options, protocol);
   if (is_of_whole_files(rule)) {
     const Paired& whole = evaluation.whole;
-    const TumMotions tum =
-        rule == PairRule::tum
-            ? tum_motions(whole, protocol.offset, evaluation.alignment, stretch)
-            : random_motions(whole, protocol.offset, evaluation.alignment, options);
+    const Alignment& alignment = evaluation.alignment;
+    const auto most = static_cast<std::size_t>(protocol.max_pairs);
+    const TumMotions tum = rule == PairRule::tum
+                               ? tum_motions(whole, protocol.offset, alignment, stretch, most)
+                               : random_motions(whole, protocol.offset, alignment, most, options);
     const auto& [reference, estimate] = tum.poses;
     return scores({reference, estimate, tum.pairs, protocol, why_no_attitude(evaluation)},
+                  whole.estimate.size(),
                   options,
                   Measured::estimate);
   }
@@ -190,6 +196,7 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
                     stretch);
   return scores(
       {evaluation.reference, evaluation.estimate, pairs, protocol, why_no_attitude(evaluation)},
+      evaluation.estimate.size(),
       options,
       is_in_time || is_of_reference ? Measured::reference : Measured::estimate);
 }

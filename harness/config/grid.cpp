@@ -9,6 +9,10 @@
 namespace loopbench {
 namespace {
 
+/// Limits that nobody's sweep meets: a few lines may ask for more than memory holds.
+constexpr std::size_t kMostPoints = 10'000;
+constexpr std::size_t kMostSettings = 200;  // of one point
+
 using Axis = std::vector<std::vector<Setting>>;  // one inner list per step along the axis
 
 void flatten(const YamlNode& node,
@@ -61,10 +65,30 @@ double number(const YamlNode& node, const std::string& name, const std::string& 
   throw input_error(file, node.line, name + ": expected a number");
 }
 
+void expect_few_points(std::size_t count, std::size_t line, const std::string& file) {
+  if (count <= kMostPoints) return;
+  throw input_error(
+      file, line, "sweeps over more than " + std::to_string(kMostPoints) + " combinations");
+}
+
+/// Of the options set in one entry, swept or not.
+void expect_few_settings(const YamlNode& entry, std::size_t fixed, const std::string& file) {
+  std::size_t count = fixed;
+  for (const char* key : {"sweep", "zip"}) {
+    if (const YamlNode* node = entry.find(key)) count += node->map.size();
+  }
+  if (count <= kMostSettings) return;
+  throw input_error(file,
+                    entry.line,
+                    "sets " + std::to_string(count) + " options, expected at most " +
+                        std::to_string(kMostSettings));
+}
+
 Axis zipped(const YamlNode& zip, const std::string& file) {
   Axis axis;
   for (const auto& [name, node] : as_map(zip, "zip", file).map) {
     const std::vector<Param> column = values(node, name, file);
+    expect_few_points(column.size(), zip.line, file);
     if (axis.empty()) axis.resize(column.size());
     if (axis.size() != column.size()) {
       throw input_error(file,
@@ -143,23 +167,23 @@ std::vector<GridPoint> spread(const YamlNode& entry,
     if (key == "sweep" || key == "zip" || std::ranges::count(reserved, key) > 0) continue;
     flatten(node, key, file, points.front().settings);
   }
+  expect_few_settings(entry, points.front().settings.size(), file);
   std::vector<Axis> axes;
+  std::size_t combinations = 1;
   if (const YamlNode* sweep = entry.find("sweep")) {
     for (const auto& [name, node] : as_map(*sweep, "sweep", file).map) {
       Axis axis;
       for (const Param& value : values(node, name, file))
         axis.push_back({{name, value, node.line}});
+      expect_few_points(combinations *= axis.size(), entry.line, file);
       axes.push_back(std::move(axis));
     }
   }
-  if (const YamlNode* zip = entry.find("zip")) axes.push_back(zipped(*zip, file));
-
-  constexpr std::size_t kMost = 10'000;
+  if (const YamlNode* zip = entry.find("zip")) {
+    axes.push_back(zipped(*zip, file));
+    expect_few_points(combinations * axes.back().size(), entry.line, file);
+  }
   for (const Axis& axis : axes) {
-    if (axis.size() > kMost / std::max<std::size_t>(points.size(), 1)) {
-      throw input_error(
-          file, entry.line, "sweeps over more than " + std::to_string(kMost) + " combinations");
-    }
     std::vector<GridPoint> longer;
     for (const GridPoint& point : points) {
       for (const std::vector<Setting>& step : axis) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <set>
 
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
@@ -31,6 +32,11 @@ const std::vector<std::string> kKeys{"description",
 
 /// With `timing: true`: enough for a median that one disturbance does not move.
 constexpr int kRunsWhenAlone = 5;
+
+/// Limits that nobody's sweep meets, so that a few lines cannot ask for hours.
+constexpr std::size_t kMostChoices = 10'000;  // of datasets, of methods, of metrics
+constexpr std::size_t kMostRules = 1'000;     // protocols, exclusions
+constexpr std::size_t kLongestPattern = 1'000;
 
 /// Reads one config; knows the file for its messages.
 class SweepReader {
@@ -161,9 +167,13 @@ class SweepReader {
       throw input_error(file_, node->line, key + ": expected a list with at least one entry");
     }
     std::vector<Choice> out;
+    std::set<std::string> labels;
     for (const YamlNode& entry : node->list) {
       for (Choice& choice : choices(entry, file_, catalogue_)) {
-        if (std::ranges::count(out, choice.label, &Choice::label) > 0) {
+        if (labels.size() == kMostChoices) {
+          throw input_error(file_, entry.line, key + ": spread out, more than 10000 entries");
+        }
+        if (!labels.insert(choice.label).second) {
           throw input_error(
               file_,
               entry.line,
@@ -190,6 +200,7 @@ class SweepReader {
   std::vector<NamedProtocol> protocols(const YamlNode& node) const {
     if (node.type != YamlNode::Type::list) return {protocol_choice(node, file_)};
     std::vector<NamedProtocol> out;
+    expect_few(node, "protocol");
     for (const YamlNode& item : node.list) {
       out.push_back(protocol_choice(item, file_));
       const std::string label = out.back().label();
@@ -206,6 +217,7 @@ class SweepReader {
     if (node.type != YamlNode::Type::list) {
       throw input_error(file_, node.line, "exclude: expected a list of {dataset, method} patterns");
     }
+    expect_few(node, "exclude");
     for (const YamlNode& entry : node.list) {
       only_keys(entry, {"dataset", "method"});
       Exclusion exclusion;
@@ -218,12 +230,20 @@ class SweepReader {
 
   std::string pattern(const YamlNode& node, const std::string& key) const {
     const std::string text = word(node, key);
+    if (text.size() > kLongestPattern) {  // std::regex recurses into it, 50 kB of brackets crash it
+      throw input_error(file_, node.line, key + ": a pattern of more than 1000 characters");
+    }
     try {
       std::regex{text};
     } catch (const std::regex_error&) {
       throw input_error(file_, node.line, key + ": '" + text + "' is not a regular expression");
     }
     return text;
+  }
+
+  void expect_few(const YamlNode& list, const std::string& key) const {
+    if (list.list.size() <= kMostRules) return;
+    throw input_error(file_, list.line, key + ": more than 1000 entries");
   }
 
   TableSpec table(const YamlNode& node) const {

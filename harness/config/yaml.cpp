@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "datasets/core/error.hpp"
@@ -39,6 +40,7 @@ std::size_t line_of(const YAML::Node& node) {
 /// Aliases are written out, so a few lines may mean more than memory holds, or hold themselves.
 struct Budget {
   std::size_t values = 100'000;
+  std::size_t bytes = 10'000'000;  ///< of words
   std::size_t levels = 100;
 };
 
@@ -50,6 +52,10 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
   }
   --left.values;
   --left.levels;
+  const std::size_t length = node.IsScalar() ? node.Scalar().size() : 0;
+  if (length > left.bytes) throw input_error(file, out.line, "writes out too long by its aliases");
+  left.bytes -= length;
+  std::set<std::string> keys;
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
       out.type = YamlNode::Type::scalar;
@@ -67,7 +73,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
         }
         const std::string& key = item.first.Scalar();
         // yaml-cpp keeps both and answers with the first: a silent loss of the second.
-        if (out.find(key) != nullptr) {
+        if (!keys.insert(key).second) {
           throw input_error(file, line_of(item.first), "'" + key + "' is given twice");
         }
         out.map.push_back({key, convert(item.second, file, left)});
@@ -142,6 +148,11 @@ void expect_one_document(const std::string& text, const std::string& file) {
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
+  constexpr std::size_t kLargest = 1'000'000;
+  if (text.size() > kLargest) {
+    throw InputError(file + ": has " + std::to_string(text.size()) +
+                     " bytes, expected a config of " + "at most " + std::to_string(kLargest));
+  }
   expect_utf8(text, file);
   try {
     expect_one_document(text, file);

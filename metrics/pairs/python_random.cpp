@@ -1,6 +1,8 @@
 #include "metrics/pairs/python_random.hpp"
 
 #include <bit>
+#include <numeric>
+#include <unordered_set>
 
 namespace loopbench {
 namespace {
@@ -45,6 +47,34 @@ std::size_t PythonRandom::below(std::size_t size) {
   const auto width = static_cast<unsigned>(std::bit_width(size));
   std::size_t out = size;
   while (out >= size) out = static_cast<std::size_t>(bits_()) >> (32U - width);
+  return out;
+}
+
+std::vector<std::size_t> PythonRandom::sample(std::size_t size, std::size_t count) {
+  // Python's estimate of what a set of `count` takes; a shorter population is copied instead.
+  std::size_t set_size = 21;
+  if (count > 5) {
+    std::size_t table = 1;
+    while (table < 3 * count) table *= 4;
+    set_size += table;
+  }
+  std::vector<std::size_t> out(count);
+  if (size <= set_size) {
+    std::vector<std::size_t> left(size);
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = below(size - k);
+      out[k] = left[at];
+      left[at] = left[size - k - 1];
+    }
+  } else {
+    std::unordered_set<std::size_t> seen;
+    for (std::size_t& drawn : out) {
+      do {
+        drawn = below(size);
+      } while (!seen.insert(drawn).second);
+    }
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/pairs/python_random.hpp"
 #include "metrics/statistics.hpp"
@@ -40,22 +41,44 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
   return out;
 }
 
-/// Poses as TumMotions wants them; for each whether its reference is near enough in time.
-std::vector<bool> lay_side_by_side(const Paired& whole,
-                                   double offset,
-                                   const Alignment& alignment,
-                                   Paired& poses) {
-  const auto& [reference, estimate] = whole;
+/// The pairs, of poses of the estimate, that are no gap of the reference, and the poses they use.
+TumMotions laid_side_by_side(const Paired& whole,
+                             double offset,
+                             const Alignment& alignment,
+                             const std::vector<FromTo>& pairs) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kUnused = kNone - 1;
+  const auto& reference = whole.reference;
+  const auto& estimate = whole.estimate;
   const std::vector<double> reference_stamps = stamps(reference);
   const double limit = 2.0 * median_step(reference_stamps);
-  poses.estimate = moved(alignment, estimate);
-  std::vector<bool> is_near;
-  for (const auto& [stamp, pose] : estimate) {
-    const std::size_t nearest = tum_closest_index(reference_stamps, stamp + offset);
-    poses.reference.push_back(reference[nearest]);
-    is_near.push_back(std::abs(reference_stamps[nearest] - (stamp + offset)) <= limit);
+  std::vector<std::size_t> nearest(estimate.size(), kUnused);
+  for (const auto& [i, j] : pairs) nearest[i] = nearest[j] = kNone;
+  in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      if (nearest[i] == kUnused) continue;
+      const double stamp = estimate[i].stamp + offset;
+      const std::size_t found = tum_closest_index(reference_stamps, stamp);
+      if (std::abs(reference_stamps[found] - stamp) <= limit) nearest[i] = found;
+    }
+  });
+  TumMotions out;
+  std::vector<std::size_t> place(estimate.size(), kNone);  // of the poses in `out`
+  const auto taken = [&](std::size_t i) {
+    if (place[i] == kNone) {
+      place[i] = out.poses.estimate.size();
+      out.poses.estimate.push_back(estimate[i]);
+      out.poses.reference.push_back(reference[nearest[i]]);
+    }
+    return place[i];
+  };
+  for (const auto& [i, j] : pairs) {
+    if (nearest[i] == kNone || nearest[j] == kNone) continue;
+    const std::size_t from = taken(i);
+    out.pairs.emplace_back(from, taken(j));
   }
-  return is_near;
+  out.poses.estimate = moved(alignment, std::move(out.poses.estimate));
+  return out;
 }
 
 }  // namespace
@@ -85,30 +108,42 @@ std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted) 
 TumMotions tum_motions(const Paired& whole,
                        double offset,
                        const Alignment& alignment,
-                       const Stretch& stretch) {
-  TumMotions out;
-  const std::vector<bool> is_near = lay_side_by_side(whole, offset, alignment, out.poses);
+                       const Stretch& stretch,
+                       std::size_t max_pairs) {
   const std::vector<double> index = measure(whole.estimate, stretch.unit);
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    const std::size_t j = tum_closest_index(index, index[i] + stretch.delta);
-    if (j + 1 != index.size() && is_near[i] && is_near[j]) out.pairs.emplace_back(i, j);
+  std::vector<std::size_t> ends(index.size());
+  in_blocks(ends.size(), [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) ends[i] = tum_closest_index(index, index[i] + stretch.delta);
+  });
+  std::vector<FromTo> pairs;
+  pairs.reserve(ends.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] + 1 != ends.size()) pairs.emplace_back(i, ends[i]);
   }
-  return out;
+  if (max_pairs != 0 && pairs.size() > max_pairs) {
+    std::vector<FromTo> drawn;
+    for (const std::size_t k : PythonRandom().sample(pairs.size(), max_pairs)) {
+      drawn.push_back(pairs[k]);
+    }
+    pairs = std::move(drawn);
+  }
+  return laid_side_by_side(whole, offset, alignment, pairs);
 }
 
-TumMotions tum_random_motions(const Paired& whole, double offset, const Alignment& alignment) {
-  constexpr std::size_t kMostPairs = 10'000;
-  TumMotions out;
-  const std::vector<bool> is_near = lay_side_by_side(whole, offset, alignment, out.poses);
-  const std::size_t n = is_near.size();
-  const bool takes_all = n * n < kMostPairs;
+TumMotions tum_random_motions(const Paired& whole,
+                              double offset,
+                              const Alignment& alignment,
+                              std::size_t max_pairs) {
+  const std::size_t n = whole.estimate.size();
+  const bool takes_all = n * n < max_pairs;
+  std::vector<FromTo> pairs;
   PythonRandom random;
-  for (std::size_t k = 0; k < (takes_all ? n * n : kMostPairs); ++k) {
+  for (std::size_t k = 0; k < (takes_all ? n * n : max_pairs); ++k) {
     const std::size_t i = takes_all ? k / n : random.below(n);
     const std::size_t j = takes_all ? k % n : random.below(n);
-    if (is_near[i] && is_near[j]) out.pairs.emplace_back(i, j);
+    pairs.emplace_back(i, j);
   }
-  return out;
+  return laid_side_by_side(whole, offset, alignment, pairs);
 }
 
 }  // namespace loopbench

@@ -2,25 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "datasets/core/parallel.hpp"
 
 namespace loopbench {
 namespace {
+
+using DistanceAt = std::vector<double>::const_iterator;
+
+/// The first, not before `from`, of the equal distances that end at `last`.
+DistanceAt first_of_run(DistanceAt from, DistanceAt last) {
+  if (last == from || *std::prev(last) < *last) return last;
+  return std::lower_bound(from, last, *last);
+}
 
 std::vector<FromTo> nearest(const std::vector<double>& distances,
                             double length,
                             double tolerance,
                             std::size_t step) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> ends((distances.size() + step - 1) / step, kNone);
+  in_blocks(ends.size(), [&](std::size_t k, std::size_t last) {
+    if (k == last) return;
+    const auto at = [&](std::size_t i) {
+      return distances.begin() + static_cast<std::ptrdiff_t>(i * step);
+    };
+    // Where the first is searched for, the next ones are walked to: the distance never decreases.
+    DistanceAt beyond = std::lower_bound(at(k), distances.end(), *at(k) + length);
+    for (; k < last; ++k) {
+      const DistanceAt from = at(k);
+      const double wanted = *from + length;
+      beyond = std::max(beyond, from);
+      while (beyond != distances.end() && *beyond < wanted) ++beyond;
+      DistanceAt best = beyond;
+      const bool is_before =
+          best != from &&
+          (best == distances.end() || wanted - *std::prev(best) <= std::abs(*best - wanted));
+      // Standing still repeats a distance: the first of the run, as a scan with `<` would find.
+      if (is_before) best = first_of_run(from, std::prev(best));
+      if (best == distances.end() || !(std::abs(*best - wanted) < tolerance)) continue;
+      ends[k] = static_cast<std::size_t>(best - distances.begin());
+    }
+  });
   std::vector<FromTo> out;
-  for (std::size_t start = 0; start < distances.size(); start += step) {
-    const double wanted = distances[start] + length;
-    const auto from = distances.begin() + static_cast<std::ptrdiff_t>(start);
-    auto best = std::lower_bound(from, distances.end(), wanted);
-    const bool is_before = best != from && (best == distances.end() ||
-                                            wanted - *std::prev(best) <= std::abs(*best - wanted));
-    // Standing still repeats a distance: the first of the run, as a scan with `<` would find.
-    if (is_before) best = std::lower_bound(from, best, *std::prev(best));
-    if (best == distances.end() || !(std::abs(*best - wanted) < tolerance)) continue;
-    out.emplace_back(start, static_cast<std::size_t>(best - distances.begin()));
+  out.reserve(ends.size() - static_cast<std::size_t>(std::ranges::count(ends, kNone)));
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (ends[k] != kNone) out.emplace_back(k * step, ends[k]);
   }
   return out;
 }

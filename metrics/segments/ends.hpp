@@ -10,8 +10,8 @@ namespace loopbench {
 
 /// Pairs of start and end on `distances` (accumulated, never decreasing), as SegmentEnd says, for
 /// starts `step` apart. rpg: trajectory_utils.py:25-37 (8c8ceec), ov_eval: ResultTrajectory
-/// (6948812), ETH3D: main.cc (30edfa0), KITTI: evaluate_odometry.cpp (2afdb93). The end nearest to
-/// the length is found by bisection, O(n log n); the others walk, O(n).
+/// (6948812), ETH3D: main.cc (30edfa0), KITTI: evaluate_odometry.cpp (2afdb93). All walk, O(n);
+/// `nearest` takes O(log n) for a start whose end stands still.
 std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
                                   double length,
                                   double tolerance,

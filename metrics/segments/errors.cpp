@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/core/parallel.hpp"
 #include "metrics/euler.hpp"
 #include "metrics/motion.hpp"
 
@@ -28,7 +29,8 @@ PoseMatrix printed_error(const PrintedPoses& poses, std::size_t i, std::size_t j
 SegmentErrors segment_errors(const Evaluation& evaluation,
                              const std::vector<double>& distances,
                              const std::vector<FromTo>& pairs,
-                             double length) {
+                             double length,
+                             bool only_rates) {
   const Protocol& protocol = evaluation.protocol;
   const bool is_per_metre_gone = protocol.segments.end == SegmentEnd::eth3d;
   Rotation up_from_reference = Rotation::Identity();
@@ -37,7 +39,13 @@ SegmentErrors segment_errors(const Evaluation& evaluation,
   }
   const PrintedPoses* const digits = printed(evaluation);
   SegmentErrors out;
-  for (const auto& [i, j] : pairs) {
+  out.translation_share.resize(pairs.size());
+  out.rotation_rate.resize(pairs.size());
+  for (auto* more : {&out.translation, &out.rotation, &out.yaw, &out.gravity}) {
+    if (!only_rates) more->resize(pairs.size());
+  }
+  const auto set = [&](std::size_t k) {
+    const auto& [i, j] = pairs[k];
     const Pose& P_j = evaluation.estimate[j].world_from_body;
     Pose E = motion_error(protocol.form,
                           evaluation.reference[i].world_from_body,
@@ -52,16 +60,19 @@ SegmentErrors segment_errors(const Evaluation& evaluation,
     }
     const double metres = E.translation.norm();
     const double per = is_per_metre_gone ? distances[j] - distances[i] : length;
+    out.translation_share[k] = metres / per;
+    out.rotation_rate[k] = radians / per;
+    if (only_rates) return;
     const Rotation up_from_body = up_from_reference * P_j.rotation;
     const Euler turn = euler(up_from_body * E.rotation * up_from_body.conjugate());
-    out.start.push_back(i);
-    out.translation_share.push_back(metres / per);
-    out.rotation_rate.push_back(radians / per);
-    out.translation.push_back(metres);
-    out.rotation.push_back(radians);
-    out.yaw.push_back(std::abs(turn.yaw));
-    out.gravity.push_back(std::hypot(turn.roll, turn.pitch));
-  }
+    out.translation[k] = metres;
+    out.rotation[k] = radians;
+    out.yaw[k] = std::abs(turn.yaw);
+    out.gravity[k] = std::hypot(turn.roll, turn.pitch);
+  };
+  in_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
+    for (; k < end; ++k) set(k);
+  });
   return out;
 }
 

@@ -8,7 +8,8 @@
 
 namespace loopbench {
 
-/// Equally long; the last four are empty in float32.
+/// Equally long, or empty: `start` in float64, the last four when only rates are wanted and in
+/// float32.
 struct SegmentErrors {
   std::vector<std::size_t> start;
   std::vector<double> translation_share;  ///< [m/m]
@@ -19,13 +20,14 @@ struct SegmentErrors {
   std::vector<double> gravity;            ///< [rad]
 };
 
-/// By the protocol. Poses that both stand in KITTI files and that nothing has moved since count
-/// with the digits of the files and general inverses, as in the devkit: making rotations of them
-/// first shifts the mean angle by 2e-9 of it.
+/// By the protocol, on all cores. Poses that both stand in KITTI files and that nothing has moved
+/// since count with the digits of the files and general inverses, as in the devkit: making
+/// rotations of them first shifts the mean angle by 2e-9 of it.
 SegmentErrors segment_errors(const Evaluation& evaluation,
                              const std::vector<double>& distances,
                              const std::vector<FromTo>& pairs,
-                             double length);
+                             double length,
+                             bool only_rates);
 
 /// The devkit's, with matrices as above: distances, angles and lengths of translations in float,
 /// transforms in double.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "metrics/angle.hpp"
@@ -13,29 +14,32 @@
 namespace loopbench {
 namespace {
 
-/// The rates of several lengths in the order of their starts, in which the devkit sums its floats.
-struct Together {
-  struct Rates {
-    std::size_t start;
-    double translation;
-    double rotation;
-  };
-  std::vector<Rates> rates;
+template <class T>
+void put_behind(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
 
-  void add(const SegmentErrors& errors) {
-    for (std::size_t k = 0; k < errors.start.size(); ++k) {
-      rates.push_back({errors.start[k], errors.translation_share[k], errors.rotation_rate[k]});
-    }
+/// The rates of several lengths, one after the other.
+struct Together {
+  SegmentErrors errors;
+
+  void add(const SegmentErrors& more) {
+    put_behind(errors.start, more.start);
+    put_behind(errors.translation_share, more.translation_share);
+    put_behind(errors.rotation_rate, more.rotation_rate);
   }
 
-  SegmentErrors in_order() {
-    std::ranges::stable_sort(rates, {}, &Rates::start);
-    SegmentErrors out;
-    for (const Rates& rate : rates) {
-      out.translation_share.push_back(rate.translation);
-      out.rotation_rate.push_back(rate.rotation);
+  /// By their starts, in which order the devkit sums its floats.
+  void sort() {
+    std::vector<std::size_t> order(errors.start.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return errors.start[k]; });
+    SegmentErrors sorted;
+    for (const std::size_t k : order) {
+      sorted.translation_share.push_back(errors.translation_share[k]);
+      sorted.rotation_rate.push_back(errors.rotation_rate[k]);
     }
-    return out;
+    errors = std::move(sorted);
   }
 };
 
@@ -48,7 +52,7 @@ struct Scores {
            const std::string& axis,
            const char* unit,
            double factor,
-           std::vector<double> values) {
+           std::vector<double>&& values) {
     const bool is_float = protocol.segments.precision == Precision::float32;
     const double mean = is_float ? factor * float_mean(values) : 0.0;
     for (double& value : values) value *= factor;
@@ -57,9 +61,9 @@ struct Scores {
     out.push_back(std::move(score));
   }
 
-  void add_rates(const std::string& axis, const SegmentErrors& errors) {
-    add("translation", axis, "%", 100.0, errors.translation_share);
-    add("rotation", axis, "deg/m", kDegrees, errors.rotation_rate);
+  void add_rates(const std::string& axis, SegmentErrors&& errors) {
+    add("translation", axis, "%", 100.0, std::move(errors.translation_share));
+    add("rotation", axis, "deg/m", kDegrees, std::move(errors.rotation_rate));
   }
 };
 
@@ -74,15 +78,16 @@ class Finder {
     }
   }
 
-  SegmentErrors errors(double length) const {
+  /// Only rates where no length is shown apart.
+  SegmentErrors errors(double length, bool only_rates) const {
     const auto step = static_cast<std::size_t>(rule_.step);
     if (rule_.precision == Precision::float32) {
       const auto wanted = static_cast<float>(length);
       return float_segment_errors(evaluation_, segments_beyond(floats_, wanted, step), wanted);
     }
     const double miss = tolerance("segments.tolerance", rule_.tolerance).of(length);
-    return segment_errors(
-        evaluation_, distances_, segment_pairs(distances_, length, miss, rule_.end, step), length);
+    const std::vector<FromTo> pairs = segment_pairs(distances_, length, miss, rule_.end, step);
+    return segment_errors(evaluation_, distances_, pairs, length, only_rates);
   }
 
  private:
@@ -110,24 +115,25 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   for (const Length& length : wanted) {
     const double target = metres(length, evaluation.reference_length);
     if (target <= 0.0) continue;
-    const SegmentErrors errors = find.errors(target);
+    SegmentErrors errors = find.errors(target, !options.each);
     if (errors.rotation_rate.size() < static_cast<std::size_t>(rule.fewest)) continue;
     all.add(errors);
     if (!options.each) continue;
-    each.add_rates(length.text, errors);
+    each.add_rates(length.text, std::move(errors));
     if (rule.precision == Precision::float32) continue;
-    each.add("translation", length.text, "m", 1.0, errors.translation);
-    each.add("rotation", length.text, "deg", kDegrees, errors.rotation);
-    each.add("yaw", length.text, "deg", kDegrees, errors.yaw);
-    each.add("gravity", length.text, "deg", kDegrees, errors.gravity);
+    each.add("translation", length.text, "m", 1.0, std::move(errors.translation));
+    each.add("rotation", length.text, "deg", kDegrees, std::move(errors.rotation));
+    each.add("yaw", length.text, "deg", kDegrees, std::move(errors.yaw));
+    each.add("gravity", length.text, "deg", kDegrees, std::move(errors.gravity));
   }
-  if (all.rates.empty()) {
+  if (all.errors.rotation_rate.empty()) {
     throw Undefined("segments: no stretch of the reference (" +
                     to_text(evaluation.reference_length) + " m) has a length of " +
                     (is_own ? options.lengths : rule.lengths));
   }
   Scores out{evaluation.protocol, {}};
-  out.add_rates("all", all.in_order());
+  if (rule.precision == Precision::float32) all.sort();
+  out.add_rates("all", std::move(all.errors));
   out.out.insert(out.out.end(), each.out.begin(), each.out.end());
   return out.out;
 }

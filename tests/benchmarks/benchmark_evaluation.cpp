@@ -9,7 +9,9 @@
 #include "datasets/formats/formats.hpp"
 #include "metrics/association.hpp"
 #include "metrics/ate.hpp"
+#include "metrics/axis_error.hpp"
 #include "metrics/rpe.hpp"
+#include "metrics/segments/segments.hpp"
 #include "tests/benchmarks/markdown.hpp"
 
 namespace loopbench {
@@ -45,10 +47,16 @@ const Trajectory& estimate(std::size_t size) {
   return kept[size] = drive(size, 1.0);
 }
 
+/// A file for this process alone.
+std::filesystem::path written(const std::string& name, const Trajectory& poses) {
+  const std::string file = "loopbench_" + std::to_string(getpid()) + "_" + name + ".txt";
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / file;
+  write_tum(path, poses);
+  return path;
+}
+
 void parse_tum(std::size_t size, benchmark::State& state) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("loopbench_" + std::to_string(getpid()) + ".txt");
-  write_tum(file, estimate(size));
+  const std::filesystem::path file = written("estimate", estimate(size));
   for (auto _ : state) benchmark::DoNotOptimize(read_trajectory(file));
   state.SetBytesProcessed(static_cast<std::int64_t>(std::filesystem::file_size(file)) *
                           state.iterations());
@@ -92,6 +100,29 @@ void score_rpe(std::size_t size, benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(rpe(pairs, options));
 }
 
+void score_segments(std::size_t size, benchmark::State& state) {
+  Evaluation pairs = evaluation(size);
+  pairs.reference_length = path_length(pairs.reference);
+  for (auto _ : state) benchmark::DoNotOptimize(segments(pairs, {.each = false}));
+}
+
+/// What `eval` does with two files, but for printing and diagnostics.
+void files_to_scores(std::size_t size, benchmark::State& state) {
+  const std::filesystem::path truth = written("reference", reference(size));
+  const std::filesystem::path guess = written("estimate", estimate(size));
+  for (auto _ : state) {
+    const Evaluation pairs = evaluate(read_trajectory(truth), read_trajectory(guess), Protocol{});
+    benchmark::DoNotOptimize(ate(pairs, {}));
+    benchmark::DoNotOptimize(axis_error(pairs, {}));
+    for (const DeltaUnit unit : {DeltaUnit::frames, DeltaUnit::s, DeltaUnit::m}) {
+      benchmark::DoNotOptimize(rpe(pairs, {.delta = 1.0, .unit = unit}));
+    }
+    benchmark::DoNotOptimize(segments(pairs, {.each = false}));
+  }
+  std::filesystem::remove(truth);
+  std::filesystem::remove(guess);
+}
+
 struct Step {
   const char* name;
   void (*run)(std::size_t, benchmark::State&);
@@ -105,7 +136,9 @@ constexpr Step kSteps[] = {{"parse_tum", parse_tum},
                            {"ate", score_ate},
                            {"rpe_1_frame", score_rpe<1, DeltaUnit::frames>},
                            {"rpe_1_s", score_rpe<1, DeltaUnit::s>},
-                           {"rpe_100_m", score_rpe<100, DeltaUnit::m>}};
+                           {"rpe_100_m", score_rpe<100, DeltaUnit::m>},
+                           {"segments", score_segments},
+                           {"files_to_scores", files_to_scores}};
 
 }  // namespace
 }  // namespace loopbench

@@ -86,5 +86,27 @@ TEST(Grid, RefusesWithFileAndLine) {
             "c.yaml:1: sweeps over more than 10000 combinations");
 }
 
+TEST(Grid, RefusesMoreThanItCouldHoldBeforeHoldingIt) {
+  const std::string many = "c.yaml:1: sweeps over more than 10000 combinations";
+  std::string sweep = "method: m\nsweep:\n";
+  std::string zip = "method: m\nzip:\n";
+  std::string plain = "method: m\n";
+  for (int i = 0; i < 201; ++i) {
+    const std::string name = "a" + std::to_string(i);
+    sweep += "  " + name + ": [1]\n";
+    zip += "  " + name + ": [1]\n";
+    plain += name + ": 1\n";
+  }
+  EXPECT_EQ(why(sweep), "c.yaml:1: sets 201 options, expected at most 200");
+  EXPECT_EQ(why(zip), "c.yaml:1: sets 201 options, expected at most 200");
+  EXPECT_EQ(why(plain), "c.yaml:1: sets 201 options, expected at most 200");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 100000}}\n"), many);
+  EXPECT_EQ(why("method: m\nzip: {a: {from: 0, to: 1, steps: 100000}}\n"),
+            "c.yaml:2: sweeps over more than 10000 combinations");
+  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 100}}\n"
+                "zip: {b: {from: 0, to: 1, steps: 101}}\n"),
+            many);
+}
+
 }  // namespace
 }  // namespace loopbench

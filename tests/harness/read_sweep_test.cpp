@@ -94,6 +94,11 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
             "c.yaml:7: method: '(' is not a regular expression");
+  EXPECT_EQ(why(config("- line",
+                       "- shift",
+                       "- ate",
+                       "exclude: [{method: '" + std::string(50'000, '(') + "'}]\n")),
+            "c.yaml:7: method: a pattern of more than 1000 characters");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
             "c.yaml:7: min_coverage = 80.0 breaks 0 <= min_coverage <= 1");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),

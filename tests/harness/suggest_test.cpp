@@ -13,6 +13,11 @@ TEST(Suggest, FindsASlipOfTheHand) {
   EXPECT_EQ(closest("dm_n5", kKnown), "dm_n4");
 }
 
+TEST(Suggest, LooksAtNothingThatIsFarTooLong) {
+  EXPECT_EQ(closest("uniformly__", kKnown), "");
+  EXPECT_EQ(closest(std::string(1'000'000, 'u'), kKnown), "");
+}
+
 TEST(Suggest, DoesNotGuessWildly) {
   EXPECT_EQ(closest("spaghetti", kKnown), "");
   EXPECT_EQ(unknown_name("method", "spaghetti", kKnown),

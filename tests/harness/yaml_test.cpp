@@ -49,6 +49,14 @@ TEST(Yaml, RefusesAliasesThatNeverEnd) {
   EXPECT_EQ(why(laughs), "c.yaml:1: " + told);
 }
 
+TEST(Yaml, RefusesWhatIsFarTooLong) {
+  EXPECT_EQ(why("a: " + std::string(1'000'000, 'x')),
+            "c.yaml: has 1000003 bytes, expected a config of at most 1000000");
+  std::string copies = "a: &a " + std::string(100'000, 'x') + "\nb: [*a";
+  for (int i = 0; i < 100; ++i) copies += ", *a";
+  EXPECT_EQ(why(copies + "]\n"), "c.yaml:1: writes out too long by its aliases");
+}
+
 TEST(Yaml, TellsTheLineOfBrokenSyntax) {
   const std::string text = why("a: 1\nb: [1, 2\nc: 3\n");
   EXPECT_TRUE(text.starts_with("c.yaml:3: not valid YAML")) << text;

@@ -49,6 +49,15 @@ TEST(Median, IsThatOfTheSortedList) {
   }
 }
 
+TEST(Median, IsRightWhereTheSampleIsUnlikeTheRest) {
+  // Every tenth value is looked at first, and far above the others.
+  std::vector<double> values(40'960);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<double>(i % 10 == 0 ? 1'000'000 + i : i % 777);
+  }
+  EXPECT_EQ(median(values), by_sorting(values));
+}
+
 TEST(Median, BetweenTwoFarApart) {
   std::vector<double> values(10'000, 1.0);
   std::fill(values.begin(), values.begin() + 5'000, 3e9);
@@ -82,6 +91,7 @@ TEST(Statistics, ThreadsDoNotMatter) {
   std::vector<double> values(1'234'567);
   for (double& value : values) value = std::exp(normal(random));
   EXPECT_EQ(statistics(values).sse, pairwise_squares(values.data(), values.size()));
+  EXPECT_EQ(statistics(values).median, by_sorting(values));
 }
 
 }  // namespace

@@ -1,15 +1,32 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
 #include "metrics/pairs/angle_pairs.hpp"
 #include "metrics/pairs/consecutive.hpp"
 #include "metrics/pairs/python_random.hpp"
 #include "metrics/pairs/tum_motions.hpp"
+#include "metrics/protocols.hpp"
+#include "metrics/rpe.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {
 namespace {
 
 using Pairs = std::vector<FromTo>;
+
+using Json = nlohmann::json;
+
+const Json& sampled() {
+  static const Json all = [] {
+    std::ifstream file(std::string(LOOPBENCH_TEST_DATA) + "/tum_sampled/sampled.json");
+    return Json::parse(file);
+  }();
+  return all;
+}
 
 Trajectory turning(const std::vector<double>& yaws) {
   Trajectory out;
@@ -67,22 +84,35 @@ TEST(TumClosestIndex, OnATieTheOneProbedFirstWins) {
   EXPECT_EQ(tum_closest_index({5}, 1.0), 0u);
 }
 
+constexpr std::size_t kMostPairs = 10'000;
+
+/// Their pairs by stamp: whole seconds that count the poses of turning().
+Pairs of_whole_estimate(const TumMotions& motions) {
+  Pairs out;
+  const auto number = [&](std::size_t i) {
+    return static_cast<std::size_t>(motions.poses.estimate[i].stamp);
+  };
+  for (const auto& [i, j] : motions.pairs) out.emplace_back(number(i), number(j));
+  return out;
+}
+
 TEST(TumMotions, DropTheLastPoseAsAnEndAndGapsInTheReference) {
   Trajectory reference = turning({0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   const Trajectory estimate = reference;
   const Stretch one{1.0, DeltaUnit::s, 0.1};
   // 8 -> 9 and 9 -> 9 end in the last pose.
-  EXPECT_EQ(tum_motions({reference, estimate}, 0.0, {}, one).pairs.size(), 8u);
+  const auto motions = [&] { return tum_motions({reference, estimate}, 0.0, {}, one, kMostPairs); };
+  EXPECT_EQ(motions().pairs.size(), 8u);
   // Without 3..7 the median stays 1 s, and 5 s is 3 s from its neighbours: beyond 2.
   reference.erase(reference.begin() + 3, reference.begin() + 8);
-  EXPECT_EQ(tum_motions({reference, estimate}, 0.0, {}, one).pairs,
-            (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {6, 7}, {7, 8}}));
+  EXPECT_EQ(of_whole_estimate(motions()), (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {6, 7}, {7, 8}}));
+  EXPECT_EQ(motions().poses.reference.size(), 8u);  // of 5 and 9 nothing is asked
 }
 
 TEST(TumMotions, MeasureMetresFramesAndTurns) {
   const Trajectory poses = turning({0.0, 0.4, 0.8, 1.2, 1.6, 2.0});
   const auto pairs = [&](double delta, DeltaUnit unit) {
-    return tum_motions({poses, poses}, 0.0, {}, {delta, unit, 0.1}).pairs;
+    return of_whole_estimate(tum_motions({poses, poses}, 0.0, {}, {delta, unit, 0.1}, kMostPairs));
   };
   const Pairs two{{0, 2}, {1, 3}, {2, 4}};
   EXPECT_EQ(pairs(2.0, DeltaUnit::frames), two);
@@ -104,22 +134,80 @@ TEST(PythonRandom, DrawsWhatPythonDraws) {
   EXPECT_EQ(draws(1), std::vector<std::size_t>(8, 0));
 }
 
+/// What Python's random.sample and the rules of evaluate_rpe.py gave in tests/data/tum_sampled.
+TEST(PythonRandom, SamplesWhatPythonSamples) {
+  for (const Json& wanted : sampled()["sample"]) {
+    const std::vector<std::size_t> got =
+        PythonRandom().sample(wanted["size"].get<std::size_t>(), wanted["count"]);
+    ASSERT_EQ(got.size(), wanted["count"].get<std::size_t>());
+    const auto shown = static_cast<std::ptrdiff_t>(wanted["first"].size());
+    using List = std::vector<std::size_t>;
+    EXPECT_EQ(List(got.begin(), got.begin() + shown), wanted["first"].get<List>()) << wanted;
+    EXPECT_EQ(List(got.end() - shown, got.end()), wanted["last"].get<List>()) << wanted;
+    EXPECT_EQ(std::accumulate(got.begin(), got.end(), std::size_t{0}), wanted["sum"]) << wanted;
+  }
+}
+
+/// The trajectories of make.py.
+StampedPose spiral(double t, double shift, double wobble) {
+  const double yaw = 0.7 * std::sin(0.05 * t) + wobble * std::sin(3.0 * t);
+  return {t,
+          {exp_so3(Vector3(0.0, 0.0, yaw)),
+           Vector3(0.02 * t * std::cos(0.01 * t) + shift * std::sin(2.0 * t),
+                   0.02 * t * std::sin(0.01 * t) + shift * std::cos(1.7 * t),
+                   0.5 * std::sin(0.03 * t) + shift * std::sin(2.9 * t))}};
+}
+
+TEST(TumMotions, OfMoreThanMaxPairsAreThoseThatTheToolDraws) {
+  Trajectory reference;
+  Trajectory estimate;
+  for (int i = 0; i < 10'500; ++i) estimate.push_back(spiral(0.05 * i, 0.03, 0.02));
+  for (int i = 0; i < 13'200; ++i) {
+    const double t = 0.04 * i + 0.003;
+    if (t <= 100.0 || t >= 103.0) reference.push_back(spiral(t, 0.0, 0.0));
+  }
+  for (const Json& wanted : sampled()["rpe"]) {
+    const Protocol rules =
+        named_protocol("tum", {{"max_pairs", wanted["max_pairs"].get<std::int64_t>()}}).rules;
+    const Evaluation judged = evaluate(reference, estimate, rules);
+    RpeOptions options{.delta = wanted["delta"], .unit = DeltaUnit::s};
+    const auto expect = [&](const Statistics& got, const Json& row) {
+      ASSERT_EQ(got.count, row["n"].get<std::size_t>());
+      for (const auto& [name, value] : {std::pair{"rmse", got.rmse},
+                                        std::pair{"mean", got.mean},
+                                        std::pair{"median", got.median},
+                                        std::pair{"std", got.std},
+                                        std::pair{"min", got.min},
+                                        std::pair{"max", got.max}}) {
+        EXPECT_NEAR(value, row[name].get<double>(), 1e-9) << name << " of " << wanted["delta"];
+      }
+    };
+    expect(find(rpe(judged, options), "translation", "3d"), wanted["trans"]);
+    options.relation = Relation::rotation_angle_rad;
+    expect(rpe(judged, options).front().statistics, wanted["rot_rad"]);
+  }
+}
+
 TEST(TumRandomMotions, TakeAllPairsOfFewerThanAHundredPoses) {
   Trajectory reference = turning({0, 0, 0, 0, 0, 0, 0, 0});
   const Trajectory estimate = turning({0, 0, 0});
-  EXPECT_EQ(tum_random_motions({reference, estimate}, 0.0, {}).pairs,
+  const auto pairs = [&](double offset) {
+    return of_whole_estimate(tum_random_motions({reference, estimate}, offset, {}, kMostPairs));
+  };
+  EXPECT_EQ(pairs(0.0),
             (Pairs{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}));
   // The reference starts 3 s after estimate pose 0: beyond twice its interval.
-  EXPECT_EQ(tum_random_motions({reference, estimate}, -3.0, {}).pairs,
-            (Pairs{{1, 1}, {1, 2}, {2, 1}, {2, 2}}));
+  EXPECT_EQ(pairs(-3.0), (Pairs{{1, 1}, {1, 2}, {2, 1}, {2, 2}}));
 }
 
 TEST(TumRandomMotions, DrawFromAHundredOn) {
   const Trajectory poses = turning(std::vector<double>(100, 0.0));
-  const Pairs got = tum_random_motions({poses, poses}, 0.0, {}).pairs;
-  ASSERT_EQ(got.size(), 10'000u);
+  const Pairs got = of_whole_estimate(tum_random_motions({poses, poses}, 0.0, {}, kMostPairs));
+  ASSERT_EQ(got.size(), kMostPairs);
   EXPECT_EQ(got[0], (FromTo{49, 97}));
   EXPECT_EQ(got[1], (FromTo{53, 5}));
+  const TumMotions few = tum_random_motions({poses, poses}, 0.0, {}, 7);
+  EXPECT_EQ(of_whole_estimate(few), Pairs(got.begin(), got.begin() + 7));
 }
 
 TEST(StretchPairs, RefuseWhatNoStretchCanBe) {

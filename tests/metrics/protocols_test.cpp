@@ -74,6 +74,10 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
             "project = xy: pairs tum are taken from the files, not flattened");
   EXPECT_EQ(refusal("evo", {{"pairs", word("tum_random")}, {"pairs_from", word("reference")}}),
             "pairs_from = reference: pairs tum_random are those of the estimate");
+  EXPECT_EQ(refusal("evo", {{"max_pairs", std::int64_t{0}}}),
+            "max_pairs = 0: only pairs tum and tum_random are drawn");
+  EXPECT_EQ(refusal("tum", {{"pairs", word("tum_random")}, {"max_pairs", std::int64_t{0}}}),
+            "max_pairs = 0: pairs tum_random would be every pose with every other; use tum");
   EXPECT_EQ(refusal("rpg", {{"segments.precision", word("float32")}}),
             "segments.precision = float32: is the KITTI devkit's: end beyond, form kitti, angle "
             "trace");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "metrics/protocols.hpp"
@@ -37,6 +38,22 @@ TEST(SegmentPairs, NearestIsWhatLookingAtAllOfThemFinds) {
   }
   EXPECT_LT(wanted.size(), 150u);
   EXPECT_EQ(segment_pairs(d, 3.0, 0.2, SegmentEnd::nearest, 1), wanted);
+}
+
+TEST(SegmentPairs, NearestIsTheSameInBlocksOnSeveralThreads) {
+  const std::vector<double> d = uneven_path(70'000);
+  Pairs wanted;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const double end = d[i] + 100.0;
+    const auto beyond = std::lower_bound(d.begin(), d.end(), end);
+    auto best = beyond;
+    if (beyond == d.end() || end - *std::prev(beyond) <= *beyond - end) {
+      best = std::lower_bound(d.begin(), d.end(), *std::prev(beyond));
+    }
+    if (std::abs(*best - end) < 0.2) wanted.emplace_back(i, best - d.begin());
+  }
+  EXPECT_GT(wanted.size(), 40'000u);
+  EXPECT_EQ(segment_pairs(d, 100.0, 0.2, SegmentEnd::nearest, 1), wanted);
 }
 
 TEST(SegmentPairs, RpgGivesTheKthEndToTheKthPose) {
