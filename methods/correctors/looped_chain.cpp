@@ -54,6 +54,12 @@ void LoopedChain::believe(ChainBelief belief) {
   cost_ = cost_of({errors_, drift_}, poses_);
 }
 
+void LoopedChain::correct_by(std::vector<Twist> errors) {
+  errors_ = std::move(errors);
+  poses_ = integrate(errors_);
+  cost_ = cost_of({errors_, drift_}, poses_);
+}
+
 double LoopedChain::cost_of(const Corrections& at, const std::vector<Pose>& poses) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < at.errors.size(); ++i) {

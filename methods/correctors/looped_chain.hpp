@@ -49,6 +49,11 @@ class LoopedChain {
   /// Exchanges the belief and keeps poses, errors and drift as they are.
   void believe(ChainBelief belief);
 
+  /// Exchanges the errors e_i, one an odometry edge, and keeps the drift as it is.
+  void correct_by(std::vector<Twist> errors);
+
+  const std::vector<Twist>& errors() const { return errors_; }
+
   /// One Gauss-Newton step, halved until the cost falls or, to rounding, stays. False when no
   /// step does that. Throws
   /// std::runtime_error when the loop equations are not positive definite.
