@@ -85,16 +85,18 @@ Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidenc
   const Eigen::Index size = evidence.gap.size();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t j = 0; j < model.size(); ++j) {
-    out.triangularView<Eigen::Lower>() += model[j].value * evidence.shares[j];
+    out.noalias() += model[j].value * evidence.shares[j];  // whole: faster than half of it
   }
   return out;
 }
 
 double log_evidence(const MotionModel& model, const Evidence& evidence) {
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(gap_covariance(model, evidence));
+  Eigen::MatrixXd covariance = gap_covariance(model, evidence);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(covariance);  // in place
   if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd whitened = factor.matrixL().solve(evidence.gap);
   const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (evidence.gap.dot(factor.solve(evidence.gap)) + log_determinant +
+  return -0.5 * (whitened.squaredNorm() + log_determinant +
                  static_cast<double>(evidence.gap.size()) * std::log(2.0 * std::numbers::pi));
 }
 

@@ -23,7 +23,7 @@ Evidence evidence_of(const MotionModel& model,
                      const std::vector<EdgeMotion>& motions,
                      const std::vector<std::size_t>& closures);
 
-/// sum_j value_j share_j, its lower triangle.
+/// sum_j value_j share_j; only its lower triangle means anything.
 Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidence);
 
 /// log N(gap; 0, gap_covariance); -inf when that is no covariance. O(gaps^3 + gaps^2 terms).

@@ -41,7 +41,7 @@ class MotionDrift final : public Corrector {
     bool fit = true;
     PriorOptions prior = {};
     Sampling sampling = {};
-    int fit_closures = 20;
+    int fit_closures = 12;
     int fit_rounds = 2;
     int average_closures = 60;
     int max_iterations = 20;
