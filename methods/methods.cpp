@@ -87,7 +87,8 @@ std::vector<MethodEntry> methods() {
                           "motion_drift_rotation, and with speed",
                           {.model = MotionDrift::Model::speed}),
       method<MotionDrift>("motion_drift",
-                          "motion_drift_rotation with steady drift, all fitted to the loops"),
+                          "motion_drift_rotation with steady drift, averaged over models that the "
+                          "loops allow"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
                                  {.start = PoseGraphOptimizer::Start::chordal}),

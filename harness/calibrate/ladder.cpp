@@ -13,7 +13,8 @@ struct Shape {
   std::vector<Growth> drift[2];  ///< by Half
 };
 
-/// As the methods of these names in the catalogue have it.
+/// As the methods of these names in the catalogue have it; drift of translation, which motion_drift
+/// leaves out unless its size is given, is learnt for it here.
 std::vector<Shape> shapes() {
   using enum Growth;
   return {{"motion_drift_const", {edge}, {}},

@@ -76,6 +76,13 @@ void LoopedChain::believe(ChainBelief belief) {
   near_ = false;
 }
 
+void LoopedChain::correct_by(std::vector<Twist> errors) {
+  at_.errors = std::move(errors);
+  poses_ = integrate(at_.errors);
+  cost_ = cost_of(at_, loop_errors(poses_));
+  near_ = false;
+}
+
 double LoopedChain::cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < at.errors.size(); ++i) {

@@ -24,6 +24,11 @@ class LoopedChain {
   /// Exchanges the belief and keeps poses, errors and drift as they are.
   void believe(ChainBelief belief);
 
+  /// Exchanges the errors e_i, one an odometry edge, and keeps the drift as it is.
+  void correct_by(std::vector<Twist> errors);
+
+  const std::vector<Twist>& errors() const { return at_.errors; }
+
   /// One step that lowers the cost or, to rounding, keeps it; false when none is found.
   /// Gauss-Newton at first, halved until it fits; Newton (loop_newton.hpp) once a step no longer
   /// halves the cost. A straight step leaves loops open that bend, and so stiffly that hardly any

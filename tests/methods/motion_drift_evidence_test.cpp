@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/motion_drift/evidence.hpp"
+#include "methods/correctors/motion_drift/mean_errors.hpp"
+#include "methods/correctors/motion_drift/posterior.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -21,6 +22,8 @@ MotionModel every_term() {
     }
     out.push_back({Cause::closures, half, Growth::edge, 1.5});
   }
+  out.push_back({Cause::drift, Half::rotation, Growth::time, 0.003, false, 1});
+  out.push_back({Cause::stated, Half::rotation, Growth::edge, 0.4});
   return out;
 }
 
@@ -59,6 +62,13 @@ Dense dense(const MotionModel& model, const Problem& problem) {
   }
   for (const Term& term : model) {
     if (term.cause == Cause::closures) continue;
+    if (term.cause == Cause::stated) {
+      for (Eigen::Index i = 0; i < n / 6; ++i) {
+        out.S.block<6, 6>(6 * i, 6 * i) +=
+            term.value * problem.odometry[static_cast<std::size_t>(i)].information.inverse();
+      }
+      continue;
+    }
     for (Eigen::Index i = 0; i < n / 6; ++i) {
       for (Eigen::Index j = 0; j < n / 6; ++j) {
         if (term.cause == Cause::noise && i != j) continue;
@@ -67,18 +77,11 @@ Dense dense(const MotionModel& model, const Problem& problem) {
         const double entry = term.value * (term.cause == Cause::noise ? a : a * b);
         const Eigen::Index half = term.half == Half::translation ? 0 : 3;
         for (Eigen::Index axis = half; axis < half + 3; ++axis) {
+          if (term.axis >= 0 && axis != half + term.axis) continue;
           out.S(6 * i + axis, 6 * j + axis) += entry;
         }
       }
     }
-  }
-  return out;
-}
-
-std::vector<VarianceComponent> components(const MotionModel& model, const Evidence& evidence) {
-  std::vector<VarianceComponent> out;
-  for (std::size_t j = 0; j < model.size(); ++j) {
-    out.push_back({evidence.shares[j], model[j].value, model[j].value});
   }
   return out;
 }
@@ -104,7 +107,7 @@ TEST(MotionDriftEvidence, EqualsTheDensityOfTheGapsComputedDensely) {
   EXPECT_TRUE(evidence.gap.isApprox(gap, 1e-9));
   const double wanted = -0.5 * (gap.dot(C.inverse() * gap) + std::log(C.determinant()) +
                                 static_cast<double>(gap.size()) * std::log(2.0 * std::numbers::pi));
-  EXPECT_NEAR(log_evidence(components(model, evidence), evidence.gap), wanted, 1e-5);
+  EXPECT_NEAR(log_evidence(model, evidence), wanted, 1e-5);
 }
 
 TEST(MotionDriftEvidence, SeesOnlyThePlaneOfAPlanarProblemAndOnlyChosenClosures) {
@@ -145,50 +148,104 @@ TEST(MotionDriftEvidence, OneSolveIsTheConditionalMeanOfTheModel) {
   }
 }
 
-TEST(Variances, FitNeverGoesDownAndFindsWhereTheDensityIsFlat) {
-  const Problem problem = test::walk(7, 16, 0.05);
-  const LoopedChain chain(problem, stated_belief(problem));
+TEST(MotionDriftEvidence, MeanErrorsOfOneModelAreItsConditionalMeanAndOfTwoLieBetween) {
+  const Problem problem = test::walk(4, 10, 1e-6);
   const MotionModel model = every_term();
-  const Evidence evidence = evidence_of(model, chain, problem, motions(problem), {0, 1, 2});
-  std::vector<VarianceComponent> parts = components(model, evidence);
-  for (VarianceComponent& c : parts) {
-    c.spread = 0.7;
-    c.group = 0;
-  }
-  std::vector<VarianceGroup> groups{{0.0, 2.0}};
-  const auto density = [&](const std::vector<VarianceComponent>& at) {
-    return log_evidence(at, evidence.gap) + log_prior(at, groups);
+  MotionModel other = model;
+  for (std::size_t j = 0; j < other.size(); ++j) other[j].value *= j % 2 == 0 ? 3.0 : 0.2;
+  const std::vector<EdgeMotion> moved = motions(problem);
+  const LoopedChain chain(problem, belief_of(model, problem, moved));
+  const auto expected = [&](const MotionModel& of) -> Eigen::VectorXd {
+    const Dense by_hand = dense(of, problem);
+    const ChainBelief belief = belief_of(of, problem, moved);
+    Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
+    for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(6 * k);
+      // Factors on halves apart leave out what ties the halves of a closure.
+      Matrix6 apart = belief.closure_covariance[k];
+      apart.block<3, 3>(0, 3).setZero();
+      apart.block<3, 3>(3, 0).setZero();
+      C.block<6, 6>(at, at) += apart;
+    }
+    const std::vector<Twist> none(moved.size(), Twist::Zero());
+    return -by_hand.S * by_hand.A.transpose() * C.ldlt().solve(closure_errors(problem, none));
   };
-  double last = density(parts);
-  for (int i = 0; i < 20; ++i) {
-    fit(parts, groups, evidence.gap, 1);
-    const double now = density(parts);
-    EXPECT_GE(now, last - 1e-9);
-    last = now;
-  }
-  fit(parts, groups, evidence.gap, 2000);
-  for (std::size_t j = 0; j < parts.size(); ++j) {
-    std::vector<VarianceComponent> up = parts;
-    std::vector<VarianceComponent> down = parts;
-    up[j].value *= std::exp(1e-4);
-    down[j].value *= std::exp(-1e-4);
-    EXPECT_NEAR((density(up) - density(down)) / 2e-4, 0.0, 1e-4) << j;
-  }
+  const Eigen::VectorXd first = expected(model);
+  const Eigen::VectorXd second = expected(other);
+  const auto near = [](const std::vector<Twist>& errors, const Eigen::VectorXd& wanted) {
+    double off = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      off += (errors[i] - wanted.segment<6>(static_cast<Eigen::Index>(6 * i))).norm();
+    }
+    return off < 1e-9;
+  };
+  EXPECT_TRUE(near(mean_errors({model}, chain, problem, moved), first));
+  EXPECT_TRUE(near(mean_errors({model, other, other}, chain, problem, moved),
+                   (first + 2.0 * second) / 3.0));
 }
 
-TEST(Variances, TwoSamplesOfKnownSizesGiveTheirMeanSquares) {
-  // A gap of 2 and 4 due to one cause, 1 due to another: variances 10 and 1 by maximum likelihood.
-  Eigen::MatrixXd first = Eigen::Vector3d(1, 1, 0).asDiagonal();
-  Eigen::MatrixXd second = Eigen::Vector3d(0, 0, 1).asDiagonal();
-  std::vector<VarianceComponent> parts{{first, 1.0, 1.0, 1e6}, {second, 5.0, 5.0, 1e6}};
-  std::vector<VarianceGroup> groups;
-  const Eigen::VectorXd gap = Eigen::Vector3d(2, 4, 1);
-  fit(parts, groups, gap, 200);
-  EXPECT_NEAR(parts[0].value, 10.0, 1e-6);
-  EXPECT_NEAR(parts[1].value, 1.0, 1e-6);
-  EXPECT_NEAR(log_evidence(parts, gap),
-              -0.5 * (3.0 + 2.0 * std::log(10.0) + 3.0 * std::log(2.0 * std::numbers::pi)),
-              1e-9);
+/// One gap of size 2 that one term explains, of median variance 1 and spread 1.5.
+struct OneGap {
+  Prior prior{{{Cause::noise, Half::translation, Growth::edge, 1.0}}, {{{0, 1.5}}}, 1};
+  Evidence evidence{{0}, Eigen::VectorXd::Constant(1, 2.0), {Eigen::MatrixXd::Ones(1, 1)}};
+};
+
+TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives) {
+  const OneGap one;
+  double mass = 0.0;
+  double mean = 0.0;
+  double square = 0.0;
+  for (double u = -6.0; u <= 6.0; u += 0.01) {
+    const double density =
+        std::exp(-0.5 * u * u +
+                 log_evidence(model_at(one.prior, Eigen::VectorXd::Constant(1, u)), one.evidence));
+    mass += density;
+    mean += density * u;
+    square += density * u * u;
+  }
+  mean /= mass;
+  const double deviation = std::sqrt(square / mass - mean * mean);
+  const Posterior drawn =
+      posterior_of(one.prior, one.evidence, {.draws = 4000, .steps = 3}, Eigen::VectorXd::Zero(1));
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const MotionModel& model : drawn.draws) {
+    const double u = std::log(model[0].value) / 1.5;
+    sum += u / 4000.0;
+    squares += u * u / 4000.0;
+  }
+  EXPECT_NEAR(sum, mean, 5.0 * deviation / std::sqrt(4000.0));
+  EXPECT_NEAR(std::sqrt(squares - sum * sum), deviation, 0.06 * deviation);
+  EXPECT_NEAR(std::log(drawn.centre[0].value), 1.5 * sum, 1e-9);
+}
+
+TEST(MotionDriftPosterior, ASpreadOfZeroKeepsTheMedianAndNoDensityIsAnError) {
+  OneGap one;
+  one.prior.hangs[0][0].spread = 0.0;
+  const Posterior drawn =
+      posterior_of(one.prior, one.evidence, {.draws = 5}, Eigen::VectorXd::Zero(1));
+  for (const MotionModel& model : drawn.draws) EXPECT_DOUBLE_EQ(model[0].value, 1.0);
+  one.prior.medians[0].value = 0.0;
+  EXPECT_THROW(posterior_of(one.prior, one.evidence, {}, Eigen::VectorXd::Zero(1)),
+               std::runtime_error);
+}
+
+TEST(MotionDriftPrior, PartsOfTheNoiseAndItsTimeToDriftAreAsTheOptionsSay) {
+  const Problem problem = test::planar();
+  const std::vector<EdgeMotion> moved = motions(problem);
+  const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
+  const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
+                          {Cause::drift, Half::rotation, Growth::time, 0.0, false, 2}};
+  double seconds = 0.0;  // of a loop, mean, and its square's
+  double squared = 0.0;
+  for (const Edge& loop : problem.closures) {
+    const double long_for = problem.keyframes[loop.to].stamp - problem.keyframes[loop.from].stamp;
+    seconds += long_for / static_cast<double>(problem.closures.size());
+    squared += long_for * long_for / static_cast<double>(problem.closures.size());
+  }
+  const Prior prior = prior_of(terms, {.steady_after = 2.0 * seconds}, problem, moved, gap);
+  // Half as much drift as noise, in squared angle at the loops' ends.
+  EXPECT_NEAR(prior.medians[1].value * squared, 0.5 * prior.medians[0].value * seconds, 1e-12);
 }
 
 }  // namespace

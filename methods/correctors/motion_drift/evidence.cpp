@@ -1,5 +1,10 @@
 #include "methods/correctors/motion_drift/evidence.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <limits>
+#include <numbers>
+
 namespace loopbench {
 namespace {
 
@@ -20,6 +25,44 @@ Matrix6 only(Half half, const Matrix6& matrix) {
   return out;
 }
 
+Eigen::MatrixXd share_of(const Term& term,
+                         const LoopJacobian& jacobian,
+                         const LoopSums& sums,
+                         const Problem& problem,
+                         const std::vector<EdgeMotion>& motions) {
+  const Eigen::Index half = term.half == Half::translation ? 0 : 3;
+  switch (term.cause) {
+    case Cause::noise:
+      return through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                             const auto columns = jacobian.edge[i].middleCols<3>(half);
+                             return grown(term.growth, motions[i]) * columns * columns.transpose();
+                           }));
+    case Cause::stated:
+      return through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                             return jacobian.edge[i] * problem.odometry[i].information.inverse() *
+                                    jacobian.edge[i].transpose();
+                           }));
+    case Cause::drift: {
+      const Eigen::MatrixXd shape =
+          through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                               return grown(term.growth, motions[i]) * jacobian.edge[i];
+                             }));
+      const Eigen::MatrixXd moved =
+          shape.middleCols(half + (term.axis < 0 ? 0 : term.axis), term.axis < 0 ? 3 : 1);
+      return moved * moved.transpose();
+    }
+    case Cause::closures:
+      break;
+  }
+  const auto size = static_cast<Eigen::Index>(6 * sums.loops());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t k = 0; k < sums.loops(); ++k) {
+    const auto at = static_cast<Eigen::Index>(6 * k);
+    out.block<6, 6>(at, at) = only(term.half, problem.closures[k].information.inverse());
+  }
+  return out;
+}
+
 }  // namespace
 
 Evidence evidence_of(const MotionModel& model,
@@ -28,42 +71,33 @@ Evidence evidence_of(const MotionModel& model,
                      const std::vector<EdgeMotion>& motions,
                      const std::vector<std::size_t>& closures) {
   const LoopJacobian jacobian = chain.linearised();
-  const LoopSums& sums = chain.sums();
-  const std::vector<Eigen::Index> rows = rows_of(closures, problem.planar);
-  const auto size = static_cast<Eigen::Index>(6 * sums.loops());
-
   Evidence out;
-  out.gap = jacobian.gap(rows);
+  out.rows = rows_of(closures, problem.planar);
+  out.gap = jacobian.gap(out.rows);
   for (const Term& term : model) {
-    const auto columns = [&](std::size_t i) {
-      return term.half == Half::translation ? jacobian.edge[i].leftCols<3>()
-                                            : jacobian.edge[i].rightCols<3>();
-    };
-    Eigen::MatrixXd share;
-    if (term.cause == Cause::noise) {
-      share = through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                              return grown(term.growth, motions[i]) * columns(i) *
-                                     columns(i).transpose();
-                            }));
-    } else if (term.cause == Cause::drift) {
-      Eigen::MatrixXd shape =
-          through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                               return grown(term.growth, motions[i]) * jacobian.edge[i];
-                             }));
-      const Eigen::MatrixXd half =
-          term.half == Half::translation ? shape.leftCols<3>() : shape.rightCols<3>();
-      share = half * half.transpose();
-    } else {
-      share = Eigen::MatrixXd::Zero(size, size);
-      for (std::size_t k = 0; k < sums.loops(); ++k) {
-        const auto at = static_cast<Eigen::Index>(6 * k);
-        share.block<6, 6>(at, at) = only(term.half, problem.closures[k].information.inverse());
-      }
-    }
-    share = share.triangularView<Eigen::Lower>();
-    out.shares.push_back(share(rows, rows));
+    const Eigen::MatrixXd share = share_of(term, jacobian, chain.sums(), problem, motions);
+    out.shares.push_back(share(out.rows, out.rows));
   }
   return out;
+}
+
+Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidence) {
+  const Eigen::Index size = evidence.gap.size();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t j = 0; j < model.size(); ++j) {
+    out.noalias() += model[j].value * evidence.shares[j];  // whole: faster than half of it
+  }
+  return out;
+}
+
+double log_evidence(const MotionModel& model, const Evidence& evidence) {
+  Eigen::MatrixXd covariance = gap_covariance(model, evidence);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(covariance);  // in place
+  if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd whitened = factor.matrixL().solve(evidence.gap);
+  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (whitened.squaredNorm() + log_determinant +
+                 static_cast<double>(evidence.gap.size()) * std::log(2.0 * std::numbers::pi));
 }
 
 }  // namespace loopbench

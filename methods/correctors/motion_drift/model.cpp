@@ -1,5 +1,6 @@
 #include "methods/correctors/motion_drift/model.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace loopbench {
@@ -9,9 +10,41 @@ namespace {
 /// have none, and no inverse.
 constexpr double kFloor = 1e-9;
 
-Twist on_half(Half half, double value) {
-  return half == Half::translation ? twist(Vector3::Constant(value), Vector3::Zero())
-                                   : twist(Vector3::Zero(), Vector3::Constant(value));
+/// `value` on the axes the term is about.
+Twist on_axes(const Term& term, double value) {
+  Twist out = Twist::Zero();
+  const Eigen::Index at = term.half == Half::translation ? 0 : 3;
+  if (term.axis < 0) {
+    out.segment<3>(at).setConstant(value);
+  } else {
+    out[at + term.axis] = value;
+  }
+  return out;
+}
+
+void add_odometry(ChainBelief& belief,
+                  const MotionModel& model,
+                  const Problem& problem,
+                  const std::vector<EdgeMotion>& motions) {
+  belief.covariance.assign(motions.size(), Matrix6::Zero());
+  for (const Term& term : model) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      if (term.cause == Cause::noise) {
+        belief.covariance[i].diagonal() +=
+            on_axes(term, term.value * grown(term.growth, motions[i]));
+      } else if (term.cause == Cause::stated) {
+        belief.covariance[i] += term.value * problem.odometry[i].information.inverse();
+      }
+    }
+  }
+  Twist mean = Twist::Zero();
+  for (const Matrix6& c : belief.covariance) {
+    mean += c.diagonal() / static_cast<double>(motions.size());
+  }
+  for (Matrix6& c : belief.covariance) {
+    c.diagonal() = c.diagonal().cwiseMax(kFloor * mean);
+    belief.information.push_back(c.inverse());
+  }
 }
 
 }  // namespace
@@ -19,31 +52,17 @@ Twist on_half(Half half, double value) {
 std::string name_of(const Term& term) {
   const std::string half = term.half == Half::translation ? "t" : "r";
   if (term.cause == Cause::closures) return "closures." + half;
-  const std::string source = term.cause == Cause::noise ? "noise." : "drift.";
-  return source + half + ".per_" + name_of(term.growth);
+  if (term.cause == Cause::stated) return "stated";
+  const std::string cause = term.cause == Cause::noise ? "noise." : "drift.";
+  static constexpr const char* kAxes[] = {"", ".x", ".y", ".z"};
+  return cause + half + ".per_" + name_of(term.growth) + kAxes[term.axis + 1];
 }
 
 ChainBelief belief_of(const MotionModel& model,
                       const Problem& problem,
                       const std::vector<EdgeMotion>& motions) {
-  std::vector<Twist> variance(motions.size(), Twist::Zero());
-  Twist mean = Twist::Zero();
-  for (const Term& term : model) {
-    if (term.cause != Cause::noise || term.value == 0.0) continue;
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      variance[i] += on_half(term.half, term.value * grown(term.growth, motions[i]));
-    }
-  }
-  for (const Twist& v : variance) mean += v / static_cast<double>(variance.size());
-
   ChainBelief out;
-  out.covariance.reserve(variance.size());
-  out.information.reserve(variance.size());
-  for (const Twist& v : variance) {
-    const Twist kept = v.cwiseMax(kFloor * mean);
-    out.covariance.emplace_back(kept.asDiagonal());
-    out.information.emplace_back(kept.cwiseInverse().asDiagonal());
-  }
+  add_odometry(out, model, problem, motions);
   Twist stretch = Twist::Ones();  // of a closure's standard deviations
   for (const Term& term : model) {
     if (term.cause != Cause::closures) continue;
@@ -59,9 +78,7 @@ ChainBelief belief_of(const MotionModel& model,
   for (const Growth growth : kGrowths) {
     Twist rates = Twist::Zero();
     for (const Term& term : model) {
-      if (term.cause == Cause::drift && term.growth == growth) {
-        rates += on_half(term.half, term.value);
-      }
+      if (term.cause == Cause::drift && term.growth == growth) rates += on_axes(term, term.value);
     }
     if (rates.isZero(0.0)) continue;
     ChainBelief::Drift drift{{}, rates};

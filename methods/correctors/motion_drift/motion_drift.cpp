@@ -1,22 +1,17 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/motion_drift/evidence.hpp"
+#include "methods/correctors/motion_drift/mean_errors.hpp"
 
 namespace loopbench {
 namespace {
 
 using Model = MotionDrift::Model;
 
-bool has(Model model, Cause cause, Half half, Growth growth) {
-  if (cause == Cause::drift) {
-    if (model != Model::drift) return false;
-    return half == Half::translation
-               ? growth == Growth::distance
-               : growth == Growth::time || growth == Growth::distance || growth == Growth::rotation;
-  }
+bool has_noise(Model model, Growth growth) {
   switch (growth) {
     case Growth::edge:
       return model == Model::constant;
@@ -32,24 +27,46 @@ bool has(Model model, Cause cause, Half half, Growth growth) {
   return false;
 }
 
-MotionModel model_of(const MotionDrift::Options& o) {
-  MotionModel out;
-  for (const Cause cause : {Cause::noise, Cause::drift}) {
-    for (const Half half : {Half::translation, Half::rotation}) {
-      for (const Growth growth : kGrowths) {
-        const auto& values =
-            (cause == Cause::noise ? o.noise : o.drift)[static_cast<std::size_t>(half)];
-        const std::optional<double>& given = values[static_cast<std::size_t>(growth)];
-        if (given ? *given == 0.0 : !has(o.model, cause, half, growth)) continue;
-        const double value = given.value_or(0.0);
-        out.push_back({cause,
-                       half,
-                       growth,
-                       cause == Cause::drift ? value * value : value,
-                       given.has_value()});
-      }
+bool has_drift(Model model, Half half, Growth growth) {
+  return model == Model::drift && half == Half::rotation && growth != Growth::edge &&
+         growth != Growth::speed;
+}
+
+void add_noise(MotionModel& out, const MotionDrift::Options& o) {
+  for (const Half half : {Half::translation, Half::rotation}) {
+    for (const Growth growth : kGrowths) {
+      const auto& given = o.noise[static_cast<std::size_t>(half)][static_cast<std::size_t>(growth)];
+      if (given ? *given == 0.0 : !has_noise(o.model, growth)) continue;
+      out.push_back({Cause::noise, half, growth, given.value_or(0.0), given.has_value()});
     }
   }
+}
+
+void add_drift(MotionModel& out, const MotionDrift::Options& o, bool planar) {
+  for (const Half half : {Half::translation, Half::rotation}) {
+    for (const Growth growth : kGrowths) {
+      const auto& given = o.drift[static_cast<std::size_t>(half)][static_cast<std::size_t>(growth)];
+      if (given ? *given == 0.0 : !has_drift(o.model, half, growth)) continue;
+      Term term{Cause::drift, half, growth, given.value_or(0.0), given.has_value()};
+      term.value *= term.value;
+      if (half == Half::translation) {
+        out.push_back(term);
+        continue;
+      }
+      // An axis on its own: odometers turn steadily about one far more than about the others.
+      for (term.axis = planar ? 2 : 0; term.axis < 3; ++term.axis) out.push_back(term);
+    }
+  }
+}
+
+MotionModel model_of(const MotionDrift::Options& o, bool planar) {
+  MotionModel out;
+  add_noise(out, o);
+  const bool calibrated = std::ranges::any_of(out, &Term::given);
+  if (o.model == Model::drift && !calibrated) {
+    out.push_back({Cause::stated, Half::rotation, Growth::edge});
+  }
+  add_drift(out, o, planar);
   for (const Half half : {Half::translation, Half::rotation}) {
     const std::optional<double>& given = o.closures[static_cast<std::size_t>(half)];
     out.push_back({Cause::closures, half, Growth::edge, given.value_or(1.0), given.has_value()});
@@ -65,7 +82,11 @@ std::vector<std::size_t> spread_choice(std::size_t size, std::size_t most) {
   return out;
 }
 
-constexpr int kFitIterations = 30;  // a round; what is left is a small part of the spreads
+double squares(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - less[i]).squaredNorm();
+  return sum;
+}
 
 }  // namespace
 
@@ -82,12 +103,32 @@ std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
 Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
   const std::vector<EdgeMotion> moved = motions(problem);
   LoopedChain chain(problem, stated_belief(problem));
-  MotionModel model = model_of(options_);
-  guess(model, options_.guess, problem, moved, chain.linearised().gap);
-  std::erase_if(model, [](const Term& term) { return term.value == 0.0; });
-  if (options_.fit) report.count("log_evidence", fit_to_loops(model, chain, problem, moved));
+  const Prior prior = prior_of(
+      model_of(options_, problem.planar), options_.prior, problem, moved, chain.linearised().gap);
+  Posterior posterior{{prior.medians}, prior.medians, Eigen::VectorXd::Zero(prior.unknowns)};
+  chain.believe(belief_of(posterior.centre, problem, moved));
+  int iterations = most_likely(chain);
+  const auto seen =
+      spread_choice(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
+  for (int round = 0; options_.fit && round < options_.fit_rounds; ++round) {
+    posterior = posterior_of(prior,
+                             evidence_of(prior.medians, chain, problem, moved, seen),
+                             options_.sampling,
+                             posterior.last);
+    chain.believe(belief_of(posterior.centre, problem, moved));
+    iterations += most_likely(chain);
+  }
+  if (options_.fit) report.count("log_evidence", posterior.log_evidence);
+  const bool few = problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
+  if (posterior.draws.size() > 1 && few) {
+    iterations += average(posterior.draws, chain, problem, moved);
+  }
+  report.count("iterations", iterations);
+  for (const Term& term : posterior.centre) report.count(name_of(term), term.value);
+  return chain.keyframes();
+}
 
-  chain.believe(belief_of(model, problem, moved));
+int MotionDrift::most_likely(LoopedChain& chain) const {
   int iterations = 0;
   while (iterations < options_.max_iterations) {
     const double before = chain.cost();
@@ -95,39 +136,24 @@ Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
     ++iterations;
     if (before - chain.cost() <= options_.tolerance * before) break;
   }
-  report.count("iterations", iterations);
-  report.count("cost", chain.cost());
-  for (const Term& term : model) report.count(name_of(term), term.value);
-  return chain.keyframes();
+  return iterations;
 }
 
-double MotionDrift::fit_to_loops(MotionModel& model,
-                                 LoopedChain& chain,
-                                 const Problem& problem,
-                                 const std::vector<EdgeMotion>& moved) const {
-  const MotionModel prior = model;
-  const auto used =
-      spread_choice(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
-  std::vector<VarianceGroup> halves(2, {0.0, options_.scale_spread});
-  double evidence_then = 0.0;
-  for (int round = 0; round < options_.fit_rounds; ++round) {
-    const Evidence evidence = evidence_of(model, chain, problem, moved, used);
-    std::vector<VarianceComponent> components;
-    for (std::size_t j = 0; j < model.size(); ++j) {
-      const bool closures = model[j].cause == Cause::closures;
-      components.push_back({evidence.shares[j],
-                            model[j].value,
-                            prior[j].value,
-                            closures ? options_.closures_spread : options_.share_spread,
-                            closures ? -1 : static_cast<int>(model[j].half)});
-    }
-    fit(components, halves, evidence.gap, kFitIterations);
-    for (std::size_t j = 0; j < model.size(); ++j) model[j].value = components[j].value;
-    evidence_then = log_evidence(components, evidence.gap);
-    chain.believe(belief_of(model, problem, moved));
-    chain.step();
+int MotionDrift::average(const std::vector<MotionModel>& models,
+                         LoopedChain& chain,
+                         const Problem& problem,
+                         const std::vector<EdgeMotion>& moved) const {
+  const std::vector<Twist> zero(moved.size(), Twist::Zero());
+  double last = std::numeric_limits<double>::infinity();
+  for (int iterations = 0; iterations < options_.max_iterations; ++iterations) {
+    std::vector<Twist> errors = mean_errors(models, chain, problem, moved);
+    const double change = squares(errors, chain.errors());
+    if (!(change < last)) return iterations;  // to rounding, or for good
+    last = change;
+    chain.correct_by(std::move(errors));
+    if (change <= options_.tolerance * squares(chain.errors(), zero)) return iterations + 1;
   }
-  return evidence_then;
+  return options_.max_iterations;
 }
 
 }  // namespace loopbench

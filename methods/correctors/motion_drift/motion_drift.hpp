@@ -1,7 +1,7 @@
-/// Maximum likelihood on a chain under a model of how odometry errs: with motion, and steadily.
+/// A chain corrected under a model of how its odometry errs: with motion, and steadily.
 #pragma once
 
-#include "methods/correctors/motion_drift/guess.hpp"
+#include "methods/correctors/motion_drift/posterior.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench {
@@ -10,38 +10,40 @@ namespace loopbench {
 /// [s], length [m] and turn [rad]:
 ///
 /// - noise w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt, for translation and
-///   rotation apart, on all three axes alike;
-/// - steady drift B_j ~ N(0, V_j): unknown rates, the same all along the chain. They make a chain's
-///   errors hang together, which noise alone denies, and loops far apart in time teach them.
+///   rotation apart, on all three axes alike, plus a multiple of the covariance the edge states;
+/// - steady drift B_j ~ N(0, V_j) of rotation: unknown rates, the same all along the chain. They
+///   make a chain's errors hang together, which noise alone denies, and loops far apart in time
+///   teach them. Steady drift of translation (a wrong scale) hardly opens a loop, so that loops
+///   cannot teach it; it is there when its size is given.
 ///
-/// Loops are solved as Dual does, with the drift's share in their equations (looped_chain.hpp).
+/// Nobody knows these variances, and a few loops do not tell them: they are drawn from what is
+/// believed of them before (prior.hpp) times the density of the gaps that the loops leave
+/// (posterior.hpp), and the answer is the mean of the errors that the models drawn expect
+/// (mean_errors.hpp), relinearised until it rests. No reference is needed. Where the loops speak
+/// for no drift, or do not speak, little is corrected for it. Values given as options (by
+/// `loopbench calibrate`) replace the prior's medians; with `fit: false` they are kept as they are.
 ///
-/// The variances need no reference. Each has a guess (guess.hpp), believed within exp(+-spread) of
-/// its value: loosely for the common scale of translation and of rotation errors, closely for how
-/// the parts compare, since few loops cannot tell those apart. The density of the gaps the loops
-/// leave, times these beliefs, is maximised (variances.hpp), relinearising in between. The stated
-/// information of odometry edges is not used but for judging the closures' units; that of closures
-/// is, times a fitted factor on either half. Values given as options (by `loopbench calibrate`)
-/// replace the guesses, and with `fit: false` they are kept as they are.
+/// With more than `average_closures` closures, which leave little doubt, one model stands for all:
+/// the logarithmic mean of those drawn.
 ///
-/// Complexity O(edges + (6 closures)^3 + (6 fit_closures)^3), times some ten and some hundred
-/// rounds. Cause: design notes, methods 5; variance components: Zhou et al., 2019.
+/// Complexity O(edges + (6 closures)^3) some ten times, O((6 fit_closures)^3) some thousand times.
+/// Sources: design notes, methods 5; Murray, Adams, MacKay, Elliptical slice sampling, AISTATS
+/// 2010.
 class MotionDrift final : public Corrector {
  public:
-  /// What errors grow with, each including those before it. `drift` adds steady drift to
-  /// `rotation`: speed is left out, for between even keyframes it is distance again.
+  /// What errors grow with, each including those before it. `drift` adds steady drift and what the
+  /// edges state to `rotation`: speed is left out, for between even keyframes it is distance again.
   enum class Model { constant, time, distance, rotation, speed, drift };
   using Values = std::array<std::optional<double>, kGrowths.size()>;  ///< by Growth
 
   struct Options {
     Model model = Model::drift;
     bool fit = true;
-    double scale_spread = 2.3;
-    double share_spread = 0.5;
-    double closures_spread = 2.0;
-    Guess guess{.noise_part = 0.002, .drift_part = 0.003, .rotation_noise = 0.2};
-    int fit_closures = 40;
-    int fit_rounds = 4;
+    PriorOptions prior = {};
+    Sampling sampling = {};
+    int fit_closures = 12;
+    int fit_rounds = 2;
+    int average_closures = 60;
     int max_iterations = 20;
     double tolerance = 1e-14;
     int max_closures = 300;
@@ -53,16 +55,17 @@ class MotionDrift final : public Corrector {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations`, `cost` (under the fitted model), `log_evidence` of the gaps, and every
-  /// variance by its name. Throws std::runtime_error when the loop equations cannot be solved.
+  /// Counts: `iterations`, `log_evidence` of the gaps, and every variance by its name. Throws
+  /// std::runtime_error when the loop equations cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
-  /// Leaves the model fitted and the chain near its solution; returns the log evidence.
-  double fit_to_loops(MotionModel& model,
-                      LoopedChain& chain,
-                      const Problem& problem,
-                      const std::vector<EdgeMotion>& moved) const;
+  /// Both return the iterations they took.
+  int most_likely(LoopedChain& chain) const;
+  int average(const std::vector<MotionModel>& models,
+              LoopedChain& chain,
+              const Problem& problem,
+              const std::vector<EdgeMotion>& moved) const;
 
   Options options_;
 };
@@ -81,22 +84,37 @@ template <class Visit>
 void fields(MotionDrift::Options& o, Visit visit) {
   visit("model", o.model, "what errors grow with, each with those before it");
   visit("fit", o.fit, "fit the variances to the loops; false: keep guesses and given values");
+
+  PriorOptions& p = o.prior;
+  const Between share{0.0, 1.0};
   const Between spread{0.0, 10.0};
-  visit("scale_spread", o.scale_spread, "of the common scale's logarithm; 0: fixed [-]", spread);
-  visit("share_spread", o.share_spread, "of each part's logarithm beside it [-]", spread);
-  visit("closures_spread", o.closures_spread, "of the closures' factors' logarithms [-]", spread);
-  visit("guess.noise_part", o.guess.noise_part, "translation noise a loop, of its way", Above{0.0});
-  visit("guess.drift_part", o.guess.drift_part, "steady drift, of the way", Above{0.0});
-  visit("guess.rotation_noise",
-        o.guess.rotation_noise,
-        "noise's part in squared turning gaps, the rest is drift's",
-        Between{0.0, 1.0});
+  visit("prior.noise_part", p.noise_part, "translation noise a loop, of its way", Above{0.0});
+  visit("prior.stated_part", p.stated_part, "of the noise, shaped as edges state [-]", share);
+  visit("prior.steady_after",
+        p.steady_after,
+        "length of loops that gather as much from drift as from noise [s]",
+        Above{0.0});
+  visit("prior.scale_spread", p.scale_spread, "of a half's errors, in logarithms [-]", spread);
+  visit("prior.steady_spread", p.steady_spread, "of drift against noise [-]", spread);
+  visit("prior.axis_spread", p.axis_spread, "of an axis' drift against the others' [-]", spread);
+  visit("prior.share_spread", p.share_spread, "of each term beside all that [-]", spread);
+  visit("prior.stated_spread", p.stated_spread, "of what edges state beside that [-]", spread);
+  visit("prior.closures_spread", p.closures_spread, "of the closures' factors [-]", spread);
+
+  visit("draws", o.sampling.draws, "error models averaged", Between{1, 10000});
+  visit("draw_steps", o.sampling.steps, "of the sampler from draw to draw", Between{1, 1000});
+  visit("warm_up", o.sampling.warm_up, "steps before the first draw", Between{0, 100000});
+  visit("seed", o.sampling.seed, "of the sampler", Between{0});
   visit("fit_closures", o.fit_closures, "closures the fit looks at, well spread", Between{1, 300});
   visit("fit_rounds", o.fit_rounds, "of fitting and relinearising", Between{1, 100});
+  visit("average_closures",
+        o.average_closures,
+        "with more, one model stands for all drawn",
+        Between{0, 2000});
   visit("max_iterations", o.max_iterations, "relinearisations after that", Between{1, 1000});
   visit("tolerance",
         o.tolerance,
-        "relative change of the cost that ends them [-]",
+        "relative change of cost or squared errors that ends them [-]",
         Between{0.0, 1.0});
   visit("max_closures",
         o.max_closures,

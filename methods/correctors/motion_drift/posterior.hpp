@@ -1,0 +1,37 @@
+/// Error models drawn by how well they explain the gaps that the loops leave.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "methods/correctors/motion_drift/evidence.hpp"
+#include "methods/correctors/motion_drift/prior.hpp"
+
+namespace loopbench {
+
+struct Sampling {
+  int draws = 32;
+  int steps = 8;     ///< from draw to draw
+  int warm_up = 60;  ///< steps before the first
+  std::int64_t seed = 1;
+};
+
+struct Posterior {
+  std::vector<MotionModel> draws;
+  MotionModel centre;         ///< values whose logarithms are the draws' mean
+  Eigen::VectorXd last;       ///< unknowns of the last draw: where another round may start
+  double log_evidence = 0.0;  ///< of the gaps, mean over the draws
+};
+
+/// Draws from prior times log_evidence() by elliptical slice sampling, which has nothing to tune:
+/// from u and a fresh normal v it goes to the first point tried on the ellipse through both that is
+/// likely enough. The same seed, the same bits. Throws std::runtime_error when the model at
+/// `start` gives the gaps no density.
+/// O(steps (gaps^3 + gaps^2 terms)) with some five points tried a step.
+/// Source: Murray, Adams, MacKay, Elliptical slice sampling, AISTATS 2010.
+Posterior posterior_of(const Prior& prior,
+                       const Evidence& evidence,
+                       const Sampling& sampling,
+                       const Eigen::VectorXd& start);
+
+}  // namespace loopbench

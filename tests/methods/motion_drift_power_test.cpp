@@ -1,0 +1,209 @@
+/// Power and negative control: what motion_drift gains where its model is true, against theory,
+/// and what it costs where there is nothing to gain.
+#include <gtest/gtest.h>
+
+#include "datasets/random.hpp"
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/motion_drift/motion_drift.hpp"
+
+namespace loopbench {
+namespace {
+
+/// A straight walk along x in steps of these lengths, one closure from end to end. Errors along x
+/// only, in proportion to what `error` gives each step.
+Problem walk_along_x(const std::vector<double>& steps, const std::vector<double>& errors) {
+  Problem out;
+  double measured = 0.0;
+  double truth = 0.0;
+  out.keyframes.push_back({0.0, {Rotation::Identity(), Vector3::Zero()}});
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double step = steps[i] + errors[i];
+    measured += step;
+    truth += steps[i];
+    out.keyframes.push_back(
+        {static_cast<double>(i + 1), {Rotation::Identity(), Vector3(measured, 0, 0)}});
+    out.odometry.push_back({i, i + 1, {Rotation::Identity(), Vector3(step, 0, 0)}});
+  }
+  Matrix6 sure = Matrix6::Identity() * 1e10;
+  out.closures.push_back({0, steps.size(), {Rotation::Identity(), Vector3(truth, 0, 0)}, sure});
+  return out;
+}
+
+/// Mean over keyframes of the squared error along x, given the true steps.
+double mean_square(const Trajectory& estimate, const std::vector<double>& steps) {
+  double truth = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    truth += steps[i];
+    const double off = estimate[i + 1].world_from_body.translation.x() - truth;
+    sum += off * off / static_cast<double>(steps.size());
+  }
+  return sum;
+}
+
+/// Walks slowly for 12 steps and fast for 6.
+std::vector<double> slow_and_fast() {
+  std::vector<double> out(12, 0.2);
+  out.insert(out.end(), 6, 3.0);
+  return out;
+}
+
+TEST(MotionDriftPower, NoiseByDistanceGainsWhatTheBridgeOfVariancesSays) {
+  // Variance 0.01 a metre, s(m) gathered up to keyframe m, S in all. Spread by s the error left
+  // has variance s (S - s) / S; spread evenly, u = m / n, (s - u S)^2 / S comes on top.
+  const std::vector<double> steps = slow_and_fast();
+  const double total = 0.01 * (12 * 0.2 + 6 * 3.0);
+  double best = 0.0;
+  double even = 0.0;
+  double s = 0.0;
+  for (std::size_t m = 1; m <= 18; ++m) {
+    s += 0.01 * steps[m - 1];
+    const double u = static_cast<double>(m) / 18.0;
+    best += s * (total - s) / total / 18.0;
+    even += (s * (total - s) + (s - u * total) * (s - u * total)) / total / 18.0;
+  }
+  MotionDrift::Options options{.model = MotionDrift::Model::distance, .fit = false};
+  options.noise[0] = {0.0, 0.0, 0.01, 0.0, 0.0};
+  options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
+  options.closures = {1.0, 1.0};
+  double ours = 0.0;
+  double dual = 0.0;
+  const int seeds = 300;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Random random(seed, Purpose::odometry);
+    std::vector<double> errors;
+    for (const double step : steps) errors.push_back(random.normal3().x() * 0.1 * std::sqrt(step));
+    const Problem problem = walk_along_x(steps, errors);
+    Report report;
+    ours += mean_square(MotionDrift(options).correct(problem, report), steps) / seeds;
+    dual += mean_square(Dual({}).correct(problem, report), steps) / seeds;
+  }
+  EXPECT_NEAR(ours, best, 0.12 * best);
+  EXPECT_NEAR(dual, even, 0.12 * even);
+  EXPECT_NEAR(even / best, 2.5, 0.5);
+}
+
+TEST(MotionDriftPower, SteadyDriftGainsWhatItsPosteriorSays) {
+  // Twelve seconds at 0.2 m/s, six at 3 m/s: a drift of 1 cm a metre known to be there (sigma), and
+  // white noise of 0.0001 m^2/s. The posterior covariance at the keyframes is P - p p' / p_n with P
+  // the prior's; evenly spread, u = m / n, it is what is left of P in (I - u e_n').
+  const std::vector<double> steps = slow_and_fast();
+  Eigen::MatrixXd P(18, 18);
+  std::vector<double> metres;
+  for (const double step : steps) metres.push_back((metres.empty() ? 0.0 : metres.back()) + step);
+  for (Eigen::Index a = 0; a < 18; ++a) {
+    for (Eigen::Index b = 0; b < 18; ++b) {
+      P(a, b) = 1e-4 * metres[static_cast<std::size_t>(a)] * metres[static_cast<std::size_t>(b)] +
+                1e-4 * static_cast<double>(std::min(a, b) + 1);
+    }
+  }
+  const Eigen::VectorXd end = P.col(17);
+  const double best = (P - end * end.transpose() / end[17]).trace() / 18.0;
+  Eigen::MatrixXd evenly = Eigen::MatrixXd::Identity(18, 18);
+  evenly.col(17) -= Eigen::VectorXd::LinSpaced(18, 1.0, 18.0) / 18.0;
+  const double even = (evenly * P * evenly.transpose()).trace() / 18.0;
+
+  MotionDrift::Options options{.model = MotionDrift::Model::time, .fit = false};
+  options.noise[0] = {0.0, 1e-4, 0.0, 0.0, 0.0};
+  options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
+  options.drift[0][2] = 0.01;
+  options.closures = {1.0, 1.0};
+  double ours = 0.0;
+  double dual = 0.0;
+  const int seeds = 300;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Random random(seed, Purpose::odometry);
+    const double rate = 0.01 * random.normal3().x();
+    std::vector<double> errors;
+    for (const double step : steps) errors.push_back(rate * step + 0.01 * random.normal3().x());
+    const Problem problem = walk_along_x(steps, errors);
+    Report report;
+    ours += mean_square(MotionDrift(options).correct(problem, report), steps) / seeds;
+    dual += mean_square(Dual({}).correct(problem, report), steps) / seeds;
+  }
+  EXPECT_NEAR(ours, best, 0.12 * best);
+  EXPECT_NEAR(dual, even, 0.2 * even);  // one rate a walk: few degrees of freedom
+  EXPECT_GT(even / best, 3.0);
+}
+
+/// Two laps of a circle of 20 m, 40 keyframes a lap, in the plane; loops at the second lap. Turning
+/// errs by white noise and, a metre, by `drift` [rad/m].
+struct Laps {
+  Trajectory truth;
+  Problem problem;
+};
+
+Laps laps(int seed, double drift) {
+  Random random(seed, Purpose::odometry);
+  Laps out;
+  const double step = 2.0 * std::numbers::pi / 40.0;
+  const Pose true_step{exp_so3({0, 0, step}), Vector3(20.0 * step, 0, 0)};
+  Matrix6 information = Matrix6::Zero();
+  information.diagonal() << Vector3::Constant(1.0 / 4e-4), Vector3::Constant(1.0 / 4e-6);
+  Pose pose;
+  out.truth.push_back({0.0, pose});
+  out.problem.planar = true;
+  out.problem.keyframes.push_back({0.0, pose});
+  for (std::size_t i = 0; i < 80; ++i) {
+    const Vector3 at = 0.02 * random.normal3();
+    const double turn = 0.002 * random.normal3().z() + drift * 20.0 * step;
+    const Pose measured = normalized(true_step * exp_se3(twist({at.x(), at.y(), 0}, {0, 0, turn})));
+    const auto stamp = static_cast<double>(i + 1);
+    out.truth.push_back({stamp, normalized(out.truth.back().world_from_body * true_step)});
+    out.problem.keyframes.push_back(
+        {stamp, normalized(out.problem.keyframes.back().world_from_body * measured)});
+    out.problem.odometry.push_back({i, i + 1, measured, information});
+  }
+  for (const std::size_t to : {45u, 60u, 75u}) {
+    const Pose seen = out.truth[to - 40].world_from_body.inverse() * out.truth[to].world_from_body;
+    const Vector3 at = 0.01 * random.normal3();
+    const double turn = 0.001 * random.normal3().z();
+    out.problem.closures.push_back(
+        {to - 40,
+         to,
+         normalized(seen * exp_se3(twist({at.x(), at.y(), 0}, {0, 0, turn}))),
+         Matrix6::Identity() * 1e4});
+    out.problem.closures.back().information.bottomRightCorner<3, 3>() *= 100.0;
+  }
+  return out;
+}
+
+double rmse_of(const Trajectory& estimate, const Trajectory& truth) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (estimate[i].world_from_body.translation - truth[i].world_from_body.translation)
+               .squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+/// Geometric mean over seeds of the error against that of `dual`.
+double against_dual(const MotionDrift::Options& options, double drift, int seeds) {
+  double sum = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Laps at = laps(seed, drift);
+    Report report;
+    sum += std::log(rmse_of(MotionDrift(options).correct(at.problem, report), at.truth) /
+                    rmse_of(Dual({}).correct(at.problem, report), at.truth));
+  }
+  return std::exp(sum / seeds);
+}
+
+TEST(MotionDriftPower, FittedToLoopsItGainsNearlyWhatTheTrueVariancesGain) {
+  const double drift = 6e-4;
+  MotionDrift::Options told{.model = MotionDrift::Model::time, .fit = false};
+  told.noise[0] = {0.0, 4e-4, 0.0, 0.0, 0.0};
+  told.noise[1] = {0.0, 4e-6, 0.0, 0.0, 0.0};
+  told.drift[1][2] = drift;
+  told.closures = {1.0, 1.0};
+  const double best = against_dual(told, drift, 16);
+  EXPECT_LT(best, 0.75);
+  EXPECT_LT(against_dual({}, drift, 16), 1.1 * best);
+}
+
+TEST(MotionDriftPower, WhereNothingDriftsItCostsNextToNothing) {
+  EXPECT_LT(against_dual({}, 0.0, 24), 1.02);
+}
+
+}  // namespace
+}  // namespace loopbench
