@@ -55,7 +55,8 @@ class SweepReader {
     sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
     if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
     if (const YamlNode* node = root.find("protocol")) sweep.protocols = protocols(*node);
-    if (const YamlNode* node = root.find("min_coverage")) sweep.min_coverage = share(*node);
+    if (const YamlNode* node = root.find("min_coverage"))
+      sweep.min_coverage = number(*node, "min_coverage", "a number from 0 to 1", Between{0.0, 1.0});
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
     if (const YamlNode* node = root.find("timing")) read_timing(*node, sweep);
     if (const YamlNode* node = root.find("limits")) sweep.limits = limits(*node);
@@ -127,12 +128,16 @@ class SweepReader {
     return out;
   }
 
-  double number(const YamlNode& node, const std::string& key) const {
+  double number(const YamlNode& node,
+                const std::string& key,
+                const std::string& expected = "a number",
+                const Between& rule = Between{0.0}) const {
     double out = 0.0;
     try {
-      if (node.type != YamlNode::Type::scalar) throw OptionError(key, key + ": expected a number");
+      if (node.type != YamlNode::Type::scalar)
+        throw OptionError(key, key + ": expected " + expected);
       FieldType<double>::assign(key, out, node.scalar);
-      detail::obey(key, out, Between{0.0});
+      detail::obey(key, out, rule);
     } catch (const OptionError& error) {
       throw input_error(file_, node.line, error.what());
     }
@@ -143,20 +148,6 @@ class SweepReader {
     const bool* value = std::get_if<bool>(&node.scalar);
     if (node.type == YamlNode::Type::scalar && value != nullptr) return *value;
     throw input_error(file_, node.line, key + ": expected true or false");
-  }
-
-  double share(const YamlNode& node) const {
-    if (node.type != YamlNode::Type::scalar) {
-      throw input_error(file_, node.line, "min_coverage: expected a number from 0 to 1");
-    }
-    double out = 0.0;
-    try {
-      FieldType<double>::assign("min_coverage", out, node.scalar);
-      detail::obey("min_coverage", out, Between{0.0, 1.0});
-    } catch (const OptionError& error) {
-      throw input_error(file_, node.line, error.what());
-    }
-    return out;
   }
 
   template <class Choice, class Read>
