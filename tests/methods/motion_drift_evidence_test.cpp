@@ -186,7 +186,7 @@ TEST(MotionDriftEvidence, MeanErrorsOfOneModelAreItsConditionalMeanAndOfTwoLieBe
 
 /// One gap of size 2 that one term explains, of median variance 1 and spread 1.5.
 struct OneGap {
-  Prior prior{{{Cause::noise, Half::translation, Growth::edge, 1.0}}, {{{0, 1.5}}}, 1};
+  MotionPrior prior{{{Cause::noise, Half::translation, Growth::edge, 1.0}}, {{{0, 1.5}}}, 1};
   Evidence evidence{{0}, Eigen::VectorXd::Constant(1, 2.0), {Eigen::MatrixXd::Ones(1, 1)}};
 };
 
@@ -205,7 +205,7 @@ TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives)
   }
   mean /= mass;
   const double deviation = std::sqrt(square / mass - mean * mean);
-  const Posterior drawn =
+  const MotionPosterior drawn =
       posterior_of(one.prior, one.evidence, {.draws = 4000, .steps = 3}, Eigen::VectorXd::Zero(1));
   double sum = 0.0;
   double squares = 0.0;
@@ -222,7 +222,7 @@ TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives)
 TEST(MotionDriftPosterior, ASpreadOfZeroKeepsTheMedianAndNoDensityIsAnError) {
   OneGap one;
   one.prior.hangs[0][0].spread = 0.0;
-  const Posterior drawn =
+  const MotionPosterior drawn =
       posterior_of(one.prior, one.evidence, {.draws = 5}, Eigen::VectorXd::Zero(1));
   for (const MotionModel& model : drawn.draws) EXPECT_DOUBLE_EQ(model[0].value, 1.0);
   one.prior.medians[0].value = 0.0;
@@ -243,7 +243,7 @@ TEST(MotionDriftPrior, PartsOfTheNoiseAndItsTimeToDriftAreAsTheOptionsSay) {
     seconds += long_for / static_cast<double>(problem.closures.size());
     squared += long_for * long_for / static_cast<double>(problem.closures.size());
   }
-  const Prior prior = prior_of(terms, {.steady_after = 2.0 * seconds}, problem, moved, gap);
+  const MotionPrior prior = prior_of(terms, {.steady_after = 2.0 * seconds}, problem, moved, gap);
   // Half as much drift as noise, in squared angle at the loops' ends.
   EXPECT_NEAR(prior.medians[1].value * squared, 0.5 * prior.medians[0].value * seconds, 1e-12);
 }

@@ -82,7 +82,7 @@ std::vector<std::size_t> spread_choice(std::size_t size, std::size_t most) {
   return out;
 }
 
-double squares(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
+double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - less[i]).squaredNorm();
   return sum;
@@ -103,9 +103,9 @@ std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
 Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
   const std::vector<EdgeMotion> moved = motions(problem);
   LoopedChain chain(problem, stated_belief(problem));
-  const Prior prior = prior_of(
+  const MotionPrior prior = prior_of(
       model_of(options_, problem.planar), options_.prior, problem, moved, chain.linearised().gap);
-  Posterior posterior{{prior.medians}, prior.medians, Eigen::VectorXd::Zero(prior.unknowns)};
+  MotionPosterior posterior{{prior.medians}, prior.medians, Eigen::VectorXd::Zero(prior.unknowns)};
   chain.believe(belief_of(posterior.centre, problem, moved));
   int iterations = most_likely(chain);
   const auto seen =
@@ -147,11 +147,11 @@ int MotionDrift::average(const std::vector<MotionModel>& models,
   double last = std::numeric_limits<double>::infinity();
   for (int iterations = 0; iterations < options_.max_iterations; ++iterations) {
     std::vector<Twist> errors = mean_errors(models, chain, problem, moved);
-    const double change = squares(errors, chain.errors());
+    const double change = squared_change(errors, chain.errors());
     if (!(change < last)) return iterations;  // to rounding, or for good
     last = change;
     chain.correct_by(std::move(errors));
-    if (change <= options_.tolerance * squares(chain.errors(), zero)) return iterations + 1;
+    if (change <= options_.tolerance * squared_change(chain.errors(), zero)) return iterations + 1;
   }
   return options_.max_iterations;
 }

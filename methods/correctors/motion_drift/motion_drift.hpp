@@ -39,7 +39,7 @@ class MotionDrift final : public Corrector {
   struct Options {
     Model model = Model::drift;
     bool fit = true;
-    PriorOptions prior = {};
+    MotionPriorOptions prior = {};
     Sampling sampling = {};
     int fit_closures = 12;
     int fit_rounds = 2;
@@ -85,7 +85,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
   visit("model", o.model, "what errors grow with, each with those before it");
   visit("fit", o.fit, "fit the variances to the loops; false: keep guesses and given values");
 
-  PriorOptions& p = o.prior;
+  MotionPriorOptions& p = o.prior;
   const Between share{0.0, 1.0};
   const Between spread{0.0, 10.0};
   visit("prior.noise_part", p.noise_part, "translation noise a loop, of its way", Above{0.0});

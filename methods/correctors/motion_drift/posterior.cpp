@@ -8,12 +8,12 @@
 namespace loopbench {
 namespace {
 
-constexpr double kRound = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// Draws that are the same with every standard library.
-class Draw {
+class SliceDraws {
  public:
-  explicit Draw(std::int64_t seed) : bits_(static_cast<std::uint64_t>(seed)) {}
+  explicit SliceDraws(std::int64_t seed) : bits_(static_cast<std::uint64_t>(seed)) {}
 
   /// In (0, 1).
   double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
@@ -23,7 +23,7 @@ class Draw {
     Eigen::VectorXd out(size);
     for (Eigen::Index i = 0; i < size; ++i) {
       const double radius = std::sqrt(-2.0 * std::log(uniform()));
-      out[i] = radius * std::cos(kRound * uniform());
+      out[i] = radius * std::cos(kFullTurn * uniform());
     }
     return out;
   }
@@ -32,16 +32,19 @@ class Draw {
   std::mt19937_64 bits_;
 };
 
-struct Point {
+struct SlicePoint {
   Eigen::VectorXd unknowns;
   double log_evidence;
 };
 
-void step(Point& at, const Prior& prior, const Evidence& evidence, Draw& draw) {
+void slice_step(SlicePoint& at,
+                const MotionPrior& prior,
+                const Evidence& evidence,
+                SliceDraws& draw) {
   const Eigen::VectorXd other = draw.normal(prior.unknowns);
   const double enough = at.log_evidence + std::log(draw.uniform());
-  double angle = kRound * draw.uniform();
-  double low = angle - kRound;
+  double angle = kFullTurn * draw.uniform();
+  double low = angle - kFullTurn;
   double high = angle;
   // The bracket shrinks by a third a try towards where we stand, which is likely enough.
   for (int tries = 0; tries < 100; ++tries) {
@@ -58,20 +61,20 @@ void step(Point& at, const Prior& prior, const Evidence& evidence, Draw& draw) {
 
 }  // namespace
 
-Posterior posterior_of(const Prior& prior,
-                       const Evidence& evidence,
-                       const Sampling& sampling,
-                       const Eigen::VectorXd& start) {
-  Draw draw(sampling.seed);
-  Point at{start, log_evidence(model_at(prior, start), evidence)};
+MotionPosterior posterior_of(const MotionPrior& prior,
+                             const Evidence& evidence,
+                             const Sampling& sampling,
+                             const Eigen::VectorXd& start) {
+  SliceDraws draw(sampling.seed);
+  SlicePoint at{start, log_evidence(model_at(prior, start), evidence)};
   if (!std::isfinite(at.log_evidence)) {
     throw std::runtime_error("the covariance of the loop gaps is not positive definite");
   }
-  for (int i = 0; i < sampling.warm_up; ++i) step(at, prior, evidence, draw);
-  Posterior out;
+  for (int i = 0; i < sampling.warm_up; ++i) slice_step(at, prior, evidence, draw);
+  MotionPosterior out;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(prior.unknowns);
   for (int i = 0; i < sampling.draws; ++i) {
-    for (int s = 0; s < sampling.steps; ++s) step(at, prior, evidence, draw);
+    for (int s = 0; s < sampling.steps; ++s) slice_step(at, prior, evidence, draw);
     out.draws.push_back(model_at(prior, at.unknowns));
     mean += at.unknowns / sampling.draws;
     out.log_evidence += at.log_evidence / sampling.draws;

@@ -16,7 +16,7 @@ struct Sampling {
   std::int64_t seed = 1;
 };
 
-struct Posterior {
+struct MotionPosterior {
   std::vector<MotionModel> draws;
   MotionModel centre;         ///< values whose logarithms are the draws' mean
   Eigen::VectorXd last;       ///< unknowns of the last draw: where another round may start
@@ -29,9 +29,9 @@ struct Posterior {
 /// `start` gives the gaps no density.
 /// O(steps (gaps^3 + gaps^2 terms)) with some five points tried a step.
 /// Source: Murray, Adams, MacKay, Elliptical slice sampling, AISTATS 2010.
-Posterior posterior_of(const Prior& prior,
-                       const Evidence& evidence,
-                       const Sampling& sampling,
-                       const Eigen::VectorXd& start);
+MotionPosterior posterior_of(const MotionPrior& prior,
+                             const Evidence& evidence,
+                             const Sampling& sampling,
+                             const Eigen::VectorXd& start);
 
 }  // namespace loopbench

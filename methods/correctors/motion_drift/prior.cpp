@@ -54,7 +54,7 @@ double stated_variance(const Problem& problem, Half half, std::size_t edge) {
 bool is_guessed(const Term& term, Cause cause) { return term.cause == cause && !term.given; }
 
 void guess_odometry(MotionModel& model,
-                    const PriorOptions& by,
+                    const MotionPriorOptions& by,
                     const Problem& problem,
                     const std::vector<EdgeMotion>& motions,
                     const ClosureMeans& closures) {
@@ -120,12 +120,12 @@ void guess_closures(MotionModel& model,
 
 }  // namespace
 
-Prior prior_of(const MotionModel& model,
-               const PriorOptions& options,
-               const Problem& problem,
-               const std::vector<EdgeMotion>& motions,
-               const Eigen::VectorXd& gap) {
-  Prior out{model, {}, 0};
+MotionPrior prior_of(const MotionModel& model,
+                     const MotionPriorOptions& options,
+                     const Problem& problem,
+                     const std::vector<EdgeMotion>& motions,
+                     const Eigen::VectorXd& gap) {
+  MotionPrior out{model, {}, 0};
   const ClosureMeans closures = means_of(problem, gap);
   guess_odometry(out.medians, options, problem, motions, closures);
   guess_closures(out.medians, problem, motions, closures);
@@ -134,7 +134,7 @@ Prior prior_of(const MotionModel& model,
   enum : Eigen::Index { kTranslation, kRotation, kSteady, kAxis, kGrowth = kAxis + 3 };
   out.unknowns = kGrowth + static_cast<Eigen::Index>(kGrowths.size());
   for (const Term& term : out.medians) {
-    std::vector<Prior::Hang> hangs;
+    std::vector<MotionPrior::Hang> hangs;
     if (term.cause != Cause::closures) {
       const bool moves = term.cause != Cause::stated && term.half == Half::translation;
       hangs.push_back({moves ? kTranslation : kRotation, options.scale_spread});
@@ -158,11 +158,11 @@ Prior prior_of(const MotionModel& model,
   return out;
 }
 
-MotionModel model_at(const Prior& prior, const Eigen::VectorXd& unknowns) {
+MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) {
   MotionModel out = prior.medians;
   for (std::size_t j = 0; j < out.size(); ++j) {
     double log_factor = 0.0;
-    for (const Prior::Hang& hang : prior.hangs[j]) {
+    for (const MotionPrior::Hang& hang : prior.hangs[j]) {
       log_factor += hang.spread * unknowns[hang.unknown];
     }
     out[j].value *= std::exp(log_factor);

@@ -10,7 +10,7 @@ namespace loopbench {
 /// How large errors are thought to be, for terms that are not given, and how far each may be from
 /// that. Spreads are standard deviations of logarithms of variances. Learnt on the chains of KITTI
 /// 00 and TUM fr1_room (results/methods): there steady drift outweighs noise after 4 s to 5 min.
-struct PriorOptions {
+struct MotionPriorOptions {
   double noise_part = 0.002;   ///< of the way: translation noise gathered over a loop [-]
   double stated_part = 0.33;   ///< of the noise: shaped as the odometry edges state [-]
   double steady_after = 60.0;  ///< loops this long gather as much from drift as from noise [s]
@@ -23,7 +23,7 @@ struct PriorOptions {
 };
 
 /// Independent standard normal unknowns u; log(value of term j) = log(median) + sum spread * u.
-struct Prior {
+struct MotionPrior {
   struct Hang {
     Eigen::Index unknown;
     double spread;
@@ -43,13 +43,13 @@ struct Prior {
 ///
 /// `gap` holds the closures' gaps when no edge is corrected, six numbers a closure.
 /// O(edges terms + closures).
-Prior prior_of(const MotionModel& model,
-               const PriorOptions& options,
-               const Problem& problem,
-               const std::vector<EdgeMotion>& motions,
-               const Eigen::VectorXd& gap);
+MotionPrior prior_of(const MotionModel& model,
+                     const MotionPriorOptions& options,
+                     const Problem& problem,
+                     const std::vector<EdgeMotion>& motions,
+                     const Eigen::VectorXd& gap);
 
 /// O(terms).
-MotionModel model_at(const Prior& prior, const Eigen::VectorXd& unknowns);
+MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns);
 
 }  // namespace loopbench
