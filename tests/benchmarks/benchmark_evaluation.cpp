@@ -103,7 +103,7 @@ void score_rpe(std::size_t size, benchmark::State& state) {
 void score_segments(std::size_t size, benchmark::State& state) {
   Evaluation pairs = evaluation(size);
   pairs.reference_length = path_length(pairs.reference);
-  for (auto _ : state) benchmark::DoNotOptimize(segments(pairs, {.each = false}));
+  for (auto _ : state) benchmark::DoNotOptimize(segments(pairs, {.lengths = "", .each = false}));
 }
 
 /// What `eval` does with two files, but for printing and diagnostics.
@@ -117,7 +117,7 @@ void files_to_scores(std::size_t size, benchmark::State& state) {
     for (const DeltaUnit unit : {DeltaUnit::frames, DeltaUnit::s, DeltaUnit::m}) {
       benchmark::DoNotOptimize(rpe(pairs, {.delta = 1.0, .unit = unit}));
     }
-    benchmark::DoNotOptimize(segments(pairs, {.each = false}));
+    benchmark::DoNotOptimize(segments(pairs, {.lengths = "", .each = false}));
   }
   std::filesystem::remove(truth);
   std::filesystem::remove(guess);

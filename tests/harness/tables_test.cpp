@@ -101,7 +101,7 @@ std::vector<Table> marked() {
     records.push_back(ate("raw", 1.0 + 0.01 * repeat, repeat));
     records.push_back(ate("dm_n3", 2.0 + 0.01 * repeat, repeat));
   }
-  return pivot(records, TableSpec{.split = {"times"}, .show = {}});
+  return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
 }
 
 TEST(Formats, EscapeNamesAndMarkTheBest) {
@@ -154,12 +154,14 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
     records.push_back(ate("raw", 2.0, repeat));
     records.push_back(ate("dm", 1.0, repeat));
   }
-  const TableSpec spec{.rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}};
+  const TableSpec spec{
+      .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
   const std::vector<Table> tables = pivot(records, spec);
   ASSERT_EQ(tables[0].cells.size(), 1u);
   EXPECT_EQ(tables[0].cells[0][0].mark, Mark::none);
   EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
-  const std::vector<Table> sequences = pivot(records, TableSpec{.rows = {"sequence"}, .show = {}});
+  const std::vector<Table> sequences =
+      pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
   EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
   EXPECT_EQ(sequences[0].notes.size(), 1u);
 }
