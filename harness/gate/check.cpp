@@ -70,6 +70,11 @@ class Checker {
       : baseline_(baseline), extent_(extent) {
     for (const Tolerance& limit : baseline.limits) keeps_.push_back(where(limit.where));
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
+    const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
+    if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
+      throw InputError("the baseline is of another sweep: no cell of '" + baseline.snapshot.sweep +
+                       "' is among these results");
+    }
     for (const GateCell& cell : baseline.snapshot.cells) add(cell);
     for (const GateCell& cell : now.cells) {
       if (!seen_.contains(key(cell))) {

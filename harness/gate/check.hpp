@@ -35,8 +35,8 @@ struct GateReport {
 enum class GateExtent { whole, part };
 
 /// Throws InputError when the baseline's numbers were made from other inputs or by other rules,
-/// saying which. A sequence that is gone is not another input: its cells vanished. O(n log n) and
-/// a test per method and score.
+/// saying which, or when not one of its cells is among these. A sequence that is gone is not
+/// another input: its cells vanished. O(n log n) and a test per method and score.
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::whole);

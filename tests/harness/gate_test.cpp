@@ -191,6 +191,16 @@ TEST(Gate, RefusesOtherInputsAndProtocols) {
   EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences.clear(); }); }), "");
 }
 
+TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
+  Baseline other = baseline();
+  other.snapshot.sweep = "outliers";
+  for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
+  for (const GateExtent extent : {GateExtent::whole, GateExtent::part}) {
+    EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
+              "the baseline is of another sweep: no cell of 'outliers' is among these results");
+  }
+}
+
 TEST(BaselineFile, ReadsBackWhatWasWritten) {
   Baseline before = baseline();
   before.snapshot.cells[0].scores.clear();
