@@ -37,6 +37,7 @@ Traces::Traces(const std::filesystem::path& file)
   });
   require_whole(rows_, file_);
   require_whole(sequences_, file_);
+  database_.execute("COMMIT");  // a report takes long: whoever writes need not wait for it
   for (const std::size_t i : in_order(rows_))
     by_position_.emplace(rows_.cells[i].record.position, i);
 }

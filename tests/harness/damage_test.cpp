@@ -5,6 +5,7 @@
 #include <random>
 
 #include "harness/store/merge.hpp"
+#include "harness/store/open.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench {
@@ -166,6 +167,19 @@ TEST_F(Damage, ADamagedStoreIsNotMerged) {
   EXPECT_EQ(run(kUsual).cells, Labels{}) << "traces are looked at when told";
   EXPECT_EQ(run(kUsual, Retry::damaged).cells, Labels{"a / straight"});
   EXPECT_EQ(merge_stores({file_}, out, false).cells, 4u);
+}
+
+TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
+  run(kUsual, Retry::none, "a / ");
+  change("PRAGMA journal_mode = WAL");  // as it is while a sweep writes
+  Database reader = open_store(file_);
+  CellRows rows = read_cell_rows(reader);
+  EXPECT_EQ(run(kUsual).cells.size(), 2u);
+  read_details(reader, "score", rows);
+  require_whole(rows, file_);
+  EXPECT_EQ(rows.cells.size(), 2u);
+  require_whole(read_sequence_rows(reader), file_);
+  EXPECT_EQ(read_cells(file_).size(), 4u);
 }
 
 TEST_F(Damage, AnotherToolMayReadAndPackIt) {
