@@ -24,6 +24,11 @@ void check_sequence_traces(Database& database, SequenceRows& sequences) {
   }
 }
 
+bool all_whole(const SequenceRows& sequences) {
+  return std::ranges::all_of(sequences.by_asked,
+                             [](const auto& entry) { return entry.second.whole; });
+}
+
 Sound look(Database& database, bool traces) {
   Sound out;
   out.cells = read_cell_rows(database);
@@ -35,6 +40,7 @@ Sound look(Database& database, bool traces) {
     read_details(database, "trace", out.cells);
     check_sequence_traces(database, out.sequences);
   }
+  const bool lost = !out.sequences.complete || !all_whole(out.sequences);
   for (CellRow& cell : out.cells.cells) {
     const auto sequence = out.sequences.by_asked.find(cell.asked);
     if (sequence != out.sequences.by_asked.end()) {
@@ -43,16 +49,14 @@ Sound look(Database& database, bool traces) {
     }
     // Only a cell that failed may have none: its sequence never finished loading.
     const auto status = from_text<Status>(cell.record.status);
-    if (!out.sequences.complete && !(status && is_failure(*status))) cell.whole = false;
+    if (lost && !(status && is_failure(*status))) cell.whole = false;
   }
   return out;
 }
 
 bool is_whole(const Sound& found) {
   return found.cells.complete && found.sequences.complete &&
-         std::ranges::all_of(found.cells.cells, &CellRow::whole) &&
-         std::ranges::all_of(found.sequences.by_asked,
-                             [](const auto& entry) { return entry.second.whole; });
+         std::ranges::all_of(found.cells.cells, &CellRow::whole) && all_whole(found.sequences);
 }
 
 void remove(Database& database, const Sound& found) {

@@ -150,6 +150,11 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
     EXPECT_FALSE(run(kUsual, Retry::damaged).cells.empty()) << table;
     EXPECT_EQ(store_text(file_), expected) << table;
   }
+  put(sound);
+  change("UPDATE sequence SET asked = 'f' || asked");
+  EXPECT_EQ(run(kUsual).cells.size(), 4u) << "none of its cells has a sequence any more";
+  EXPECT_EQ(store_text(file_), expected);
+  EXPECT_EQ(read_dataset_options(file_).size(), 2u);
   for (const char* table : {"run", "provenance"}) {
     put(sound);
     change(std::string("DELETE FROM ") + table);
