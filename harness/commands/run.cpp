@@ -98,7 +98,9 @@ void say_damage(const Resumed& resumed, const std::filesystem::path& store) {
         resumed.damaged.front(),
         resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
   } else if (resumed.lost) {
-    fmt::print(stderr, "loopbench: {}: lost cells are run anew\n", store.string());
+    fmt::print(stderr,
+               "loopbench: {}: its list of cells was damaged; what is missing is run anew\n",
+               store.string());
   }
 }
 

@@ -38,7 +38,7 @@ struct Resumed {
   std::size_t incomplete = 0;        ///< of those, judged below min_coverage
   bool unchanged = false;            ///< the store holds exactly the sweep, of exactly this config
   std::vector<std::string> damaged;  ///< cells that were, and count as missing; by label
-  bool lost = false;                 ///< other cells that were written are gone
+  bool lost = false;      ///< others may have been lost: they were not as many as written
   bool exported = false;  ///< and what is derived from it was written, see Store::exported()
 };
 
