@@ -21,9 +21,11 @@ struct Seconds {
   double features = 0.0;
   double track = 0.0;
   double loops = 0.0;
+  double refine = 0.0;
   std::size_t frames_read = 0;  ///< the rest came from the cache
   std::size_t frames_tracked = 0;
   std::size_t keyframes_searched = 0;
+  std::size_t edges_refined = 0;
 };
 
 struct Timed {
@@ -111,6 +113,7 @@ std::string told(const Seconds& s) {
   rate(s.frames_read, s.features, "described");
   rate(s.frames_tracked, s.track, "tracked");
   rate(s.keyframes_searched, s.loops, "keyframes searched for loops");
+  rate(s.edges_refined, s.refine, "steps and loops measured again by depth");
   if (out.empty()) return "everything from the cache";
   return fmt::format("in a second of one core: {}; {} threads", out, cores());
 }
@@ -135,6 +138,39 @@ DetectedLoops find_loops(const Tracked& tracked,
   };
   const auto pack = [](const DetectedLoops& loops) { return packed(loops); };
   return cache.get(cache.loops(), unpacked_loops, make, pack);
+}
+
+/// Measures odometry and closures again; keyframes and frames follow.
+void refine(Tracked& tracked,
+            DetectedLoops& loops,
+            const RgbdSource& source,
+            const FrontendOptions& options,
+            const FrontendHooks& hooks,
+            const StageCache& cache,
+            Seconds& seconds) {
+  const auto make = [&] {
+    RefinedEdges out = refine_by_depth(source,
+                                       tracked,
+                                       loops.closures,
+                                       options.track.pose,
+                                       options.features.depth_max,
+                                       options.refine,
+                                       [&](std::size_t done, std::size_t all) {
+                                         if (hooks.progress) hooks.progress("depth", done, all);
+                                       });
+    seconds.refine = out.seconds;
+    seconds.edges_refined = out.odometry.size() + out.closures.size();
+    return out;
+  };
+  const auto pack = [](const RefinedEdges& edges) { return packed(edges); };
+  RefinedEdges edges = cache.get(cache.refined(), unpacked_edges, make, pack);
+  tracked.notes.push_back(fmt::format("measured again by depth: {} of {} steps, {} of {} loops",
+                                      edges.odometry_refined,
+                                      edges.odometry.size(),
+                                      edges.closures_refined,
+                                      edges.closures.size()));
+  follow_odometry(tracked, edges.odometry);
+  loops.closures = std::move(edges.closures);
 }
 
 /// Where loops disagree with odometry by more than both say, both are believed so much less. Never
@@ -183,6 +219,7 @@ Sequence run_frontend(const RgbdSource& source,
         source.size()));
   }
   DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
+  if (options.refine.depth) refine(tracked, loops, source, options, hooks, cache, seconds);
   temper(tracked, loops);
 
   Sequence out;
