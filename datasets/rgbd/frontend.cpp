@@ -14,6 +14,8 @@
 namespace loopbench {
 namespace {
 
+constexpr std::size_t kFewestToTemper = 8;  // gaps whose median says something
+
 double since(double begin) { return cpu_seconds() - begin; }
 
 struct Seconds {
@@ -140,14 +142,15 @@ DetectedLoops find_loops(const Tracked& tracked,
   return cache.get(cache.loops(), unpacked_loops, make, pack);
 }
 
-/// Measures odometry and closures again; keyframes and frames follow.
-void refine(Tracked& tracked,
-            DetectedLoops& loops,
-            const RgbdSource& source,
-            const FrontendOptions& options,
-            const FrontendHooks& hooks,
-            const StageCache& cache,
-            Seconds& seconds) {
+/// Measures odometry and closures again; keyframes and frames follow. Gives the factor by which
+/// steps seen by features and by depth disagree more than both say.
+double refine(Tracked& tracked,
+              DetectedLoops& loops,
+              const RgbdSource& source,
+              const FrontendOptions& options,
+              const FrontendHooks& hooks,
+              const StageCache& cache,
+              Seconds& seconds) {
   const auto make = [&] {
     RefinedEdges out = refine_by_depth(source,
                                        tracked,
@@ -169,21 +172,23 @@ void refine(Tracked& tracked,
                                       edges.odometry.size(),
                                       edges.closures_refined,
                                       edges.closures.size()));
+  const double excess = remeasured_excess(tracked.odometry, edges.odometry, kFewestToTemper);
   follow_odometry(tracked, edges.odometry);
   loops.closures = std::move(edges.closures);
+  return excess;
 }
 
-/// Where loops disagree with odometry by more than both say, both are believed so much less. Never
-/// more: what they have in common (the same features, the same camera) no loop shows.
-void temper(Tracked& tracked, DetectedLoops& loops) {
-  constexpr std::size_t kFewest = 8;
-  const double excess = information_excess(tracked.odometry, loops.closures, kFewest);
+/// Where loops disagree with odometry, or depth with features, by more than both say, all are
+/// believed so much less. Never more: what they have in common no such test shows.
+void temper(Tracked& tracked, DetectedLoops& loops, double depth_excess) {
+  const double loop_excess = information_excess(tracked.odometry, loops.closures, kFewestToTemper);
+  const double excess = std::max(loop_excess, depth_excess);
   if (!(excess > 1.0)) return;
   for (Edge& edge : tracked.odometry) edge.information /= excess;
   for (Edge& edge : loops.closures) edge.information /= excess;
   tracked.notes.push_back(
-      fmt::format("loops and odometry disagree by more than their residuals say: information "
-                  "divided by {:.2f}",
+      fmt::format("{} disagree by more than their residuals say: information divided by {:.2f}",
+                  depth_excess > loop_excess ? "features and depth" : "loops and odometry",
                   excess));
 }
 
@@ -219,8 +224,11 @@ Sequence run_frontend(const RgbdSource& source,
         source.size()));
   }
   DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
-  if (options.refine.depth) refine(tracked, loops, source, options, hooks, cache, seconds);
-  temper(tracked, loops);
+  double depth_excess = 1.0;
+  if (options.refine.depth) {
+    depth_excess = refine(tracked, loops, source, options, hooks, cache, seconds);
+  }
+  temper(tracked, loops, depth_excess);
 
   Sequence out;
   out.name = name;

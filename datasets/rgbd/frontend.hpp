@@ -44,7 +44,7 @@ struct FrontendHooks {
 /// skipped_max of them, or fewer than two tracked keyframes, throw InputError. With refine.depth,
 /// odometry and closures are measured again by refine_by_depth(), and keyframes and frames follow.
 /// Noted too: focal lengths that the images contradict (check_focal), and information divided by
-/// information_excess() where that is above 1.
+/// information_excess() or remeasured_excess(), the larger, where that is above 1.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
