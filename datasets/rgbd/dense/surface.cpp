@@ -7,14 +7,14 @@
 namespace loopbench {
 namespace {
 
-constexpr float kSameDepth = 0.02f;   // of a block's pixels, over their median
-constexpr int kPatch = 2;             // pixels to each side that a normal is made of
-constexpr float kPatchDepth = 0.04f;  // of a patch's pixels from its middle, over depth
-constexpr int kPatchFewest = 15;      // of 25
-constexpr double kFlat = 0.05;        // variance across a patch over the lesser one along it
-constexpr double kFlatNoisy = 0.25;   // likewise, where that is no more than the noise
-constexpr float kGrazing = 0.2f;      // least cosine between normal and line of sight
-constexpr float kShallowest = 0.05f;  // nearer is no measurement [m]
+constexpr float kSameDepth = 0.02f;    // of a block's pixels, over their median
+constexpr int kNormalReach = 2;        // pixels to each side that a normal is made of
+constexpr float kNormalDepth = 0.04f;  // of a patch's pixels from its middle, over depth
+constexpr int kNormalFewest = 15;      // of 25
+constexpr double kFlat = 0.05;         // variance across a patch over the lesser one along it
+constexpr double kFlatNoisy = 0.25;    // likewise, where that is no more than the noise
+constexpr float kGrazingSight = 0.2f;  // least cosine between normal and line of sight
+constexpr float kShallowest = 0.05f;   // nearer is no measurement [m]
 
 /// Where an ideal pixel lies in an image with Brown's distortion.
 Eigen::Vector2d distorted_pixel(const Camera& c, double u, double v) {
@@ -64,17 +64,17 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y, double inverse_d
   Vector3 mean = Vector3::Zero();
   Matrix3 spread = Matrix3::Zero();
   int count = 0;
-  for (int row = y - kPatch; row <= y + kPatch; ++row) {
-    for (int column = x - kPatch; column <= x + kPatch; ++column) {
+  for (int row = y - kNormalReach; row <= y + kNormalReach; ++row) {
+    for (int column = x - kNormalReach; column <= x + kNormalReach; ++column) {
       const Eigen::Vector3f& p = at(column, row);
-      if (!(p.z() > 0.0f) || std::abs(p.z() - middle.z()) > kPatchDepth * middle.z()) continue;
+      if (!(p.z() > 0.0f) || std::abs(p.z() - middle.z()) > kNormalDepth * middle.z()) continue;
       const Vector3 d = (p - middle).cast<double>();
       mean += d;
       spread += d * d.transpose();
       ++count;
     }
   }
-  if (count < kPatchFewest) return Eigen::Vector3f::Zero();
+  if (count < kNormalFewest) return Eigen::Vector3f::Zero();
   mean /= count;
   spread = (spread / count - mean * mean.transpose()).eval();
   Eigen::SelfAdjointEigenSolver<Matrix3> axes;
@@ -87,7 +87,7 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y, double inverse_d
   if (across > most * along) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f n = axes.eigenvectors().col(0).cast<float>().normalized();
   const float facing = -n.dot(middle.normalized());
-  if (std::abs(facing) < kGrazing) return Eigen::Vector3f::Zero();
+  if (std::abs(facing) < kGrazingSight) return Eigen::Vector3f::Zero();
   return facing > 0.0f ? n : Eigen::Vector3f(-n);
 }
 
@@ -138,8 +138,8 @@ Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
       if (z > 0.0) out.points[index(x, y)] = image.camera.back_project(x, y, z).cast<float>();
     }
   }
-  for (int y = kPatch; y + kPatch < depth.height; ++y) {
-    for (int x = kPatch; x + kPatch < depth.width; ++x) {
+  for (int y = kNormalReach; y + kNormalReach < depth.height; ++y) {
+    for (int x = kNormalReach; x + kNormalReach < depth.width; ++x) {
       out.normals[index(x, y)] = normal_at(out, x, y, inverse_depth_sigma / image.block);
     }
   }
