@@ -54,8 +54,7 @@ struct PlaneEquation {
 PlaneEquation plane_equation(const Surface& surface,
                              const std::vector<PlacedSurface>& model,
                              const Pose& world_from_camera,
-                             double gate,
-                             double inverse_depth_sigma) {
+                             double gate) {
   struct Placed {
     const Surface* surface;
     Matrix3 R;  ///< model_from_camera
@@ -77,7 +76,7 @@ PlaneEquation plane_equation(const Surface& surface,
       out.points += 1.0;
       const Vector3 p = surface.points[i].cast<double>();
       const Vector3 normal = surface.normals[i].cast<double>();
-      const double sigma = std::sqrt(2.0) * inverse_depth_sigma * p.z() * p.z();
+      const double sigma = std::sqrt(2.0) * surface.inverse_depth_sigma * p.z() * p.z();
       distances.clear();
       for (const Placed& m : placed) {
         const Vector3 q = m.R * p + m.t;
@@ -113,8 +112,7 @@ Alignment align_surface(const Surface& surface,
   out.world_from_camera = prior.world_from_camera;
   for (int step = 0; step < kAlignSteps; ++step) {
     const double gate = step < kWideSteps ? kWideGate : kNarrowGate;
-    const PlaneEquation planes =
-        plane_equation(surface, model, out.world_from_camera, gate, options.inverse_depth_sigma);
+    const PlaneEquation planes = plane_equation(surface, model, out.world_from_camera, gate);
     out.share = planes.found / std::max(1.0, planes.points);
     out.spread = std::sqrt(planes.squares / std::max(1.0, planes.found));
     const double believed = options.information_scale / std::max(1.0, out.spread * out.spread);

@@ -30,10 +30,10 @@ struct Alignment {
 /// Point-to-plane ICP with projective association (Chen and Medioni 1991; Izadi et al. 2011,
 /// KinectFusion), every second pixel and row of `surface` against all of `model`, begun at the
 /// prior and drawn to it by its information, so that a wall alone does not let the camera slide
-/// along it. Distances are whitened by options.inverse_depth_sigma, Huber's weights. A point that
-/// several surfaces show counts once: their errors are mostly the same. Its share of information is
-/// divided by spread^2 when that is above 1, times options.information_scale, as refine_pose() has
-/// it. O(steps * pixels * model).
+/// along it. Distances are whitened by the surface's inverse_depth_sigma, Huber's weights. A point
+/// that several surfaces show counts once: their errors are mostly the same. Its share of
+/// information is divided by spread^2 when that is above 1, times options.information_scale, as
+/// refine_pose() has it. O(steps * pixels * model).
 Alignment align_surface(const Surface& surface,
                         const std::vector<PlacedSurface>& model,
                         const PriorPose& prior,

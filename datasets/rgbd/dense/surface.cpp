@@ -55,7 +55,7 @@ float block_depth(std::vector<float>& measured, std::size_t pixels) {
   return 2 * count > measured.size() ? sum / static_cast<float>(count) : 0.0f;
 }
 
-Eigen::Vector3f normal_at(const Surface& surface, int x, int y, double inverse_depth_sigma) {
+Eigen::Vector3f normal_at(const Surface& surface, int x, int y) {
   const auto at = [&](int column, int row) -> const Eigen::Vector3f& {
     return surface.points[static_cast<std::size_t>(row * surface.camera.width + column)];
   };
@@ -82,7 +82,7 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y, double inverse_d
   const double across = axes.eigenvalues()(0);
   const double along = axes.eigenvalues()(1);
   const auto z = static_cast<double>(middle.z());
-  const double noise = inverse_depth_sigma * z * z;
+  const double noise = surface.inverse_depth_sigma * z * z;
   const double most = across < noise * noise ? kFlatNoisy : kFlat;
   if (across > most * along) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f n = axes.eigenvectors().col(0).cast<float>().normalized();
@@ -129,6 +129,7 @@ Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
   out.camera = image.camera;
   out.camera.width = depth.width;  // nothing at all where there is no image
   out.camera.height = depth.height;
+  out.inverse_depth_sigma = inverse_depth_sigma / image.block;
   out.points.assign(depth.pixels.size(), Eigen::Vector3f::Zero());
   out.normals.assign(depth.pixels.size(), Eigen::Vector3f::Zero());
   const auto index = [&](int x, int y) { return static_cast<std::size_t>(y * depth.width + x); };
@@ -140,7 +141,7 @@ Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
   }
   for (int y = kNormalReach; y + kNormalReach < depth.height; ++y) {
     for (int x = kNormalReach; x + kNormalReach < depth.width; ++x) {
-      out.normals[index(x, y)] = normal_at(out, x, y, inverse_depth_sigma / image.block);
+      out.normals[index(x, y)] = normal_at(out, x, y);
     }
   }
   return out;

@@ -25,11 +25,13 @@ struct Surface {
   Camera camera;
   std::vector<Eigen::Vector3f> points;   ///< [m]; zero: not measured
   std::vector<Eigen::Vector3f> normals;  ///< towards the camera; zero: none
+  double inverse_depth_sigma = 0.0;      ///< of a point [1/m]: averaged pixels are surer than one
 };
 
 /// Normals are those of the plane that fits 5 x 5 pixels best. None beside edges of depth, where
-/// the pixels bend more than a plane may and more than noise explains (inverse_depth_sigma [1/m],
-/// less where pixels were averaged), or where the surface is seen at a grazing angle. O(pixels).
+/// the pixels bend more than a plane may and more than noise explains, or where the surface is seen
+/// at a grazing angle. `inverse_depth_sigma` [1/m] is of a pixel before any were averaged; noise of
+/// neighbours is taken to be independent. O(pixels).
 Surface surface_of(const SmallDepth& image, double inverse_depth_sigma);
 
 }  // namespace loopbench
