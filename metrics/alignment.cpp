@@ -29,6 +29,10 @@ std::runtime_error degenerate(Align type, double count, const std::string& why) 
 
 Alignment least_squares(const Trajectory& reference, const Trajectory& estimate, Align type) {
   const Moments m = moments(reference, estimate);
+  if (!std::isfinite(m.reference_spread) || !std::isfinite(m.estimate_spread) ||
+      !m.cross.allFinite()) {
+    throw degenerate(type, m.count, "lie too far apart for double precision");
+  }
   if (is_point(m.reference_spread, m.count, m.reference_mean) ||
       is_point(m.estimate_spread, m.count, m.estimate_mean)) {
     throw degenerate(type, m.count, "lie in one point");

@@ -49,11 +49,14 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
 std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
   std::vector<PoseError> out;
   out.reserve(evaluation.reference.size());
+  const bool has_attitude = why_no_attitude(evaluation).empty();
+  const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     const auto& [stamp, Q] = evaluation.reference[i];
     const Pose& P = evaluation.estimate[i].world_from_body;
-    out.push_back(
-        {stamp, P.translation - Q.translation, log_so3(P.rotation * Q.rotation.conjugate())});
+    out.push_back({stamp,
+                   P.translation - Q.translation,
+                   has_attitude ? log_so3(P.rotation * Q.rotation.conjugate()) : none});
   }
   return out;
 }

@@ -22,9 +22,10 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options);
 
 /// One judged pose, for files of errors.
 struct PoseError {
-  double stamp = 0.0;                 ///< of the reference [s]
-  Vector3 metres = Vector3::Zero();   ///< estimate - reference, in the reference's world
-  Vector3 radians = Vector3::Zero();  ///< rotation vector of R_P R_Q^T, in that world
+  double stamp = 0.0;                ///< of the reference [s]
+  Vector3 metres = Vector3::Zero();  ///< estimate - reference, in the reference's world
+  /// Rotation vector of R_P R_Q^T, in that world; NaN where a file holds positions only.
+  Vector3 radians = Vector3::Zero();
 };
 std::vector<PoseError> pose_errors(const Evaluation& evaluation);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrics/losses.hpp"
 #include "metrics/position_only.hpp"
 #include "metrics/travel.hpp"
 
@@ -31,22 +32,11 @@ void look_for_losses(const Trajectory& reference,
                      double offset,
                      const DiagnosticsOptions& o,
                      Diagnostics& out) {
-  std::size_t first = 0;  // first reference pose inside the pause
-  for (std::size_t i = 1; i < estimate.size(); ++i) {
-    const double begin = estimate[i - 1].stamp + offset;
-    const double end = estimate[i].stamp + offset;
-    if (!(end - begin > o.loss)) continue;
-    while (first < reference.size() && reference[first].stamp < begin) ++first;
-    double farthest = 0.0;
-    for (std::size_t k = first; k < reference.size() && reference[k].stamp <= end; ++k) {
-      const Vector3 way =
-          reference[k].world_from_body.translation - reference[first].world_from_body.translation;
-      farthest = std::max(farthest, way.norm());
-    }
-    if (!(farthest > o.standing * (end - begin))) continue;
+  for (const Loss& loss : losses(reference, estimate, offset, o.loss, o.standing)) {
+    const double duration = loss.end - loss.begin;
     ++out.losses;
-    out.lost += end - begin;
-    out.longest_loss = std::max(out.longest_loss, end - begin);
+    out.lost += duration;
+    out.longest_loss = std::max(out.longest_loss, duration);
   }
 }
 
@@ -69,8 +59,6 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
   const Context& context = evaluation.context;
   if (context.reference != nullptr && context.estimate != nullptr) {
     look_for_losses(*context.reference, *context.estimate, context.protocol.offset, options, out);
-  } else {  // pairs share the reference's clock
-    look_for_losses(evaluation.reference, evaluation.reference, 0.0, options, out);
   }
   return out;
 }

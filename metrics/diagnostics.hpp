@@ -40,8 +40,7 @@ struct Diagnostics {
   double longest_loss = 0.0;  ///< [s]
 };
 
-/// O(n + m). Losses are looked for in the whole estimate and reference where the context has them,
-/// else in the pairs (where a hole in the reference looks like a loss).
+/// O(n + m). Losses are looked for where the context has the whole estimate and reference.
 Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& options);
 
 /// Each value of Diagnostics as a single number; shares in %, flags as 0 or 1.

@@ -4,6 +4,9 @@
 #include <stdexcept>
 
 #include "datasets/core/params.hpp"
+#include "metrics/losses.hpp"
+#include "metrics/median.hpp"
+#include "metrics/position_only.hpp"
 #include "metrics/projection.hpp"
 
 namespace loopbench {
@@ -13,10 +16,41 @@ std::string span_text(double first, double last) {
   return to_text(first) + " .. " + to_text(last) + " s";
 }
 
+/// Pauses of the pairs that are no rhythm of theirs, while the reference went on [s].
+double time_lost(const Trajectory& reference, const Trajectory& pairs) {
+  constexpr double kPause = 2.0;      // [s], that of DiagnosticsOptions
+  constexpr double kStanding = 0.05;  // [m/s], likewise
+  constexpr double kRhythms = 10.0;   // keyframes may lie seconds apart all along
+  double sum = 0.0;
+  std::vector<Loss> lost = losses(reference, pairs, 0.0, kPause, kStanding);
+  if (lost.empty()) return sum;
+  std::vector<double> steps;
+  steps.reserve(pairs.size());
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    steps.push_back(pairs[i].stamp - pairs[i - 1].stamp);
+  }
+  const double longest = kRhythms * median(steps);
+  for (const Loss& loss : lost) {
+    if (loss.end - loss.begin > longest) sum += loss.end - loss.begin;
+  }
+  return sum;
+}
+
+void require_attitudes(const Paired& paired, Align align) {
+  if (align != Align::origin && align != Align::posyaw_origin) return;
+  const bool is_reference = is_position_only(paired.reference);
+  if (is_reference == is_position_only(paired.estimate)) return;
+  throw std::runtime_error(
+      "alignment " + to_text(align) + ": the " + (is_reference ? "reference" : "estimate") +
+      " keeps one attitude while its path turns: it holds positions only, so its first pose aligns "
+      "nothing; align by se3, sim3 or none");
+}
+
 Evaluation judge(Paired paired,
                  std::size_t possible,
                  const Trajectory& reference,
                  const Protocol& protocol) {
+  require_attitudes(paired, protocol.align);
   Evaluation out;
   out.protocol = protocol;
   out.reference_length = path_length(reference);
@@ -27,7 +61,8 @@ Evaluation judge(Paired paired,
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
   const double whole = reference.back().stamp - reference.front().stamp;
-  const double judged = paired.reference.back().stamp - paired.reference.front().stamp;
+  const double judged = paired.reference.back().stamp - paired.reference.front().stamp -
+                        time_lost(reference, paired.reference);
   out.coverage.span = whole > 0.0 ? judged / whole : 1.0;
   out.estimate = moved(out.alignment, std::move(paired.estimate));
   out.reference = std::move(paired.reference);

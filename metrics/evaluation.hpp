@@ -15,8 +15,8 @@ namespace loopbench {
 struct Coverage {
   std::size_t pairs = 0;     ///< pose pairs that were judged
   std::size_t possible = 0;  ///< estimate poses (keyframes) or reference stamps in the span (dense)
-  /// First to last judged reference stamp over the reference's duration, 0..1. Holes in between
-  /// do not lower it; they show in share().
+  /// First to last judged reference stamp, less the losses in between (pauses above 2 s and ten
+  /// times the usual step while the reference went on), over the reference's duration, 0..1.
   double span = 0.0;
 
   double share() const {
@@ -40,8 +40,9 @@ struct Evaluation {
   Context context;  ///< empty from evaluate(): whoever holds the problem and the curve fills it
 };
 
-/// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches or the
-/// alignment is degenerate. Complexity O((n + m) log(n + m)) or better.
+/// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches, the
+/// alignment is degenerate, or wants attitudes of a file that holds positions only. Complexity O((n
+/// + m) log(n + m)) or better.
 Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
                     const Protocol& protocol);

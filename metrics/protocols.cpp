@@ -83,6 +83,21 @@ Protocol eth3d() {
   return p;
 }
 
+/// What is asked for by name has to matter.
+void check_used(const Protocol& rules, const Params& changes) {
+  const Association how = rules.association;
+  const bool has_gap = how == Association::interpolate;
+  const bool has_difference = !has_gap && how != Association::index;
+  for (const auto& [field, is_used] :
+       {std::pair{"max_diff", has_difference}, std::pair{"max_gap", has_gap}}) {
+    const auto given = changes.find(field);
+    if (given == changes.end() || is_used) continue;
+    throw OptionError(field,
+                      std::string(field) + " = " + to_text(given->second) + ": association " +
+                          to_text(how) + " does not look at it");
+  }
+}
+
 }  // namespace
 
 std::vector<ProtocolEntry> protocols() {
@@ -137,6 +152,7 @@ NamedProtocol named_protocol(const std::string& name, const Params& changes) {
   }
   NamedProtocol out{found->name, found->version, {}, with(found->protocol, changes)};
   check(out.rules);
+  check_used(out.rules, changes);
   const Params before = echo(found->protocol);
   for (auto& [field, value] : echo(out.rules)) {
     if (before.at(field) != value) out.changes.emplace(field, value);

@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::array kEurocColumns{"px", "py", "pz", "qw", "qx", "qy", "qz"};
 
-/// Whole seconds apart from the rest, because nanoseconds since 1970 do not fit 53 bits.
-double seconds(std::int64_t nanoseconds) {
+}  // namespace
+
+double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kPerSecond = 1'000'000'000;
-  return static_cast<double>(nanoseconds / kPerSecond) +
+  const std::int64_t whole = nanoseconds / kPerSecond;
+  return static_cast<double>(whole) +
          static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
 }
-
-}  // namespace
 
 Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   Trajectory out;
@@ -38,10 +38,10 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
                           std::to_string(width) + " as on line " + std::to_string(first.number));
     }
     Columns columns(file, line);
-    const double stamp = seconds(columns.integer("nanoseconds"));
+    const double stamp = seconds_of(columns.integer("nanoseconds"));
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kEurocColumns[i]);
     const Rotation rotation = unit_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
-    if (order.accepts(stamp, line.number)) out.push_back({stamp, {rotation, {v[0], v[1], v[2]}}});
+    order.put(stamp, line.number, {rotation, {v[0], v[1], v[2]}}, out);
   }
   return out;
 }

@@ -12,7 +12,8 @@
 
 namespace loopbench {
 
-/// `automatic` recognises the format by content, never by extension.
+/// `automatic` recognises the format by content, never by extension. Stamps of tum are seconds, or
+/// nanoseconds where they are 1e16 or more.
 enum class Format { automatic, tum, kitti, euroc, g2o };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},
@@ -22,13 +23,21 @@ inline auto choices(Format) {
                     std::pair{"g2o", Format::g2o}};
 }
 
-/// What to do with a pose whose stamp equals the one before it, which some published files hold.
+/// What to do with a pose whose stamp equals the one before it, which some published files hold:
+/// TUM's and evo's own readers keep the last.
 /// Stamps that go back are always refused, and so are repeats in a times file.
-enum class Repeats { refuse, keep_first };
+enum class Repeats { refuse, keep_first, keep_last };
 inline auto choices(Repeats) {
   return std::array{std::pair{"refuse", Repeats::refuse},
-                    std::pair{"keep_first", Repeats::keep_first}};
+                    std::pair{"keep_first", Repeats::keep_first},
+                    std::pair{"keep_last", Repeats::keep_last}};
 }
+
+/// What a reader mended silently, of tum and euroc.
+struct ReadFindings {
+  double off_unit = 0.0;     ///< largest | |q| - 1 | before normalising
+  std::size_t repeated = 0;  ///< poses left out for another of the same stamp
+};
 
 struct ReadOptions {
   Format format = Format::automatic;
@@ -36,6 +45,7 @@ struct ReadOptions {
   std::optional<std::filesystem::path> times;
   double period = 0.1;  ///< [s], KITTI's 10 Hz
   Repeats repeats = Repeats::refuse;
+  ReadFindings* findings = nullptr;  ///< filled when given
 };
 
 /// A trajectory from any known format. For g2o: its vertices, or its consecutive edges chained when

@@ -1,6 +1,7 @@
 /// Large files are read in parts, a thread each; what comes out is as if it were read by one.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,13 @@ auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
       in_parallel(texts.size(), [&](std::size_t i) { parts[i] = parse(texts[i]); });
       bool all_fit = true;
       for (std::size_t i = 1; i < parts.size(); ++i) all_fit &= fits(parts[i - 1], parts[i]);
-      if (all_fit) return parts;
+      if (all_fit) {
+        for (const TextFile& text : texts) {
+          file.mended.off_unit = std::max(file.mended.off_unit, text.mended.off_unit);
+          file.mended.repeated += text.mended.repeated;
+        }
+        return parts;
+      }
     } catch (const InputError&) {
       // said again below, with the right line
     }

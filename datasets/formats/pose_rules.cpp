@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -20,6 +21,7 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
   if (!(std::abs(norm - 1.0) <= kTolerance)) {
     throw file.error(line, fmt::format("quaternion has length {:.6g}, expected 1 +- 0.01", norm));
   }
+  file.mended.off_unit = std::max(file.mended.off_unit, std::abs(norm - 1.0));
   given.coeffs() /= norm;
   return given;
 }
@@ -36,6 +38,7 @@ void InOrder::refuse_or_drop(double stamp, std::size_t line) const {
                       "stamp " + to_text(stamp) + " is already" + before +
                           ", expected increasing stamps" + hint_);
   }
+  ++file_.mended.repeated;
 }
 
 }  // namespace loopbench

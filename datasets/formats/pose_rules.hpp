@@ -15,10 +15,22 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given);
 class InOrder {
  public:
   /// `hint` ends the refusal of a repeat: what the reader may do about it.
-  InOrder(const TextFile& file, Repeats repeats, const char* hint = " (or repeats: keep_first)")
+  InOrder(const TextFile& file,
+          Repeats repeats,
+          const char* hint = " (or repeats: keep_first, keep_last)")
       : file_(file), repeats_(repeats), hint_(hint) {}
 
-  /// False when this stamp repeats the last one and repeats are dropped.
+  /// Puts a pose into `poses`: at its end, in the place of the last one whose stamp it repeats, or
+  /// nowhere.
+  void put(double stamp, std::size_t line, const Pose& pose, Trajectory& poses) {
+    if (accepts(stamp, line)) {
+      poses.push_back({stamp, pose});
+    } else if (repeats_ == Repeats::keep_last) {
+      poses.back() = {stamp, pose};
+    }
+  }
+
+  /// False when this stamp repeats the last one and is not refused.
   bool accepts(double stamp, std::size_t line) {
     if (last_line_ != 0 && !(stamp > last_stamp_)) {
       refuse_or_drop(stamp, line);

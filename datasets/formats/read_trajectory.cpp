@@ -34,18 +34,11 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
     throw file.error(
         0, "is " + to_text(format) + ", whose stamps are its own, expected no times file");
   }
-  switch (format) {
-    case Format::kitti:
-      return read_kitti(file, options);
-    case Format::euroc:
-      return read_euroc(file, options);
-    case Format::g2o:
-      return trajectory_of(read_g2o(path), file.name(), options.period);
-    case Format::tum:
-    case Format::automatic:
-      break;
-  }
-  return read_tum(file, options);
+  if (format == Format::kitti) return read_kitti(file, options);
+  if (format == Format::g2o) return trajectory_of(read_g2o(path), file.name(), options.period);
+  Trajectory out = format == Format::euroc ? read_euroc(file, options) : read_tum(file, options);
+  if (options.findings) *options.findings = {file.mended.off_unit, file.mended.repeated};
+  return out;
 }
 
 }  // namespace loopbench

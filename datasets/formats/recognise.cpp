@@ -40,6 +40,14 @@ Line first_line(TextFile& file) {
 
 Format recognise(TextFile& file) {
   const Line line = first_line(file);
+  if (is_nanoseconds(Columns(file, line).word()) && count_columns(file, line) == 8 &&
+      line.text.find(',') == std::string_view::npos) {
+    throw file.error(
+        line.number,
+        "has whole nanoseconds and columns parted by blanks: their quaternions may be "
+        "qx qy qz qw (ORB-SLAM3's) or qw qx qy qz (EuRoC's), expected to be told format "
+        "tum or euroc");
+  }
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShown = 40;
   const std::size_t count = count_columns(file, line);

@@ -50,6 +50,13 @@ class TextFile {
     return input_error(name_, line, what);
   }
 
+  /// Noted by whoever judges a line of this part.
+  struct Mended {
+    double off_unit = 0.0;
+    std::size_t repeated = 0;
+  };
+  mutable Mended mended;
+
   /// How many lines fit if all were as long as `line`: a hint for reserve(), capped by the file.
   /// The first part counts the whole file, for what is read from the others is put behind.
   std::size_t lines_like(const Line& line) const {

@@ -1,6 +1,7 @@
 #include "datasets/formats/tum.hpp"
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/euroc.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/recognise.hpp"
@@ -20,6 +21,19 @@ InputError wrong_row(const TextFile& file, const Line& line) {
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
+/// Nanoseconds, as ORB-SLAM3 writes them in place of seconds, are whole or end in zeros.
+double stamp_of(const TextFile& file, const Line& line, double number) {
+  constexpr double kNanoseconds = 1e16, kBeyond = 9e18;  // 1970 + 115 days, + 285 years
+  if (number < kNanoseconds || number > kBeyond) return number;
+  const std::string_view word = Columns(file, line).word();
+  std::int64_t whole = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
+  const bool is_whole = error == std::errc{} &&
+                        std::string_view(rest, word.data() + word.size()).find_first_not_of(".0") ==
+                            std::string_view::npos;
+  return is_whole ? seconds_of(whole) : 1e-9 * number;
+}
+
 Trajectory read_tum_part(TextFile& file, Repeats repeats) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
@@ -32,8 +46,9 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats) {
       v[i] = columns.number(kTumColumns[i]);
     }
     if (!columns.done()) throw wrong_row(file, line);
+    v[0] = stamp_of(file, line, v[0]);
     const Rotation rotation = unit_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
-    if (order.accepts(v[0], line.number)) out.push_back({v[0], {rotation, {v[1], v[2], v[3]}}});
+    order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
   return out;
 }

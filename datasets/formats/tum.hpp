@@ -1,4 +1,5 @@
-/// TUM RGB-D text: `stamp tx ty tz qx qy qz qw`, world_from_body, seconds and metres.
+/// TUM RGB-D text: `stamp tx ty tz qx qy qz qw`, world_from_body, seconds (or nanoseconds, see
+/// Format) and metres.
 #pragma once
 
 #include "datasets/formats/formats.hpp"

@@ -15,6 +15,8 @@ namespace {
 struct Loaded {
   Trajectory poses;
   std::vector<PoseMatrix> matrices;
+  ReadFindings mended;
+  std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
 };
 
 /// The same reader for reference and estimate, differing in format only.
@@ -27,14 +29,19 @@ struct Reader {
     ReadOptions options;
     FieldType<Format>::assign("format", options.format, format_word);
     FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
-    options.period = arguments.period;
+    if (arguments.period) options.period = *arguments.period;
     if (options.format == Format::automatic) options.format = recognise(file);
     const bool is_kitti = options.format == Format::kitti;
     if (!arguments.times.empty() && is_kitti) {
       options.times = arguments.times;
       has_used_times = true;
     }
-    Loaded out{read_trajectory(file, options), {}};
+    Loaded out;
+    options.findings = &out.mended;
+    out.poses = read_trajectory(file, options);
+    if (options.format == Format::g2o || (is_kitti && !options.times)) {
+      out.unstamped = file + ": is " + to_text(options.format);
+    }
     if (out.poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
     if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
     return out;
@@ -46,6 +53,19 @@ struct Reader {
   }
 };
 
+/// Numbered poses beside stamped ones would be paired by chance.
+void expect_one_clock(const EvalArguments& a,
+                      const std::vector<NamedProtocol>& rules,
+                      const std::string& one,
+                      const std::string& other) {
+  const bool looks_at_stamps = std::ranges::any_of(
+      rules, [](const NamedProtocol& p) { return p.rules.association != Association::index; });
+  if (a.period || !looks_at_stamps || one.empty() == other.empty()) return;
+  throw InputError(one + other +
+                   ", poses without stamps, and the other file has stamps: expected --times FILE "
+                   "(KITTI), --period S or --association index");
+}
+
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
@@ -56,22 +76,29 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
+  ReadFindings mended;  // these two of the reference
+  std::string unstamped;
   PrintedPoses printed;
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
       Loaded loaded = reader.read_reference(pair.reference);
       reference = std::move(loaded.poses);
+      unstamped = loaded.unstamped;
+      mended = loaded.mended;
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
     }
     Loaded loaded = reader.read(pair.estimate, a.format);
+    expect_one_clock(a, rules, unstamped, loaded.unstamped);
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const NamedProtocol& protocol : rules) {
       const JudgeOptions options{questions(a, protocol.rules),
                                  !a.per_pose.empty(),
                                  a.min_coverage,
-                                 are_printed ? &printed : nullptr};
+                                 are_printed ? &printed : nullptr,
+                                 {std::max(mended.off_unit, loaded.mended.off_unit),
+                                  mended.repeated + loaded.mended.repeated}};
       try {
         out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {

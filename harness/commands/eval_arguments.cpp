@@ -79,9 +79,14 @@ std::string our_unit(const std::string& word) {
 }  // namespace
 
 std::vector<NamedProtocol> protocols(const EvalArguments& a) {
+  const bool is_rpg_folder = a.estimates.empty() && std::filesystem::is_directory(a.reference);
+  const Params of_folder = is_rpg_folder ? rpg_settings(a.reference) : Params{};
   std::vector<NamedProtocol> out;
   for (const std::string& name : a.protocols) {
-    out.push_back(known_protocol(name, changes(a, known_protocol(name, {}).rules)));
+    Params wanted = changes(a, known_protocol(name, {}).rules);
+    // What is typed goes before what the folder says; that is meant for rpg's rules only.
+    if (name.starts_with("rpg")) wanted.insert(of_folder.begin(), of_folder.end());
+    out.push_back(known_protocol(name, wanted));
   }
   return out;
 }

@@ -23,7 +23,7 @@ struct EvalArguments {
   std::string reference_format;  ///< empty: as `format`
   std::string times;             ///< empty: none
   std::string repeats = "refuse";
-  double period = ReadOptions{}.period;
+  std::optional<double> period;  ///< [s]; none: that of ReadOptions
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
   std::string association;

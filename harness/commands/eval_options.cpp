@@ -26,7 +26,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   command.add_option("--times", a.times, "Stamps of KITTI poses, one a line")->type_name("FILE");
   command.add_option("--period", a.period, "Between KITTI or g2o poses without stamps [s]")
       ->type_name("S")
-      ->capture_default_str();
+      ->default_str(to_text(ReadOptions{}.period));
 }
 
 void declare_rules(CLI::App& command, EvalArguments& a) {

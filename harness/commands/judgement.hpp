@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/formats/formats.hpp"
 #include "metrics/ape.hpp"
 #include "metrics/protocols.hpp"
 
@@ -27,6 +28,7 @@ struct JudgeOptions {
   bool with_poses = false;
   double min_coverage = 0.0;              ///< below it a judgement is incomplete, 0..1
   const PrintedPoses* printed = nullptr;  ///< when both files are of matrices: their digits
+  ReadFindings mended = {};               ///< of both files together
 };
 
 struct JudgedMetric {

@@ -65,17 +65,9 @@ std::string pose_csv(const std::vector<Judgement>& judgements) {
   for (const Judgement& j : judgements) {
     const std::string front = head(j);
     for (const auto& [stamp, e, r] : j.poses) {
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
-                         front,
-                         stamp,
-                         e.x(),
-                         e.y(),
-                         e.z(),
-                         e.norm(),
-                         r.x(),
-                         r.y(),
-                         r.z(),
-                         r.norm());
+      out += fmt::format("{},{},{},{},{},{}", front, stamp, e.x(), e.y(), e.z(), e.norm());
+      out += r.hasNaN() ? std::string(",,,,\n")
+                        : fmt::format(",{},{},{},{}\n", r.x(), r.y(), r.z(), r.norm());
     }
   }
   return out;

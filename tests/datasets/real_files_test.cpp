@@ -98,7 +98,7 @@ TEST_F(RealFiles, TwoPublishedFilesRepeatStampsAndNeedTheSwitch) {
   EXPECT_EQ(refusal([&] { read_trajectory(desk); }),
             desk.string() +
                 ":10863: stamp 1311868229.576 is already on line 10862, expected "
-                "increasing stamps (or repeats: keep_first)");
+                "increasing stamps (or repeats: keep_first, keep_last)");
   EXPECT_NE(refusal([&] { read_trajectory(euroc); }).find(":433: stamp"), std::string::npos);
   expect_rows("tum_rgbd/other/fr2_desk/groundtruth.txt", 20956, Format::tum, Repeats::keep_first);
   expect_rows("euroc/V102/estimate.txt", 803, Format::tum, Repeats::keep_first);

@@ -84,6 +84,35 @@ TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].world_from_body.translation.x(), 0.0);
   EXPECT_EQ(poses[1].world_from_body.translation.x(), 5.0);
+  options.repeats = Repeats::keep_last;  // as TUM's tools and evo do
+  const Trajectory last = read_trajectory(file, options);
+  ASSERT_EQ(last.size(), 2u);
+  EXPECT_EQ(last[0].stamp, 1.0);
+  EXPECT_EQ(last[0].world_from_body.translation.x(), 9.0);
+}
+
+TEST(Tum, StampsInNanosecondsAreSeconds) {
+  const Scratch scratch;
+  // As ORB-SLAM3 saves for EuRoC: zeros behind the point.
+  const auto zeros = scratch.file("a.txt",
+                                  "1403636579763555584.000000 1 2 3 0 0 0 1\n"
+                                  "1403636579813555456.000000 4 5 6 0 0 0 1\n");
+  const Trajectory poses = read_trajectory(zeros);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].stamp, 1403636579.763555584);
+  EXPECT_EQ(poses[1].stamp, 1403636579.813555456);
+  const auto whole = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
+  EXPECT_EQ(refusal([&] { read_trajectory(whole); }),
+            whole.string() +
+                ":1: has whole nanoseconds and columns parted by blanks: their quaternions may be "
+                "qx qy qz qw (ORB-SLAM3's) or qw qx qy qz (EuRoC's), expected to be told format "
+                "tum or euroc");
+  ReadOptions told;
+  told.format = Format::tum;
+  EXPECT_EQ(read_trajectory(whole, told)[0].world_from_body.rotation.w(), 0.8);
+  EXPECT_EQ(read_trajectory(whole, told)[0].stamp, 1403636579.763555584);
+  told.format = Format::euroc;
+  EXPECT_EQ(read_trajectory(whole, told)[0].world_from_body.rotation.z(), 0.8);
 }
 
 TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {

@@ -31,6 +31,65 @@ TEST(Evaluation, CountsPairsPossibleAndSpan) {
   EXPECT_EQ(got.estimate[3].world_from_body.translation.x(), 6.05);
 }
 
+/// Stamps from `first` to `last`, `step` apart, all exact in binary.
+std::vector<double> every(double step, double first, double last) {
+  std::vector<double> out;
+  for (double stamp = first; stamp <= last; stamp += step) out.push_back(stamp);
+  return out;
+}
+
+std::vector<double> ends(double step) {
+  std::vector<double> out = every(step, 0.0, 3.5);
+  for (const double stamp : every(step, 36.5, 40.0)) out.push_back(stamp);
+  return out;
+}
+
+TEST(Evaluation, TimeLostIsNotJudged) {
+  const auto span = [](const Trajectory& reference, const Trajectory& estimate) {
+    return evaluate(reference, estimate, kPlain).coverage.span;
+  };
+  const Trajectory whole = at(every(0.5, 0.0, 40.0));
+  EXPECT_EQ(span(whole, whole), 1.0);
+  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // silent from 3.5 to 36.5 s
+  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // the reference's own hole
+  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart all along
+  Trajectory standing = whole;
+  for (auto& [stamp, pose] : standing) pose.translation.x() = stamp < 20.0 ? 0.0 : 1.0;
+  EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: nothing to make keyframes of
+}
+
+/// A quarter of a circle with the attitude of its start, or turning along.
+Trajectory bend(bool turns) {
+  Trajectory out;
+  for (int i = 0; i < 20; ++i) {
+    const double angle = 0.08 * i;
+    out.push_back({1.0 * i,
+                   {exp_so3({0.0, 0.0, turns ? angle : 0.0}),
+                    {std::sin(angle), 1.0 - std::cos(angle), 0.0}}});
+  }
+  return out;
+}
+
+TEST(Evaluation, AFirstPoseWithoutAttitudeAlignsNothing) {
+  for (const Align align : {Align::origin, Align::posyaw_origin}) {
+    EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
+              "alignment " + to_text(align) +
+                  ": the reference keeps one attitude while its path turns: it holds positions "
+                  "only, so its first pose aligns nothing; align by se3, sim3 or none");
+    EXPECT_NO_THROW(evaluate(bend(true), bend(true), {.align = align}));
+    EXPECT_NO_THROW(evaluate(bend(false), bend(false), {.align = align}));
+  }
+  EXPECT_NO_THROW(evaluate(bend(false), bend(true), {.align = Align::se3}));
+}
+
+TEST(Evaluation, CoordinatesBeyondDoublesSquaresAreToldSo) {
+  Trajectory far = bend(true);
+  far[3].world_from_body.translation.x() = 1e160;
+  EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(true), far, Protocol{}); }),
+            "alignment se3: 20 pairs lie too far apart for double precision, so the rotation is "
+            "not unique; align by origin or none");
+}
+
 TEST(Evaluation, MovesTheEstimateOntoTheReference) {
   std::mt19937_64 random(1);
   const Trajectory reference = test::random_walk(random, 60);

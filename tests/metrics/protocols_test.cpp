@@ -56,6 +56,16 @@ TEST(Protocols, ChangesAreToldAndNonChangesAreNot) {
   EXPECT_EQ(named_protocol("tum").label(), "tum");
 }
 
+TEST(Protocols, WhatIsAskedForHasToMatter) {
+  EXPECT_EQ(refusal("kitti", {{"max_diff", 0.001}}),
+            "max_diff = 0.001: association index does not look at it");
+  EXPECT_EQ(refusal("loopbench", {{"association", word("interpolate")}, {"max_diff", 0.02}}),
+            "max_diff = 0.02: association interpolate does not look at it");
+  EXPECT_EQ(refusal("evo", {{"max_gap", 0.5}}),
+            "max_gap = 0.5: association evo does not look at it");
+  EXPECT_NO_THROW(named_protocol("evo", {{"association", word("interpolate")}, {"max_gap", 0.5}}));
+}
+
 TEST(Protocols, AnUnknownNameIsAnsweredWithTheKnownOnes) {
   const std::string got = why<InputError>([] { named_protocol("evoo"); });
   EXPECT_EQ(got.find("no protocol is named 'evoo' (known: loopbench, evo, tum, "), 0u) << got;

@@ -1,0 +1,150 @@
+// Which files `eval` takes for what: folders of other tools, clocks, positions alone.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/eval_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::eval;
+using test::eval_json;
+using test::find;
+using test::golden;
+using test::Json;
+using test::refusal;
+
+std::string written(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+TEST(Eval, ReadsRpgsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
+  EXPECT_THROW(eval({folder.path().string()}), InputError);
+  for (const char* run : {"1", "0"}) {
+    std::filesystem::copy_file(
+        golden("est_drift.txt"),
+        folder.path() / (std::string("stamped_traj_estimate") + run + ".txt"));
+  }
+  const Json judged = eval_json({folder.path().string(), "--protocol=rpg"});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_NE(judged[0]["estimate"].get<std::string>().find("estimate0"), std::string::npos);
+  EXPECT_NEAR(find(judged[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
+}
+
+TEST(Eval, ReadsOvEvalsFolders) {
+  const TemporaryFolder folder;
+  const auto truths = folder.path() / "truths";
+  const auto runs = folder.path() / "algorithms/mine/eight";
+  std::filesystem::create_directories(truths);
+  std::filesystem::create_directories(runs);
+  const std::string algorithms = (folder.path() / "algorithms").string();
+  EXPECT_THROW(eval({truths.string(), algorithms}), InputError);
+  std::filesystem::copy_file(golden("gt.txt"), truths / "eight.txt");
+  std::filesystem::copy_file(golden("est_drift.txt"), runs / "00.txt");
+  std::filesystem::copy_file(golden("est_corrected.txt"), runs / "01.txt");
+  const Json judged = eval_json({truths.string(), algorithms, "--protocol=ov_eval"});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[1]["estimate"], (runs / "01.txt").string());
+  EXPECT_EQ(judged[1]["alignment"]["type"], "posyaw");
+  const auto other = folder.path() / "algorithms/mine/nine";
+  std::filesystem::create_directories(other);
+  std::filesystem::copy_file(golden("est_drift.txt"), other / "00.txt");
+  EXPECT_EQ(refusal<InputError>({truths.string(), algorithms}),
+            other.string() + ": holds runs, but " + truths.string() +
+                " has no nine.txt to judge them by");
+}
+
+// Values of golden.json: rpg with sim3, se3, posyaw, se3 and posyaw of the first frame.
+TEST(Eval, DoesAsRpgsFolderAsks) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
+  std::filesystem::copy_file(golden("est_drift.txt"), folder.path() / "stamped_traj_estimate.txt");
+  const auto cfg = folder.path() / "eval_cfg.yaml";
+  const auto rmse = [&](const std::string& settings, const std::string& more = "--protocol=rpg") {
+    written(cfg, settings);
+    return find(eval_json({folder.path().string(), "--protocol=rpg", more}),
+                "ate",
+                "translation")["rmse"]
+        .get<double>();
+  };
+  EXPECT_NEAR(rmse("align_type: sim3\nalign_num_frames: -1\n"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse("align_type: se3\n"), 0.676208260682124, 1e-12);
+  EXPECT_NEAR(rmse("align_type: posyaw\n"), 3.48498534022219, 1e-11);
+  EXPECT_NEAR(rmse("align_type: se3\nalign_num_frames: 1\n"), 2.12100433850654, 1e-11);
+  EXPECT_NEAR(rmse("align_type: posyaw\nalign_num_frames: 1\n"), 4.08061545719117, 1e-11);
+  EXPECT_NEAR(rmse("align_type: posyaw\n", "--align=se3"), 0.676208260682124, 1e-12);
+  const auto why = [&](const std::string& settings) {
+    written(cfg, settings);
+    return refusal<InputError>({folder.path().string(), "--protocol=rpg"});
+  };
+  EXPECT_EQ(why("align_type: best\n"),
+            cfg.string() + ":1: align_type: expected sim3 | se3 | posyaw | none");
+  EXPECT_EQ(why("align_type: se3\nalign_num_frames: some\n"),
+            cfg.string() + ":2: align_num_frames: expected -1 or a whole number above 0");
+  EXPECT_EQ(why("aling_type: se3\n"),
+            cfg.string() +
+                ":1: no setting is named 'aling_type', expected align_type or align_num_frames");
+  std::filesystem::remove(cfg);
+  const auto cut = folder.path() / "start_end_time.yaml";
+  written(cut, "start: 1\n");
+  EXPECT_EQ(refusal<InputError>({folder.path().string()}),
+            cut.string() + ": is not read; cut the files to those times and move it away");
+}
+
+TEST(Eval, TellsWhatReadingMended) {
+  const TemporaryFolder folder;
+  const std::string reference =
+      written(folder.path() / "reference.txt",
+              "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 1\n");
+  const std::string estimate = written(folder.path() / "estimate.txt",
+                                       "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1.005\n1 9 9 9 0 0 0 1\n"
+                                       "2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 0.998\n");
+  const Json judged = eval_json({reference, estimate, "--repeats=keep_first"});
+  EXPECT_NEAR(judged["diagnosis"]["off_unit"].get<double>(), 0.005, 1e-12);
+  EXPECT_EQ(judged["diagnosis"]["left_out"], 1.0);
+  EXPECT_NEAR(find(judged, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
+}
+
+TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {
+  const std::string numbered = golden("kitti_gt.txt"), stamped = golden("gt.txt");
+  const std::string rule =
+      ": is kitti, poses without stamps, and the other file has stamps: expected --times FILE "
+      "(KITTI), --period S or --association index";
+  EXPECT_EQ(refusal<InputError>({stamped, numbered}), numbered + rule);
+  EXPECT_EQ(refusal<InputError>({numbered, stamped}), numbered + rule);
+  EXPECT_EQ(
+      eval_json({stamped, numbered, "--period=0.05", "--align=none", "--max-diff=0.1"})["protocol"]
+                                                                                       ["name"],
+      "loopbench");
+}
+
+TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
+  const TemporaryFolder folder;
+  std::string positions, turning;
+  for (int i = 0; i < 20; ++i) {
+    const std::string place =
+        std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i * i) + " 0 0 0 ";
+    positions += place + "0 1\n";
+    turning += place + (i % 2 == 0 ? "0 1\n" : "0.6 0.8\n");
+  }
+  const std::string poses = (folder.path() / "poses.csv").string();
+  eval({written(folder.path() / "reference.txt", positions),
+        written(folder.path() / "estimate.txt", turning),
+        "--align=none",
+        "--per-pose=" + poses});
+  std::ifstream in(poses);
+  std::string header, row;
+  std::getline(in, header);
+  std::getline(in, row);
+  EXPECT_TRUE(header.ends_with(",distance_m,rx_rad,ry_rad,rz_rad,angle_rad")) << header;
+  EXPECT_TRUE(row.ends_with(",0,0,0,0,0,,,,")) << row;  // stamp, x y z, distance
+}
+
+}  // namespace
+}  // namespace loopbench
