@@ -7,6 +7,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_arguments.hpp"
 #include "harness/export/write_file.hpp"
+#include "harness/printable.hpp"
 
 namespace loopbench {
 namespace {
@@ -16,6 +17,15 @@ struct Loaded {
   Trajectory poses;
   std::vector<PoseMatrix> matrices;
 };
+
+Judgement failure(const FilePair& pair, const NamedProtocol& protocol, const std::string& why) {
+  Judgement out;
+  out.reference = pair.reference;
+  out.estimate = pair.estimate;
+  out.protocol = protocol;
+  out.why_failed = why;
+  return out;
+}
 
 /// The same reader for reference and estimate, differing in format only.
 struct Reader {
@@ -46,12 +56,21 @@ struct Reader {
   }
 };
 
+std::vector<std::filesystem::path> all_files(const EvalArguments& a,
+                                             const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> out{a.times};
+  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
+  return out;
+}
+
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
   const bool is_devkit = std::ranges::any_of(
       rules, [](const NamedProtocol& p) { return p.rules.form == ErrorForm::kitti; });
   const std::vector<FilePair> files = file_pairs(a);
+  refuse_to_overwrite(all_files(a, files), a.per_pose);
+  const bool is_alone = files.size() * rules.size() == 1;
   Reader reader{a, is_devkit};
   std::vector<Judgement> out;
   std::string read_last;
@@ -64,7 +83,14 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
     }
-    Loaded loaded = reader.read(pair.estimate, a.format);
+    Loaded loaded;
+    try {
+      loaded = reader.read(pair.estimate, a.format);
+    } catch (const InputError& error) {
+      if (is_alone) throw;
+      for (const NamedProtocol& each : rules) out.push_back(failure(pair, each, error.what()));
+      continue;
+    }
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const NamedProtocol& protocol : rules) {
@@ -75,7 +101,10 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       try {
         out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
-        throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+        if (is_alone) {
+          throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+        }
+        out.push_back(failure(pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
       out.back().estimate = pair.estimate;
@@ -95,9 +124,10 @@ int eval(const EvalArguments& a) {
   } else if (a.csv) {
     fmt::print("{}", csv(all));
   } else {
-    fmt::print("{}", all.size() == 1 ? text(all.front()) : comparison(all));
+    fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  return kExitOk;
+  const bool is_whole = std::ranges::none_of(all, has_no_number);
+  return is_whole ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace
