@@ -39,6 +39,7 @@ std::vector<Residuals> residuals_of(const std::vector<std::shared_ptr<const Sequ
 }
 
 int calibrate(const CalibrateArguments& arguments) {
+  refuse_to_overwrite({arguments.config}, arguments.out);
   const Catalogue known = catalogue({});
   const Sweep sweep = read_sweep(arguments.config, known);
   const Pattern train = Pattern::of_option("--train", arguments.train);

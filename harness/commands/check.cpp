@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/export/gate.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/gate/snapshot.hpp"
+#include "harness/store/open.hpp"
 
 namespace loopbench {
 namespace {
@@ -33,6 +35,7 @@ int update(const CheckArguments& arguments) {
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
   baseline.made_by = made_by(arguments.store);
+  refuse_to_overwrite({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
   fmt::print("{}: {} cells written\n", arguments.baseline, baseline.snapshot.cells.size());
   return kExitOk;
@@ -50,6 +53,9 @@ int check_store(const CheckArguments& arguments) {
     throw InputError(arguments.baseline + ": " + error.what());
   }
   const std::string text = markdown(report, baseline.snapshot.sweep);
+  for (const std::string& out : {arguments.markdown, arguments.junit}) {
+    refuse_to_overwrite({store_file(arguments.store), arguments.baseline}, out);
+  }
   if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));
   fmt::print("{}", text);
@@ -78,6 +84,7 @@ void add_check(CLI::App& app, int& exit_code) {
       ->add_option("--time",
                    arguments->time,
                    "With --update: gate times too, each may grow by this share (and 1 ms)")
+      ->check(finite_number())
       ->check(CLI::NonNegativeNumber)
       ->type_name("SHARE");
   command->footer("Exit codes: 0 passes, 1 regression, 2 unusable input, 3 internal error.");

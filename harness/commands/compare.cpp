@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
@@ -96,12 +97,13 @@ void add_compare(CLI::App& app, int& exit_code) {
   command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
       ->capture_default_str();
   command->add_option("--alpha", arguments->options.alpha, "Level of tests and intervals")
+      ->check(finite_number())
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
   const std::map<std::string, Over> units{{"runs", Over::runs}, {"sequences", Over::sequences}};
   command
       ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
-      ->transform(CLI::CheckedTransformer(units).description("runs|sequences"));
+      ->transform(one_of("observation", units));
   command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
                                                     {"terminal", ExportFormat::terminal},
@@ -109,7 +111,7 @@ void add_compare(CLI::App& app, int& exit_code) {
                                                     {"csv", ExportFormat::csv},
                                                     {"json", ExportFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
-      ->transform(CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json"));
+      ->transform(one_of("format", formats));
   command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });

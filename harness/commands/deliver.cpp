@@ -6,6 +6,7 @@
 #include "harness/export/origin.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/provenance/made_by.hpp"
+#include "harness/store/open.hpp"
 
 namespace loopbench {
 
@@ -28,15 +29,16 @@ void deliver(const std::string& text,
   }
   if (file.empty()) {
     fmt::print("{}", out);
-    if (format == ExportFormat::csv) {
-      fmt::print(stderr,
-                 "loopbench: {}\nloopbench: with -o FILE all that made it is written beside\n",
-                 made_by(origin.provenance));
-    }
-    return;
+  } else {
+    refuse_to_overwrite({store_file(store)}, file);
+    write_file(file, out);
   }
-  write_file(file, out);
-  if (format == ExportFormat::csv) write_file(origin_file(file), json(origin));
+  if (format != ExportFormat::csv) return;
+  // Nothing lies beside a pipe.
+  if (std::filesystem::is_regular_file(file)) return write_file(origin_file(file), json(origin));
+  fmt::print(stderr,
+             "loopbench: {}\nloopbench: with -o FILE all that made it is written beside\n",
+             made_by(origin.provenance));
 }
 
 }  // namespace loopbench

@@ -7,6 +7,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_arguments.hpp"
 #include "harness/export/write_file.hpp"
+#include "harness/printable.hpp"
 
 namespace loopbench {
 namespace {
@@ -18,6 +19,15 @@ struct Loaded {
   ReadFindings mended;
   std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
 };
+
+Judgement failure(const FilePair& pair, const NamedProtocol& protocol, const std::string& why) {
+  Judgement out;
+  out.reference = pair.reference;
+  out.estimate = pair.estimate;
+  out.protocol = protocol;
+  out.why_failed = why;
+  return out;
+}
 
 /// The same reader for reference and estimate, differing in format only.
 struct Reader {
@@ -53,17 +63,23 @@ struct Reader {
   }
 };
 
-/// Numbered poses beside stamped ones would be paired by chance.
-void expect_one_clock(const EvalArguments& a,
-                      const std::vector<NamedProtocol>& rules,
-                      const std::string& one,
-                      const std::string& other) {
-  const bool looks_at_stamps = std::ranges::any_of(
-      rules, [](const NamedProtocol& p) { return p.rules.association != Association::index; });
-  if (a.period || !looks_at_stamps || one.empty() == other.empty()) return;
-  throw InputError(one + other +
-                   ", poses without stamps, and the other file has stamps: expected --times FILE "
-                   "(KITTI), --period S or --association index");
+/// Numbered poses beside stamped ones would be paired by chance. `one`, `other`: Loaded::unstamped.
+std::string why_two_clocks(const EvalArguments& a,
+                           const Protocol& protocol,
+                           const std::string& one,
+                           const std::string& other) {
+  const bool looks_at_stamps = protocol.association != Association::index;
+  if (a.period || !looks_at_stamps || one.empty() == other.empty()) return "";
+  return one + other +
+         ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
+         "--period S or --association index";
+}
+
+std::vector<std::filesystem::path> all_files(const EvalArguments& a,
+                                             const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> out{a.times};
+  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
+  return out;
 }
 
 std::vector<Judgement> judgements(const EvalArguments& a) {
@@ -72,6 +88,8 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   const bool is_devkit = std::ranges::any_of(
       rules, [](const NamedProtocol& p) { return p.rules.form == ErrorForm::kitti; });
   const std::vector<FilePair> files = file_pairs(a);
+  refuse_to_overwrite(all_files(a, files), a.per_pose);
+  const bool is_alone = files.size() * rules.size() == 1;
   Reader reader{a, is_devkit};
   std::vector<Judgement> out;
   std::string read_last;
@@ -88,8 +106,14 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
     }
-    Loaded loaded = reader.read(pair.estimate, a.format);
-    expect_one_clock(a, rules, unstamped, loaded.unstamped);
+    Loaded loaded;
+    try {
+      loaded = reader.read(pair.estimate, a.format);
+    } catch (const InputError& error) {
+      if (is_alone) throw;
+      for (const NamedProtocol& each : rules) out.push_back(failure(pair, each, error.what()));
+      continue;
+    }
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const NamedProtocol& protocol : rules) {
@@ -99,10 +123,19 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
                                  are_printed ? &printed : nullptr,
                                  {std::max(mended.off_unit, loaded.mended.off_unit),
                                   mended.repeated + loaded.mended.repeated}};
+      const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
+      if (is_alone && !why.empty()) throw InputError(why);
+      if (!why.empty()) {
+        out.push_back(failure(pair, protocol, why));
+        continue;
+      }
       try {
         out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
-        throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+        if (is_alone) {
+          throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+        }
+        out.push_back(failure(pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
       out.back().estimate = pair.estimate;
@@ -122,9 +155,10 @@ int eval(const EvalArguments& a) {
   } else if (a.csv) {
     fmt::print("{}", csv(all));
   } else {
-    fmt::print("{}", all.size() == 1 ? text(all.front()) : comparison(all));
+    fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  return kExitOk;
+  const bool is_whole = std::ranges::none_of(all, has_no_number);
+  return is_whole ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace

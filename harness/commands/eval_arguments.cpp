@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "harness/config/protocol_choice.hpp"
@@ -41,7 +42,11 @@ Params changes(const EvalArguments& a, const Protocol& base) {
     if (equals == std::string::npos) {
       throw InputError("--set: '" + setting + "' is not FIELD=VALUE, for example ddof=1");
     }
-    out[setting.substr(0, equals)] = typed(setting.substr(equals + 1));
+    const Param value = typed(setting.substr(equals + 1));
+    if (const double* real = std::get_if<double>(&value); real && !std::isfinite(*real)) {
+      throw InputError("--set: " + setting + ": expected a finite number");
+    }
+    out[setting.substr(0, equals)] = value;
   }
   if (!a.association.empty()) out["association"] = a.association;
   if (!a.align.empty()) out["align"] = a.align;

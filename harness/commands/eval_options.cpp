@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "harness/commands/checks.hpp"
 #include "harness/commands/eval_arguments.hpp"
 
 namespace loopbench {
@@ -26,6 +27,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   command.add_option("--times", a.times, "Stamps of KITTI poses, one a line")->type_name("FILE");
   command.add_option("--period", a.period, "Between KITTI or g2o poses without stamps [s]")
       ->type_name("S")
+      ->check(finite_number())
       ->default_str(to_text(ReadOptions{}.period));
 }
 
@@ -47,6 +49,8 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("HOW");
   command.add_flag_callback(
       "-a", [&a] { a.align = "se3"; }, "As --align se3");
+  command.add_flag_callback(
+      "--align_origin", [&a] { a.align = "origin"; }, "As --align origin");
   command.add_flag("-s,--correct_scale", a.correct_scale, "Align with scale; alone: scale only");
   command.add_option("--n_to_align", a.align_first, "Align with the first pairs only");
   const auto word = [&](const char* name, std::string& value, const std::string& help) {
@@ -55,7 +59,7 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   word("--association", a.association, choice_list<Association>());
   word("--project_to_plane", a.project, choice_list<Plane>());
   const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
-    command.add_option(name, value, help)->type_name("S");
+    command.add_option(name, value, help)->type_name("S")->check(finite_number());
   };
   seconds("--max-diff,--t_max_diff", a.max_diff, "Largest time difference of a pair");
   seconds("--max-gap", a.max_gap, "Largest reference gap to interpolate over");
@@ -64,6 +68,7 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
                   a.min_coverage,
                   "Share of poses and of the reference's time below which numbers are incomplete")
       ->type_name("SHARE")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   seconds("--offset,--t_offset", a.offset, "Added to the estimates' stamps");
@@ -80,7 +85,9 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "Only ape and rpe in full, trans_part, rot_part, angle_deg, angle_rad, "
                   "point_distance, point_distance_error_ratio or rpy")
       ->type_name("WORD");
-  command.add_option("-d,--delta", a.delta, "Stretch of rpe")->type_name("NUMBER");
+  command.add_option("-d,--delta", a.delta, "Stretch of rpe")
+      ->type_name("NUMBER")
+      ->check(finite_number());
   command.add_option("-u,--delta_unit", a.delta_unit, "f, s, m, d or r: frames, s, m, deg, rad")
       ->type_name("WORD");
   command.add_flag("--all_pairs", a.all_pairs, "rpe over all pairs");

@@ -1,5 +1,6 @@
 #include "harness/commands/judgement.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "harness/run/incomplete.hpp"
@@ -23,6 +24,24 @@ std::vector<Asked> usual_questions(const Protocol& protocol) {
     }
   }
   return out;
+}
+
+bool has_no_number(const Judgement& j) {
+  return std::ranges::none_of(j.metrics, [](const JudgedMetric& metric) {
+    return std::ranges::any_of(metric.scores,
+                               [](const Score& score) { return score.why_undefined.empty(); });
+  });
+}
+
+std::string status(const Judgement& j) {
+  if (!j.why_failed.empty()) return "failed";
+  if (has_no_number(j)) return "undefined";
+  return j.why_incomplete.empty() ? "ok" : "incomplete";
+}
+
+std::string why_not_ok(const Judgement& j) {
+  if (!j.why_failed.empty()) return j.why_failed;
+  return has_no_number(j) ? "nothing that was asked for is defined here" : j.why_incomplete;
 }
 
 Judgement judge(const Trajectory& reference,

@@ -50,7 +50,15 @@ struct Judgement {
   std::vector<Score> diagnosis;  ///< of `diagnostics` at its defaults
   std::vector<JudgedMetric> metrics;
   std::vector<PoseError> poses;  ///< only when asked for
+  std::string why_failed;        ///< set when nothing could be judged: names and protocol only
 };
+
+/// It failed, or everything asked for is undefined.
+bool has_no_number(const Judgement& judgement);
+
+/// ok, incomplete, undefined (everything asked for is) or failed; and why not ok.
+std::string status(const Judgement& judgement);
+std::string why_not_ok(const Judgement& judgement);
 
 /// The limits of coverage are those of sweeps. A metric that is undefined here says why; throws
 /// std::runtime_error only when nothing can be judged.
@@ -70,14 +78,15 @@ std::string text(const Judgement& judgement);
 std::string comparison(const std::vector<Judgement>& judgements);
 
 /// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
-/// estimate, protocol {name, version, changes, rules}, status (ok or incomplete), why, pairs,
+/// estimate, protocol {name, version, changes, rules}, status (see above), why, pairs,
 /// possible, coverage (pairs / possible), span, alignment {type, scale, rank, condition}, diagnosis
 /// {name: value}, metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
-/// [{metric, options, why}], with relation and axis when only one number of a metric is.
+/// [{metric, options, why}], with relation and axis when only one number of a metric is. What
+/// failed has no numbers, but empty metrics and undefined.
 std::string json(const std::vector<Judgement>& judgements);
 
-/// A line per score, a line per judged pose; doubles in full precision.
+/// A line per score, one for what failed, a line per judged pose; doubles in full precision.
 std::string csv(const std::vector<Judgement>& judgements);
 std::string pose_csv(const std::vector<Judgement>& judgements);
 

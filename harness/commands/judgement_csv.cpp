@@ -18,6 +18,9 @@ std::string csv(const std::vector<Judgement>& judgements) {
       "reference,estimate,protocol,protocol_version,metric,options,relation,axis,unit,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,scale,status,why\n";
   for (const Judgement& j : judgements) {
+    if (!j.why_failed.empty()) {
+      out += head(j) + ",,,,,,,,,,,,,,,,,failed," + quoted(j.why_failed) + "\n";
+    }
     const std::string tail =
         fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
     for (const JudgedMetric& metric : j.metrics) {

@@ -53,36 +53,38 @@ Json to_json(const Judgement& j) {
                          {"options", to_json(metric.options)},
                          {"why", metric.why_undefined}});
   }
-  return {{"reference", j.reference},
-          {"estimate", j.estimate},
-          {"protocol",
-           {{"name", j.protocol.name},
-            {"version", j.protocol.version},
-            {"changes", to_json(j.protocol.changes)},
-            {"rules", to_json(echo(j.protocol.rules))}}},
-          {"status", j.why_incomplete.empty() ? "ok" : "incomplete"},
-          {"why", j.why_incomplete},
-          {"pairs", j.coverage.pairs},
-          {"possible", j.coverage.possible},
-          {"coverage", j.coverage.share()},
-          {"span", j.coverage.span},
-          {"alignment",
-           {{"type", to_text(j.alignment.type)},
-            {"scale", j.alignment.scale},
-            {"rank", j.alignment.rank},
-            {"condition", j.alignment.condition}}},
-          {"diagnosis", std::move(diagnosis)},
-          {"metrics", std::move(scores)},
-          {"undefined", std::move(undefined)}};
+  Json out{{"reference", j.reference},
+           {"estimate", j.estimate},
+           {"protocol",
+            {{"name", j.protocol.name},
+             {"version", j.protocol.version},
+             {"changes", to_json(j.protocol.changes)},
+             {"rules", to_json(echo(j.protocol.rules))}}},
+           {"status", status(j)},
+           {"why", why_not_ok(j)}};
+  if (j.why_failed.empty()) {
+    out["pairs"] = j.coverage.pairs;
+    out["possible"] = j.coverage.possible;
+    out["coverage"] = j.coverage.share();
+    out["span"] = j.coverage.span;
+    out["alignment"] = {{"type", to_text(j.alignment.type)},
+                        {"scale", j.alignment.scale},
+                        {"rank", j.alignment.rank},
+                        {"condition", j.alignment.condition}};
+    out["diagnosis"] = std::move(diagnosis);
+  }
+  out["metrics"] = std::move(scores);
+  out["undefined"] = std::move(undefined);
+  return out;
 }
 
 }  // namespace
 
 std::string json(const std::vector<Judgement>& judgements) {
-  if (judgements.size() == 1) return to_json(judgements[0]).dump(2) + "\n";
   Json all = Json::array();
   for (const Judgement& judgement : judgements) all.push_back(to_json(judgement));
-  return all.dump(2) + "\n";
+  const Json& shown = all.size() == 1 ? all[0] : all;
+  return shown.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names are any bytes
 }
 
 }  // namespace loopbench

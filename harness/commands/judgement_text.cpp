@@ -152,11 +152,15 @@ std::string comparison(const std::vector<Judgement>& judgements) {
       row.resize(table->columns.size());
       row[place->second] = std::move(cell);
     };
-    put("coverage [%]", {100.0 * j.coverage.share(), 1, ""});
+    const bool is_failed = !j.why_failed.empty();
+    put("coverage [%]",
+        is_failed ? TableCell{std::nullopt, 0, "failed"}
+                  : TableCell{100.0 * j.coverage.share(), 1, ""});
     std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
     if (!j.why_incomplete.empty()) {
       notes.push_back({j.estimate, "", "incomplete", j.why_incomplete});
     }
+    if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
     for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
     for (const JudgedMetric& metric : j.metrics) {
       for (const auto& [relation, axis, unit, s, why] : metric.scores) {
@@ -173,7 +177,10 @@ std::string comparison(const std::vector<Judgement>& judgements) {
   }
   for (std::size_t t = 0; t < tables.size(); ++t) {
     tables[t].notes = grouped(missing[t]);
-    for (std::vector<TableCell>& row : tables[t].cells) row.resize(tables[t].columns.size());
+    for (std::vector<TableCell>& row : tables[t].cells) {
+      row.resize(tables[t].columns.size());
+      if (row.front().status == "failed") std::ranges::fill(row, row.front());
+    }
   }
   return markdown(tables);
 }

@@ -117,7 +117,7 @@ int list(const ListArguments& arguments) {
     print(subject, items(known, subject));
     if (arguments.subject.empty()) fmt::print("\n");
   }
-  if (arguments.json) fmt::print("{}\n", json.dump(2));
+  if (arguments.json) fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   return kExitOk;
 }
 

@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/export/write_file.hpp"
+#include "harness/store/open.hpp"
 
 namespace loopbench {
 
@@ -23,9 +25,11 @@ void add_report(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->capture_default_str();
   command->add_option("--size", arguments->megabytes, "Thin trajectories to stay below this [MB]")
+      ->check(finite_number())
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   command->callback([arguments, &exit_code] {
+    refuse_to_overwrite({store_file(arguments->store)}, arguments->out);
     const std::string html = report_html(read_report_content(arguments->store),
                                          static_cast<std::size_t>(1e6 * arguments->megabytes));
     write_file(arguments->out, html);

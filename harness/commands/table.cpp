@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
@@ -91,6 +92,7 @@ void add_table(CLI::App& app, int& exit_code) {
                       arguments->where,
                       "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated");
   command->add_option("--alpha", arguments->alpha, "Level at which a best value is marked")
+      ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   const std::map<std::string, TableFormat> formats{{"markdown", TableFormat::markdown},
@@ -100,8 +102,7 @@ void add_table(CLI::App& app, int& exit_code) {
                                                    {"json", TableFormat::json},
                                                    {"rows", TableFormat::rows}};
   command->add_option("--format", arguments->format, "How to print; rows is the long table")
-      ->transform(
-          CLI::CheckedTransformer(formats).description("markdown|terminal|latex|csv|json|rows"));
+      ->transform(one_of("format", formats));
   command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });

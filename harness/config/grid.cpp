@@ -1,7 +1,10 @@
 #include "harness/config/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 
 #include "datasets/core/error.hpp"
@@ -138,11 +141,20 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
     throw input_error(file, node.line, "a range with log: true needs from > 0 and to > 0");
   }
 
+  // 0.1 to 0.5 in five steps has 0.3 in it, not 0.30000000000000004: what arithmetic adds behind
+  // the 15th digit would stand in every label.
+  const auto rounded = [](double value) {
+    if (value == std::round(value)) return value;
+    std::array<char, 32> digits;
+    std::snprintf(digits.data(), digits.size(), "%.15g", value);
+    return std::strtod(digits.data(), nullptr);
+  };
   std::vector<double> points;
   for (std::int64_t i = 0; i < *steps; ++i) {
     const double u = *steps == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(*steps - 1);
     const bool is_end = i > 0 && i + 1 == *steps;  // exact, not to within rounding
-    points.push_back(is_end ? to : is_log ? from * std::pow(to / from, u) : from + u * (to - from));
+    const double between = is_log ? from * std::pow(to / from, u) : from + u * (to - from);
+    points.push_back(i == 0 ? from : is_end ? to : rounded(between));
   }
   if (!std::ranges::all_of(points, [](double p) { return std::isfinite(p); })) {
     throw input_error(file, node.line, "a range from, to must not be wider than a double is");

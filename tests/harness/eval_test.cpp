@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -163,6 +164,100 @@ TEST(Eval, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 3 poses is 1.0 s before another");
   EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
 }
+
+TEST(Eval, OneBadEstimateIsARowAndTheOthersStand) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.file("bad.txt", "1 0 0 \x1b[31m 0 0 0 1\n").string();
+  const std::string why = bad + ":1: column 4 (tz): '\x1b[31m' is not a number";
+  const std::vector<std::string> files{golden("gt.txt"), bad, golden("est_corrected.txt")};
+  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), bad}), why);  // alone: an error, as ever
+
+  const Json judged = eval_json(files, kExitSomeCellsFailed);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[0]["status"], "failed");
+  EXPECT_EQ(judged[0]["why"], why);
+  EXPECT_TRUE(judged[0]["metrics"].empty());
+  EXPECT_FALSE(judged[0].contains("pairs"));
+  EXPECT_EQ(judged[1]["status"], "ok");
+  EXPECT_EQ(judged[1]["pairs"], 635);
+
+  std::vector<std::string> as_csv = files;
+  as_csv.push_back("--csv");
+  const std::string csv = eval(as_csv, kExitSomeCellsFailed);
+  const std::string row =
+      golden("gt.txt") + "," + bad + ",loopbench,2,,,,,,,,,,,,,,,,,failed," + why;
+  EXPECT_NE(csv.find("\n" + row + "\n"), std::string::npos) << csv;
+  const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
+  EXPECT_EQ(commas(row), commas(csv.substr(0, csv.find('\n'))));
+
+  const std::string text = eval(files, kExitSomeCellsFailed);
+  EXPECT_NE(text.find("failed |"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n- " + bad + ": failed: " + bad + ":1: column 4 (tz): ' [31m' is not"),
+            std::string::npos)
+      << text;  // and nothing that a terminal would obey
+}
+
+TEST(Eval, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
+  const std::vector<std::string> both{
+      golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,kitti"};
+  const Json judged = eval_json(both, kExitSomeCellsFailed);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[0]["status"], "ok");
+  EXPECT_EQ(judged[1]["status"], "failed");
+  EXPECT_EQ(judged[1]["protocol"]["name"], "kitti");
+  EXPECT_NE(eval(both, kExitSomeCellsFailed).find("\n- " + golden("est_drift.txt") + ": failed: "),
+            std::string::npos);
+  EXPECT_EQ(refusal<InputError>({golden("absent.txt"), golden("gt.txt"), golden("gt.txt")}),
+            golden("absent.txt") + ": no such file");
+}
+
+TEST(Eval, NothingThatWasAskedForIsNoSuccess) {
+  const Json judged =
+      eval_json({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
+  EXPECT_EQ(judged["status"], "undefined");
+  EXPECT_EQ(judged["why"], "nothing that was asked for is defined here");
+  EXPECT_TRUE(judged["metrics"].empty());
+  EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 635 poses is 1e+09 frames before another");
+  const std::string text =
+      eval({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
+  EXPECT_NE(text.find(" undefined: rpe: none of 635 poses"), std::string::npos) << text;
+}
+
+TEST(Eval, TakesFiniteNumbersOnly) {
+  for (const char* option : {"--min-coverage=nan",
+                             "--t_max_diff=inf",
+                             "--max-gap=inf",
+                             "--t_offset=nan",
+                             "--delta=nan",
+                             "--period=inf"}) {
+    EXPECT_THROW(eval({golden("gt.txt"), golden("gt.txt"), option}), CLI::ValidationError)
+        << option;
+  }
+  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), golden("gt.txt"), "--set=max_diff=inf"}),
+            "--set: max_diff=inf: expected a finite number");
+}
+
+TEST(Eval, NamesNeedNotBeUtf8) {
+  const TemporaryFolder folder;
+  const std::string line = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 0 1 0 0 0 0 1\n";
+  const std::string file = folder.file("a\xff.txt", line).string();
+  EXPECT_EQ(eval_json({file, file})["estimate"],
+            (folder.path() / "a\xef\xbf\xbd.txt").string());  // U+FFFD
+}
+
+TEST(Eval, WritesOverNoneOfItsInputs) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(golden("est_drift.txt"), folder.path() / "mine.txt");
+  std::filesystem::create_symlink("mine.txt", folder.path() / "link");
+  const std::string mine = (folder.path() / "mine.txt").string();
+  const std::string link = (folder.path() / "." / "link").string();
+  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), mine, "--per-pose=" + link}),
+            link + ": is read by this command, so it is not written over");
+  EXPECT_THROW(eval({golden("gt.txt"), link, "--per-pose=" + mine}), InputError);
+  EXPECT_THROW(eval({mine, golden("gt.txt"), "--per-pose=" + mine}), InputError);
+  EXPECT_EQ(std::filesystem::file_size(mine), std::filesystem::file_size(golden("est_drift.txt")));
+}
+
 TEST(Eval, RefusesWhatItCannotJudge) {
   const std::string kitti = golden("kitti_gt.txt");
   const std::string tum = golden("gt.txt");

@@ -63,6 +63,22 @@ TEST(Grid, RangesReachTheirEndsExactly) {
   EXPECT_EQ(whole[1].settings[0].value, Param(std::int64_t{20}));
 }
 
+TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {
+  const auto texts = [](const std::string& range) {
+    std::string out;
+    for (const GridPoint& point : grid("method: m\nsweep: {a: " + range + "}\n")) {
+      out += text_of(point);
+    }
+    return out;
+  };
+  EXPECT_EQ(texts("{from: 0.1, to: 0.5, steps: 5}"), "a=0.1 a=0.2 a=0.3 a=0.4 a=0.5 ");
+  EXPECT_EQ(texts("{from: 0, to: 0.7, steps: 8}"),
+            "a=0.0 a=0.1 a=0.2 a=0.3 a=0.4 a=0.5 a=0.6 a=0.7 ");
+  EXPECT_EQ(texts("{from: 0.001, to: 1, steps: 4, log: true}"), "a=0.001 a=0.01 a=0.1 a=1.0 ");
+  // What was written stays to its last digit.
+  EXPECT_EQ(texts("{from: 0.30000000000000004, to: 1, steps: 2}"), "a=0.30000000000000004 a=1.0 ");
+}
+
 TEST(Grid, RefusesWithFileAndLine) {
   EXPECT_EQ(why("method: m\na: [1, 2]\n"), "c.yaml:2: a: a list belongs under 'sweep' or 'zip'");
   EXPECT_EQ(why("method: m\na:\n"), "c.yaml:2: a: has no value");

@@ -232,6 +232,27 @@ TEST_F(VerdictCli, ReportWritesOneFileThatEscapesItsNames) {
   EXPECT_EQ(run("report r -o c.yaml/report.html").exit_code, 2);
 }
 
+TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {
+  const std::string store = read("r/results.sqlite");
+  const std::string baseline = read("b.json");
+  const std::string config = read("c.yaml");
+  for (const char* arguments : {"table r -o r/results.sqlite",
+                                "compare r -o ./r/../r/results.sqlite",
+                                "profile r -o r/results.sqlite",
+                                "report r -o r/results.sqlite",
+                                "check r --baseline b.json --markdown b.json",
+                                "check r --baseline b.json --junit r/results.sqlite",
+                                "calibrate c.yaml --out c.yaml"}) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_TRUE(has(result.err, ": is read by this command, so it is not written over\n"))
+        << arguments << result.err;
+  }
+  EXPECT_EQ(read("r/results.sqlite"), store);
+  EXPECT_EQ(read("b.json"), baseline);
+  EXPECT_EQ(read("c.yaml"), config);
+}
+
 TEST_F(VerdictCli, PlotWritesFiguresOfChosenMethods) {
   const CommandResult result = run("plot r -o figures --methods raw,uniform --format svg");
   EXPECT_EQ(result.exit_code, 0) << result.err;

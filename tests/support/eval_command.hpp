@@ -21,8 +21,8 @@ inline std::string golden(const std::string& name) {
   return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
 }
 
-/// What `loopbench eval ARGS` prints.
-inline std::string eval(std::vector<std::string> arguments) {
+/// What `loopbench eval ARGS` prints, ending as expected.
+inline std::string eval(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   CLI::App app;
   int exit_code = -1;
   add_eval(app, exit_code);
@@ -35,13 +35,13 @@ inline std::string eval(std::vector<std::string> arguments) {
     testing::internal::GetCapturedStdout();
     throw;
   }
-  EXPECT_EQ(exit_code, kExitOk);
+  EXPECT_EQ(exit_code, expected_exit);
   return testing::internal::GetCapturedStdout();
 }
 
-inline Json eval_json(std::vector<std::string> arguments) {
+inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   arguments.push_back("--json");
-  return Json::parse(eval(std::move(arguments)));
+  return Json::parse(eval(std::move(arguments), expected_exit));
 }
 
 template <class Error>

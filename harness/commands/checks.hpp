@@ -1,0 +1,34 @@
+/// What the values of several commands' options are held to, refused in plain words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/suggest.hpp"
+
+namespace loopbench {
+
+/// A number that is neither NaN nor infinite (CLI11's own ranges let NaN pass).
+CLI::Validator finite_number();
+
+/// One of these words, each of which stands for its enumerator; `kind` is what they name.
+template <class Enum>
+CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>& words) {
+  std::vector<std::string> known;
+  std::string all;
+  for (const auto& [word, value] : words) {
+    known.push_back(word);
+    all += (all.empty() ? "" : "|") + word;
+  }
+  const auto translate = [kind, words, known](std::string& text) {
+    const auto found = words.find(text);
+    if (found == words.end()) return unknown_name(kind, text, known);
+    text = std::to_string(static_cast<int>(found->second));  // as CLI11 reads an enum
+    return std::string();
+  };
+  return CLI::Validator(translate, all);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,177 @@
+/// What is written and printed arrives, or is told; and nothing is destroyed on the way.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <thread>
+
+#include "datasets/core/error.hpp"
+#include "harness/export/write_file.hpp"
+#include "harness/printable.hpp"
+#include "tests/support/command.hpp"
+
+namespace loopbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string why_unwritten(const fs::path& file) {
+  try {
+    write_file(file, "new");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::size_t files_in(const TemporaryFolder& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+}
+
+TEST(WriteFile, MakesFoldersAndKeepsTheMode) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a/b", "new");
+  EXPECT_EQ(read_all(folder.path() / "a/b"), "new");
+  const fs::path mine = folder.file("mine", "old");
+  fs::permissions(mine, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(mine, "new");
+  EXPECT_EQ(read_all(mine), "new");
+  EXPECT_EQ(fs::status(mine).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(files_in(folder), 2u);  // nothing is left beside
+}
+
+TEST(WriteFile, FollowsLinks) {
+  const TemporaryFolder folder;
+  folder.file("there", "old");
+  fs::create_symlink("there", folder.path() / "link");
+  fs::create_symlink("link", folder.path() / "link_to_link");
+  fs::create_symlink("made", folder.path() / "dangling");
+  write_file(folder.path() / "link_to_link", "new");
+  write_file(folder.path() / "dangling", "new");
+  EXPECT_EQ(read_all(folder.path() / "there"), "new");
+  EXPECT_EQ(read_all(folder.path() / "made"), "new");
+  for (const char* link : {"link", "link_to_link", "dangling"}) {
+    EXPECT_TRUE(fs::is_symlink(folder.path() / link)) << link;
+  }
+}
+
+TEST(WriteFile, WritesIntoAPipe) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string got;
+  std::thread reader([&] { got = read_all(pipe); });
+  write_file(pipe, "new");
+  reader.join();
+  EXPECT_EQ(got, "new");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(WriteFile, RefusesWhatNobodyMayWrite) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("locked", "old");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(why_unwritten(file), file.string() + ": cannot be written: is read-only");
+  EXPECT_EQ(read_all(file), "old");
+  EXPECT_EQ(why_unwritten(folder.path()),
+            folder.path().string() + ": cannot be written: is a folder");
+  EXPECT_EQ(why_unwritten(file / "below"),
+            (file / "below").string() + ": cannot be written: Not a directory");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(WriteFile, KnowsAnInputByAnyName) {
+  const TemporaryFolder folder;
+  const fs::path input = folder.file("input", "old");
+  fs::create_hard_link(input, folder.path() / "twin");
+  EXPECT_THROW(refuse_to_overwrite({"absent", input}, folder.path() / "twin"), InputError);
+  EXPECT_NO_THROW(refuse_to_overwrite({input}, folder.path() / "new"));
+  EXPECT_NO_THROW(refuse_to_overwrite({input}, ""));
+  EXPECT_NO_THROW(refuse_to_overwrite({"/dev/null"}, "/dev/null"));
+}
+
+TEST(Printable, LeavesNothingThatSteersATerminal) {
+  EXPECT_EQ(printable("a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),
+            "a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  EXPECT_EQ(printable("\x1b[31m\t\r\x7f"), "\\x1b[31m\\x09\\x0d\\x7f");
+  EXPECT_EQ(printable(std::string(1, '\0')), "\\x00");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                    // C1: also starts a sequence
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");                    // no UTF-8; cut off
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // longer than it need be
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond Unicode
+}
+
+class Output : public testing::Test {
+ protected:
+  /// With standard output where `shell` sends it; what it prints on standard error.
+  CommandResult run(const std::string& arguments, const std::string& shell) {
+    const std::string line = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY "' " +
+                             arguments + " 2>err " + shell;
+    const int status = std::system(line.c_str());
+    return {WEXITSTATUS(status), "", read_all(folder_.path() / "err")};
+  }
+  TemporaryFolder folder_;
+  const fs::path poses_ =
+      folder_.file("a.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 0 1 0 0 0 0 1\n3 0 0 1 0 0 0 1\n");
+};
+
+TEST_F(Output, AFullDiskBehindStandardOutputIsTold) {
+  // Less and more than a buffer; printed by us and by CLI11.
+  for (const char* arguments : {"eval a.txt a.txt",
+                                "eval a.txt a.txt --json",
+                                "list",
+                                "list --json",
+                                "--version",
+                                "eval --help"}) {
+    const CommandResult result = run(arguments, ">/dev/full");
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(result.err, "loopbench: cannot write to standard output: No space left on device\n")
+        << arguments;
+  }
+}
+
+TEST_F(Output, AReaderThatHasHeardEnoughIsNoError) {
+  EXPECT_EQ(run("list --json", "| head -1 >out").err, "");
+  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // as some callers leave it to us
+  EXPECT_EQ(run("list --json", "| head -1 >out").err, "");
+  std::signal(SIGPIPE, usual);
+  EXPECT_EQ(read_all(folder_.path() / "out"), "{\n");
+}
+
+TEST_F(Output, AFileMayBeStandardOutputItself) {
+  run("eval a.txt a.txt --csv --per-pose /dev/stdout", ">both");
+  const std::string both = read_all(folder_.path() / "both");
+  EXPECT_EQ(both.find("reference,estimate,protocol,protocol_version,stamp,"), 0u) << both;
+  EXPECT_NE(both.find("\nreference,estimate,protocol,protocol_version,metric,"), std::string::npos);
+}
+
+TEST_F(Output, AnUnknownWordIsNamed) {
+  const auto said = [&](const std::string& arguments) {
+    const CommandResult result = run(arguments, ">out");
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    return result.err.substr(0, result.err.find('\n'));
+  };
+  EXPECT_EQ(said("eva a b"), "loopbench: no subcommand is named 'eva'; did you mean 'eval'?");
+  EXPECT_EQ(said("help"), "loopbench: no subcommand is named 'help'; did you mean '--help'?");
+  EXPECT_EQ(said("--foo"), "loopbench: no option is named '--foo' (known: --help, --version)");
+  EXPECT_EQ(said("eval a.txt a.txt --jsn"),
+            "loopbench: no option of eval is named '--jsn'; did you mean '--json'?");
+  EXPECT_EQ(
+      said("table x --format foo"),
+      "--format: no format is named 'foo' (known: csv, json, latex, markdown, rows, terminal)");
+  EXPECT_EQ(said("'e\x1b[31m'").find("loopbench: no subcommand is named 'e\\x1b[31m'"), 0u);
+}
+
+TEST_F(Output, HyphensAndUnderscoresAreOne) {
+  for (const char* arguments : {"eval a.txt a.txt --all-pairs --delta_unit m",
+                                "eval a.txt a.txt --min_coverage=0.5 --max_diff 1",
+                                "eval a.txt a.txt --align_origin",
+                                "eval a.txt a.txt --align-origin"}) {
+    EXPECT_EQ(run(arguments, ">out").err, "") << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
