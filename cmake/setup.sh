@@ -3,7 +3,7 @@
 
 packages=(
   g++ cmake ninja-build ccache
-  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libceres-dev
+  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
   libopencv-features2d-dev libopencv-calib3d-dev libopencv-imgcodecs-dev libstb-dev
   libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox
   "${more_packages[@]}"

@@ -32,7 +32,7 @@ struct MetricChoice {
   Choice metric;
 };
 
-/// Cells whose sequence and method labels both match are left out (ECMAScript regex, whole label).
+/// Cells whose sequence and method labels both match are left out (each a Pattern, of the whole label).
 struct Exclusion {
   std::string dataset = ".*";
   std::string method = ".*";

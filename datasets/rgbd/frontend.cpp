@@ -14,6 +14,8 @@
 namespace loopbench {
 namespace {
 
+constexpr std::size_t kFewestToTemper = 8;  // gaps whose median says something
+
 double since(double begin) { return cpu_seconds() - begin; }
 
 struct Seconds {
@@ -21,9 +23,11 @@ struct Seconds {
   double features = 0.0;
   double track = 0.0;
   double loops = 0.0;
+  double refine = 0.0;
   std::size_t frames_read = 0;  ///< the rest came from the cache
   std::size_t frames_tracked = 0;
   std::size_t keyframes_searched = 0;
+  std::size_t edges_refined = 0;
 };
 
 struct Timed {
@@ -111,6 +115,7 @@ std::string told(const Seconds& s) {
   rate(s.frames_read, s.features, "described");
   rate(s.frames_tracked, s.track, "tracked");
   rate(s.keyframes_searched, s.loops, "keyframes searched for loops");
+  rate(s.edges_refined, s.refine, "steps and loops measured again by depth");
   if (out.empty()) return "everything from the cache";
   return fmt::format("in a second of one core: {}; {} threads", out, cores());
 }
@@ -137,17 +142,53 @@ DetectedLoops find_loops(const Tracked& tracked,
   return cache.get(cache.loops(), unpacked_loops, make, pack);
 }
 
-/// Where loops disagree with odometry by more than both say, both are believed so much less. Never
-/// more: what they have in common (the same features, the same camera) no loop shows.
-void temper(Tracked& tracked, DetectedLoops& loops) {
-  constexpr std::size_t kFewest = 8;
-  const double excess = information_excess(tracked.odometry, loops.closures, kFewest);
+/// Measures odometry and closures again; keyframes and frames follow. Gives the factor by which
+/// steps seen by features and by depth disagree more than both say.
+double refine(Tracked& tracked,
+              DetectedLoops& loops,
+              const RgbdSource& source,
+              const FrontendOptions& options,
+              const FrontendHooks& hooks,
+              const StageCache& cache,
+              Seconds& seconds) {
+  const auto make = [&] {
+    RefinedEdges out = refine_by_depth(source,
+                                       tracked,
+                                       loops.closures,
+                                       options.track.pose,
+                                       options.features.depth_max,
+                                       options.refine,
+                                       [&](std::size_t done, std::size_t all) {
+                                         if (hooks.progress) hooks.progress("depth", done, all);
+                                       });
+    seconds.refine = out.seconds;
+    seconds.edges_refined = out.odometry.size() + out.closures.size();
+    return out;
+  };
+  const auto pack = [](const RefinedEdges& edges) { return packed(edges); };
+  RefinedEdges edges = cache.get(cache.refined(), unpacked_edges, make, pack);
+  tracked.notes.push_back(fmt::format("measured again by depth: {} of {} steps, {} of {} loops",
+                                      edges.odometry_refined,
+                                      edges.odometry.size(),
+                                      edges.closures_refined,
+                                      edges.closures.size()));
+  const double excess = remeasured_excess(tracked.odometry, edges.odometry, kFewestToTemper);
+  follow_odometry(tracked, edges.odometry);
+  loops.closures = std::move(edges.closures);
+  return excess;
+}
+
+/// Where loops disagree with odometry, or depth with features, by more than both say, all are
+/// believed so much less. Never more: what they have in common no such test shows.
+void temper(Tracked& tracked, DetectedLoops& loops, double depth_excess) {
+  const double loop_excess = information_excess(tracked.odometry, loops.closures, kFewestToTemper);
+  const double excess = std::max(loop_excess, depth_excess);
   if (!(excess > 1.0)) return;
   for (Edge& edge : tracked.odometry) edge.information /= excess;
   for (Edge& edge : loops.closures) edge.information /= excess;
   tracked.notes.push_back(
-      fmt::format("loops and odometry disagree by more than their residuals say: information "
-                  "divided by {:.2f}",
+      fmt::format("{} disagree by more than their residuals say: information divided by {:.2f}",
+                  depth_excess > loop_excess ? "features and depth" : "loops and odometry",
                   excess));
 }
 
@@ -183,7 +224,11 @@ Sequence run_frontend(const RgbdSource& source,
         source.size()));
   }
   DetectedLoops loops = find_loops(tracked, source, options, hooks, cache, seconds);
-  temper(tracked, loops);
+  double depth_excess = 1.0;
+  if (options.refine.depth) {
+    depth_excess = refine(tracked, loops, source, options, hooks, cache, seconds);
+  }
+  temper(tracked, loops, depth_excess);
 
   Sequence out;
   out.name = name;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "datasets/core/sequence.hpp"
+#include "datasets/rgbd/dense/refine_by_depth.hpp"
 #include "datasets/rgbd/loops/detector.hpp"
 #include "datasets/rgbd/rgbd_source.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
@@ -16,6 +17,7 @@ struct FrontendOptions {
   FeatureOptions features;
   TrackOptions track;
   LoopOptions loops;
+  RefineOptions refine;
   double skipped_max = 0.5;
 };
 
@@ -24,6 +26,7 @@ void fields(FrontendOptions& o, Visit visit) {
   fields(o.features, visit);
   fields(o.track, visit);
   fields(o.loops, visit);
+  fields(o.refine, visit);
   visit("skipped_max", o.skipped_max, "share of frames that may be unreadable [-]", Between{0, 1});
 }
 
@@ -38,9 +41,10 @@ struct FrontendHooks {
 /// Images are read and features found on all cores, a few frames ahead of the tracker; no more
 /// images than that are in memory. Kept are the features of keyframes (60 kB each) and poses.
 /// Frames that cannot be read are skipped and said in the provenance's notes; more than
-/// skipped_max of them, or fewer than two tracked keyframes, throw InputError. Noted too: focal
-/// lengths that the images contradict (check_focal), and information divided by
-/// information_excess() where that is above 1.
+/// skipped_max of them, or fewer than two tracked keyframes, throw InputError. With refine.depth,
+/// odometry and closures are measured again by refine_by_depth(), and keyframes and frames follow.
+/// Noted too: focal lengths that the images contradict (check_focal), and information divided by
+/// information_excess() or remeasured_excess(), the larger, where that is above 1.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,

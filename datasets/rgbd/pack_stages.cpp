@@ -49,6 +49,11 @@ void each(Io&& io, T& loops, const DetectedLoops*) {
   io(loops.closures), io(loops.candidates);
 }
 
+template <class Io, class T>
+void each(Io&& io, T& e, const RefinedEdges*) {
+  io(e.odometry), io(e.closures), io(e.odometry_refined), io(e.closures_refined);
+}
+
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_same_v<T, Feature>;
 
@@ -139,5 +144,7 @@ std::string packed(const Tracked& tracked) { return written(tracked); }
 Tracked unpacked_tracked(const std::string& bytes) { return read<Tracked>(bytes); }
 std::string packed(const DetectedLoops& loops) { return written(loops); }
 DetectedLoops unpacked_loops(const std::string& bytes) { return read<DetectedLoops>(bytes); }
+std::string packed(const RefinedEdges& edges) { return written(edges); }
+RefinedEdges unpacked_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
 
 }  // namespace loopbench

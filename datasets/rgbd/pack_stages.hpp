@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "datasets/rgbd/dense/refine_by_depth.hpp"
 #include "datasets/rgbd/features/features.hpp"
 #include "datasets/rgbd/loops/detector.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
@@ -22,5 +23,7 @@ std::string packed(const Tracked& tracked);
 Tracked unpacked_tracked(const std::string& bytes);
 std::string packed(const DetectedLoops& loops);
 DetectedLoops unpacked_loops(const std::string& bytes);
+std::string packed(const RefinedEdges& edges);
+RefinedEdges unpacked_edges(const std::string& bytes);
 
 }  // namespace loopbench

@@ -22,7 +22,9 @@ StageCache::StageCache(const std::filesystem::path& folder,
   const std::uint64_t track = mixed(features, to_text(echo(options.track)));
   frames_ = cached_path(folder, "features", features);
   tracked_ = cached_path(folder, "track", track);
-  loops_ = cached_path(folder, "loops", mixed(track, to_text(echo(options.loops))));
+  const std::uint64_t loops = mixed(track, to_text(echo(options.loops)));
+  loops_ = cached_path(folder, "loops", loops);
+  refined_ = cached_path(folder, "refined", mixed(loops, to_text(echo(options.refine))));
 }
 
 std::filesystem::path StageCache::frame(std::size_t index) const {

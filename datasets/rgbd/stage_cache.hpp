@@ -10,7 +10,7 @@
 namespace loopbench {
 
 /// Keys follow what goes in: images and feature options; then tracking options too; then those of
-/// the loops. An empty folder keeps nothing.
+/// the loops; then those of the refinement by depth. An empty folder keeps nothing.
 class StageCache {
  public:
   StageCache(const std::filesystem::path& folder,
@@ -20,6 +20,7 @@ class StageCache {
   std::filesystem::path frame(std::size_t index) const;
   const std::filesystem::path& tracked() const { return tracked_; }
   const std::filesystem::path& loops() const { return loops_; }
+  const std::filesystem::path& refined() const { return refined_; }
 
   /// What `file` holds, by `unpack`; otherwise what `make` gives, kept there by `pack`.
   template <class Unpack, class Make, class Pack>
@@ -41,6 +42,7 @@ class StageCache {
   std::filesystem::path frames_;
   std::filesystem::path tracked_;
   std::filesystem::path loops_;
+  std::filesystem::path refined_;
 };
 
 }  // namespace loopbench

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <regex>
 
 #include "harness/calibrate/calibration_text.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/export/write_file.hpp"
+#include "harness/pattern/pattern.hpp"
 #include "harness/run/sequences.hpp"
 
 namespace loopbench {
@@ -27,14 +27,6 @@ constexpr std::size_t kStretches[] = {1, 5, 20, 50};
 constexpr std::size_t kSegment = 10;  // of the bootstrap, in stretches
 constexpr std::uint64_t kSeed = 1;
 
-std::regex pattern(const std::string& text) {
-  try {
-    return std::regex(text.empty() ? ".*" : text);
-  } catch (const std::regex_error&) {
-    throw InputError("--train: '" + text + "' is not a regular expression");
-  }
-}
-
 std::vector<Residuals> residuals_of(const std::vector<std::shared_ptr<const Sequence>>& sequences,
                                     const std::vector<std::string>& labels,
                                     std::size_t every) {
@@ -49,13 +41,13 @@ std::vector<Residuals> residuals_of(const std::vector<std::shared_ptr<const Sequ
 int calibrate(const CalibrateArguments& arguments) {
   const Catalogue known = catalogue({});
   const Sweep sweep = read_sweep(arguments.config, known);
-  const std::regex train = pattern(arguments.train);
+  const Pattern train = Pattern::of_option("--train", arguments.train);
   std::vector<Cell> wanted;
   Calibration out;
   out.config = std::filesystem::path(arguments.config).filename().string();
   out.every = arguments.every;
   for (std::size_t d = 0; d < sweep.datasets.size(); ++d) {
-    if (std::regex_search(sweep.datasets[d].label, train)) {
+    if (train.is_in(sweep.datasets[d].label)) {
       wanted.push_back({.index = wanted.size(), .dataset = d});
     } else {
       out.not_trained_on.push_back(sweep.datasets[d].label);

@@ -28,6 +28,11 @@ void deliver(const std::string& text,
   }
   if (file.empty()) {
     fmt::print("{}", out);
+    if (format == ExportFormat::csv) {
+      fmt::print(stderr,
+                 "loopbench: {}\nloopbench: with -o FILE all that made it is written beside\n",
+                 made_by(origin.provenance));
+    }
     return;
   }
   write_file(file, out);

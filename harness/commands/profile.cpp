@@ -1,10 +1,10 @@
 #include "harness/profile/profile.hpp"
 
 #include <CLI/CLI.hpp>
-#include <regex>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
+#include "harness/pattern/pattern.hpp"
 #include "harness/store/read.hpp"
 
 namespace loopbench {
@@ -19,15 +19,10 @@ struct ProfileArguments {
 };
 
 int print_profile(const ProfileArguments& arguments) {
-  std::regex wanted;
-  try {
-    wanted = std::regex(arguments.only);
-  } catch (const std::regex_error&) {
-    throw InputError("--only: '" + arguments.only + "' is not a regular expression");
-  }
+  const Pattern wanted = Pattern::of_option("--only", arguments.only);
   std::vector<CellRecord> cells = read_cells(arguments.store);
   std::erase_if(cells, [&](const CellRecord& cell) {
-    return !std::regex_search(cell.sequence + " / " + cell.method, wanted);
+    return !wanted.is_in(cell.sequence + " / " + cell.method);
   });
   if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
   value(Record{}, arguments.accuracy.value);  // refuses a wrong name before anything is printed

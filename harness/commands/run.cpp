@@ -89,6 +89,21 @@ std::string printed_tables(const std::filesystem::path& file) {
   return text.substr(0, text.rfind("\n<!-- "));
 }
 
+void say_damage(const Resumed& resumed, const std::filesystem::path& store) {
+  if (!resumed.damaged.empty()) {
+    fmt::print(
+        stderr,
+        "loopbench: {}: not what was written, so run anew: {}{}\n",
+        store.string(),
+        resumed.damaged.front(),
+        resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
+  } else if (resumed.lost) {
+    fmt::print(stderr,
+               "loopbench: {}: its list of cells was damaged; what is missing is run anew\n",
+               store.string());
+  }
+}
+
 int run(const RunArguments& arguments, const Source& source) {
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(arguments.config, known);
@@ -108,6 +123,7 @@ int run(const RunArguments& arguments, const Source& source) {
       std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
   const Resumed resumed =
       store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
+  say_damage(resumed, file);
   const std::vector<Cell>& missing = resumed.missing;
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
@@ -180,8 +196,12 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("DIR");
   command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
       ->type_name("FILE");
-  command->add_option("--retry", arguments->retry, "Run again what is there: failed cells, or all")
-      ->check(CLI::IsMember({"none", "failed", "all"}))
+  command
+      ->add_option(
+          "--retry",
+          arguments->retry,
+          "Run again what is there: failed cells, damaged ones (looks at traces too), or all")
+      ->check(CLI::IsMember({"none", "failed", "damaged", "all"}))
       ->capture_default_str();
   command->add_flag(
       "--fresh", arguments->fresh, "Start anew; what is there stays as previous.sqlite");

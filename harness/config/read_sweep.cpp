@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/export/where.hpp"
+#include "harness/pattern/pattern.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -36,7 +36,6 @@ constexpr int kRunsWhenAlone = 5;
 /// Limits that nobody's sweep meets, so that a few lines cannot ask for hours.
 constexpr std::size_t kMostChoices = 10'000;  // of datasets, of methods, of metrics
 constexpr std::size_t kMostRules = 1'000;     // protocols, exclusions
-constexpr std::size_t kLongestPattern = 1'000;
 
 /// Reads one config; knows the file for its messages.
 class SweepReader {
@@ -221,13 +220,10 @@ class SweepReader {
 
   std::string pattern(const YamlNode& node, const std::string& key) const {
     const std::string text = word(node, key);
-    if (text.size() > kLongestPattern) {  // std::regex recurses into it, 50 kB of brackets crash it
-      throw input_error(file_, node.line, key + ": a pattern of more than 1000 characters");
-    }
     try {
-      std::regex{text};
-    } catch (const std::regex_error&) {
-      throw input_error(file_, node.line, key + ": '" + text + "' is not a regular expression");
+      Pattern{text};
+    } catch (const InputError& error) {
+      throw input_error(file_, node.line, key + ": " + error.what());
     }
     return text;
   }

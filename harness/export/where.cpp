@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 
 #include "datasets/core/error.hpp"
+#include "harness/pattern/pattern.hpp"
 
 namespace loopbench {
 namespace {
@@ -13,7 +13,7 @@ struct Condition {
   std::string field;
   std::string text;
   bool is_wanted = true;  // false: field!=text
-  std::optional<std::regex> pattern;
+  std::optional<Pattern> pattern;
 };
 
 /// At commas outside of brackets: labels like `evo (align=se3, first=10)` stay whole.
@@ -45,8 +45,6 @@ Condition condition(const std::string& part) {
     if (part[at] == '~') out.pattern.emplace(out.text);
   } catch (const InputError& error) {
     throw InputError("where: '" + part + "': " + error.what());
-  } catch (const std::regex_error&) {
-    throw InputError("where: '" + out.text + "' is not a regular expression");
   }
   return out;
 }
@@ -54,7 +52,7 @@ Condition condition(const std::string& part) {
 bool holds(const Condition& condition, const Record& record) {
   const std::string text = field(record, condition.field);
   if (record.metric.empty() && text.empty()) return true;
-  if (condition.pattern) return std::regex_search(text, *condition.pattern);
+  if (condition.pattern) return condition.pattern->is_in(text);
   return (text == condition.text) == condition.is_wanted;
 }
 

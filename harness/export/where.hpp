@@ -9,7 +9,7 @@
 
 namespace loopbench {
 
-/// Each rule is `field=text`, `field!=text` or `field~regex` (ECMAScript, found anywhere), or
+/// Each rule is `field=text`, `field!=text` or `field~regex` (a Pattern, found anywhere), or
 /// several of them separated by commas outside of brackets; all must hold. Fields are those of
 /// `field` in record.hpp. A cell that left no score passes rules about fields it does not have:
 /// its reason belongs into every table. Throws InputError naming the rule.

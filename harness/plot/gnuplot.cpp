@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "datasets/core/error.hpp"
+#include "harness/export/write_file.hpp"
 
 namespace loopbench {
 namespace {
@@ -110,12 +113,15 @@ void write_figure(const std::filesystem::path& file,
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   script += "unset multiplot\n";
 
-  std::error_code ignored;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
-  std::FILE* pipe = popen("gnuplot 2>&1 >/dev/null", "w");
+  write_file(file, "");  // says why when it cannot be written, as gnuplot does not
+  std::FILE* pipe = popen("gnuplot >/dev/null", "w");
   if (pipe == nullptr) throw InputError(file.string() + ": cannot start gnuplot");
+  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // where there is no gnuplot to read it
   const bool sent = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (pclose(pipe) != 0 || !sent || !std::filesystem::exists(file)) {
+  const int ended = pclose(pipe);
+  std::signal(SIGPIPE, usual);
+  if (ended != 0 || !sent || std::filesystem::file_size(file) == 0) {
+    std::filesystem::remove(file);
     throw InputError(file.string() + ": gnuplot could not draw it (package gnuplot-nox)");
   }
 }

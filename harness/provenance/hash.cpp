@@ -1,7 +1,6 @@
 #include "harness/provenance/hash.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -83,6 +82,14 @@ Hash hash_of_file(const std::filesystem::path& file) {
   return out;
 }
 
-std::string hex(const Hash& hash) { return fmt::format("{:016x}{:016x}", hash.low, hash.high); }
+std::string hex(const Hash& hash) {
+  std::string out(32, '0');
+  for (std::size_t i = 0; i < 16; ++i) {
+    const std::size_t shift = 60 - 4 * i;
+    out[i] = "0123456789abcdef"[hash.low >> shift & 15];
+    out[16 + i] = "0123456789abcdef"[hash.high >> shift & 15];
+  }
+  return out;
+}
 
 }  // namespace loopbench

@@ -1,25 +1,21 @@
 #include "harness/run/cells.hpp"
 
 #include <algorithm>
-#include <regex>
 
-#include "datasets/core/error.hpp"
+#include "harness/pattern/pattern.hpp"
 
 namespace loopbench {
 
 std::vector<Cell> cells(const Sweep& sweep,
                         const std::vector<bool>& seeded,
                         const std::string& only) {
-  std::regex wanted;
-  try {
-    wanted = std::regex(only);
-  } catch (const std::regex_error&) {
-    throw InputError("--only: '" + only + "' is not a regular expression");
-  }
+  const Pattern wanted = Pattern::of_option("--only", only);
+  std::vector<std::pair<Pattern, Pattern>> exclusions;
+  for (const Exclusion& rule : sweep.exclude)
+    exclusions.emplace_back(Pattern(rule.dataset), Pattern(rule.method));
   const auto excluded = [&](const std::string& dataset, const std::string& method) {
-    return std::ranges::any_of(sweep.exclude, [&](const Exclusion& rule) {
-      return std::regex_match(dataset, std::regex(rule.dataset)) &&
-             std::regex_match(method, std::regex(rule.method));
+    return std::ranges::any_of(exclusions, [&](const auto& rule) {
+      return rule.first.is_all_of(dataset) && rule.second.is_all_of(method);
     });
   };
 
@@ -33,7 +29,7 @@ std::vector<Cell> cells(const Sweep& sweep,
     for (std::size_t m = 0; m < sweep.methods.size(); ++m) {
       const std::string& method = sweep.methods[m].label;
       if (excluded(dataset, method)) continue;
-      if (std::regex_search(dataset + " / " + method, wanted)) {
+      if (wanted.is_in(dataset + " / " + method)) {
         chosen.push_back(m);
         offset.push_back(kept);
       }

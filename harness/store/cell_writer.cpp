@@ -33,16 +33,22 @@ void remove_cell(Database& database, std::int64_t id) {
 
 CellWriter::CellWriter(Database& database)
     : database_(database),
-      remove_(database.prepare("SELECT id FROM cell WHERE position = ?")),
+      remove_(database.prepare("SELECT id, digest FROM cell WHERE position = ?")),
       cell_(database.prepare(
-          "INSERT INTO cell VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+          "INSERT INTO cell (position, key, build, asked, sequence, repeat, method, "
+          "dataset_options, "
+          "method_options, closures, oracle_closures, oracle, worker, runs, seconds_median, "
+          "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
+          "status, signal, why, failed_scores) VALUES "
+          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
       score_(
           database.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
       section_(database.prepare("INSERT INTO section VALUES (?,?,?,?,?)")),
-      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?)")) {}
+      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?)")),
+      digests_(database) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   Transaction transaction(database_);
@@ -52,10 +58,16 @@ void CellWriter::write(const CellResult& result, CellKeys& keys) {
 
 void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   remove_.bind(static_cast<std::int64_t>(result.cell.index));
-  std::vector<std::int64_t> before;
-  while (remove_.step()) before.push_back(remove_.integer());
+  std::vector<std::pair<std::int64_t, std::string>> before;
+  while (remove_.step()) {
+    const std::int64_t id = remove_.integer();
+    before.emplace_back(id, remove_.text());
+  }
   remove_.reset();
-  for (const std::int64_t id : before) remove_cell(database_, id);
+  for (const auto& [id, digest] : before) {
+    remove_cell(database_, id);
+    digests_.remove("cell", digest);
+  }
 
   if (result.facts) write_facts(result.cell, keys, *result.facts);
   const std::int64_t id = write_cell(result, keys);
@@ -72,6 +84,7 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
         .bind_blob(bytes_of(result.trace.samples))
         .run();
   }
+  digests_.add_cell(id);
 }
 
 std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
@@ -158,7 +171,13 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .run();
   }
   const SequenceSize& size = facts.size;
-  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?,?)")
+  Statement there = database_.prepare("SELECT digest FROM sequence WHERE asked = ?");
+  if (there.bind(asked).step()) digests_.remove("sequence", there.text());
+  there.reset();
+  database_
+      .prepare(
+          "INSERT OR REPLACE INTO sequence (asked, options, keyframes, odometry, closures, frames, "
+          "reference) VALUES (?,?,?,?,?,?,?)")
       .bind(asked)
       .bind(keys.dataset_in_full(cell))
       .bind(size.keyframes)
@@ -180,6 +199,7 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .bind_blob(bytes_of(trace.closures))
         .run();
   }
+  digests_.add_sequence(asked);
   facts_.insert(asked);
 }
 

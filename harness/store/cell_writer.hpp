@@ -7,6 +7,7 @@
 #include "harness/provenance/cell_keys.hpp"
 #include "harness/run/result.hpp"
 #include "harness/store/sqlite.hpp"
+#include "harness/store/write_digests.hpp"
 
 namespace loopbench {
 
@@ -34,10 +35,11 @@ class CellWriter {
   Statement note_;
   Statement section_;
   Statement trace_;
+  DigestWriter digests_;
   std::set<std::string> facts_;  ///< sequences whose facts are written, by `asked`
 };
 
-/// Removes the cell with that id from every table.
+/// Removes the cell with that id from every table; not from the sum of digests.
 void remove_cell(Database& database, std::int64_t id);
 
 }  // namespace loopbench

@@ -8,8 +8,10 @@
 #include "datasets/core/error.hpp"
 #include "harness/run/result.hpp"
 #include "harness/store/cell_writer.hpp"
+#include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/schema.hpp"
+#include "harness/store/write_digests.hpp"
 
 namespace loopbench {
 namespace {
@@ -29,7 +31,8 @@ constexpr const char* kCellColumns =
     "key, build, asked, sequence, repeat, method, dataset_options, method_options, closures, "
     "oracle_closures, oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
     "cpu_seconds_median, peak_memory, added_memory, allocations, status, signal, why, "
-    "failed_scores";
+    "failed_scores, score_digest, phase_digest, count_digest, note_digest, section_digest, "
+    "trace_digest";
 
 /// The tables that belong to a cell, and their columns but `cell`.
 constexpr std::pair<const char*, const char*> kDetails[] = {
@@ -42,17 +45,21 @@ constexpr std::pair<const char*, const char*> kDetails[] = {
     {"section", "kind, begin_stamp, end_stamp, what"},
     {"trace", "times, samples"}};
 
+Database with_tables(const std::filesystem::path& file) {
+  Database out(file, Database::Mode::create);
+  out.execute(kSchema);
+  out.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  return out;
+}
+
 class Merge {
  public:
   Merge(const std::filesystem::path& file, bool mixed_builds)
-      : database_(file, Database::Mode::create), mixed_builds_(mixed_builds) {
-    database_.execute(kSchema);
-    database_.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  }
+      : database_(with_tables(file)), digests_(database_), mixed_builds_(mixed_builds) {}
 
   void add(const std::filesystem::path& store) {
     store_ = store_file(store).string();
-    { open_store(store_); }  // checks it, and takes up what a kill has left
+    require_whole_store(store_);  // and takes up what a kill has left
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
@@ -64,7 +71,13 @@ class Merge {
     database_.execute("DETACH source");
   }
 
-  Merged done() const { return {by_key_.size(), twice_}; }
+  Merged done() {
+    Transaction transaction(database_);
+    for (const char* table : {"cell", "sequence"}) renew_sum(database_, table);
+    for (const char* table : {"run", "provenance"}) renew_texts(database_, table);
+    transaction.commit();
+    return {by_key_.size(), twice_};
+  }
 
  private:
   std::vector<MergedCell> source_cells() {
@@ -133,6 +146,7 @@ class Merge {
         .bind(cell.method)
         .bind(id)
         .run();
+    digests_.renew_cell(id);
     for (const auto& [table, fields] : kDetails) {
       const std::string name = table;
       const std::string list = fields;
@@ -154,10 +168,18 @@ class Merge {
       throw InputError(store_ + ": read another " + other.text() + " than the stores before it");
     }
     other.reset();
-    for (const char* table : {"input", "sequence", "sequence_trace"}) {
+    // Whole from one store, for their digests; one with a trace rather than one without.
+    for (const char* table : {"input", "sequence"}) {
+      database_.execute("DELETE FROM main." + std::string(table) +
+                        " WHERE asked IN (SELECT m.asked FROM main.sequence m JOIN "
+                        "source.sequence s ON s.asked = m.asked WHERE m.trace_digest = '' AND "
+                        "s.trace_digest <> '')");
+    }
+    for (const char* table : {"input", "sequence_trace", "sequence"}) {
       const std::string name = table;
-      database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
-                        " WHERE asked IN (SELECT asked FROM main.cell)");
+      database_.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
+                        " WHERE asked IN (SELECT asked FROM main.cell) AND asked NOT IN (SELECT "
+                        "asked FROM main.sequence)");
     }
   }
 
@@ -176,6 +198,7 @@ class Merge {
   }
 
   Database database_;
+  DigestWriter digests_;
   bool mixed_builds_;
   std::string store_;  ///< being added
   std::string build_;  ///< of the first cell
@@ -204,6 +227,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
       for (const std::filesystem::path& store : stores) merge.add(store);
       merged = merge.done();
     }
+    require_whole_store(partial);  // what a damaged index did not find was not copied
     std::filesystem::rename(partial, out);
     return merged;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -28,6 +28,7 @@ Database open_store(const std::filesystem::path& given) {
   const std::filesystem::path file = store_file(given);
   Database database(file, Database::Mode::read);
   check_schema(database, file);
+  database.execute("BEGIN");
   return database;
 }
 

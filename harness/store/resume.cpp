@@ -4,6 +4,8 @@
 #include <set>
 #include <unordered_map>
 
+#include "harness/store/write_digests.hpp"
+
 namespace loopbench {
 namespace {
 
@@ -21,48 +23,28 @@ struct Row {
 
 using Rows = std::unordered_map<std::string, std::vector<Row>>;  // by key
 
-Rows read_rows(Database& database) {
-  Statement rows = database.prepare(
-      "SELECT key, id, position, sequence, repeat, method, status, failed_scores FROM cell "
-      "ORDER BY id");
+Rows rows_of(const CellRows& cells) {
   Rows out;
-  while (rows.step()) {
-    std::vector<Row>& same_key = out[rows.text()];
-    Row row;
-    row.id = rows.integer();
-    const bool placed = !rows.is_null();
-    const std::int64_t position = rows.integer();
-    row.position = placed ? position : -1;
-    row.sequence = rows.text();
-    row.repeat = rows.integer();
-    row.method = rows.text();
-    row.status = from_text<Status>(rows.text()).value_or(Status::failed);
-    row.failed = is_failure(row.status) || rows.integer() > 0;
-    same_key.push_back(std::move(row));
-  }
-  return out;
-}
-
-std::map<std::string, std::vector<InputFile>> read_input_rows(Database& database) {
-  Statement rows =
-      database.prepare("SELECT asked, path, bytes, hash FROM input ORDER BY asked, number");
-  std::map<std::string, std::vector<InputFile>> out;
-  while (rows.step()) {
-    std::vector<InputFile>& files = out[rows.text()];
-    InputFile file;
-    file.path = rows.text();
-    file.bytes = static_cast<std::uint64_t>(rows.integer());
-    file.hash = rows.text();
-    files.push_back(std::move(file));
+  for (const CellRow& cell : cells.cells) {
+    const CellRecord& c = cell.record;
+    const Status status = from_text<Status>(c.status).value_or(Status::failed);
+    out[c.key].push_back({cell.id,
+                          cell.placed ? c.position : -1,
+                          c.sequence,
+                          c.repeat,
+                          c.method,
+                          status,
+                          is_failure(status) || cell.failed_scores > 0});
   }
   return out;
 }
 
 /// The key of every cell, with the inputs as they are now.
-std::vector<std::string> keys_now(Database& database,
+std::vector<std::string> keys_now(const SequenceRows& sequences,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
-  auto inputs = read_input_rows(database);
+  std::map<std::string, std::vector<InputFile>> inputs;
+  for (const auto& [asked, row] : sequences.by_asked) inputs.emplace(asked, row.inputs);
   std::set<std::string> fresh;
   std::vector<std::string> out;
   out.reserve(all.size());
@@ -104,21 +86,26 @@ std::vector<Row*> claim(Rows& rows,
 }  // namespace
 
 Resumed match(Database& database,
+              const Sound& there,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  Rows rows = read_rows(database);
-  const std::vector<Row*> claimed = claim(rows, keys_now(database, keys, all), all, sweep);
+  Rows rows = rows_of(there.cells);
+  const std::vector<Row*> claimed = claim(rows, keys_now(there.sequences, keys, all), all, sweep);
+  DigestWriter digests(database);
 
   Resumed out;
+  out.damaged = there.removed;
+  out.lost = there.lost;
   out.unchanged = true;
   Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
   for (const auto& [key, same_key] : rows) {
     for (const Row& row : same_key) {
       if (row.claimed || row.position < 0) continue;
       set_aside.bind(row.id).run();
+      digests.renew_cell(row.id);
       out.unchanged = false;
     }
   }
@@ -141,7 +128,9 @@ Resumed match(Database& database,
         .bind(sweep.methods[all[i].method].label)
         .bind(row.id)
         .run();
+    digests.renew_cell(row.id);
   }
+  if (!out.unchanged) renew_sum(database, "cell");
   for (const Cell& cell : planned) {
     const auto found = by_position.find(cell.index);
     const Row* row = found == by_position.end() ? nullptr : found->second;

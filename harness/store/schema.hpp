@@ -3,7 +3,7 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 4;
+inline constexpr int kSchemaVersion = 5;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -25,7 +25,10 @@ inline constexpr const char* kSchema = R"sql(
     odometry INTEGER NOT NULL,         -- edges
     closures INTEGER NOT NULL,
     frames INTEGER NOT NULL,           -- tracked between keyframes
-    reference INTEGER NOT NULL         -- poses the judge has
+    reference INTEGER NOT NULL,        -- poses the judge has
+    input_digest TEXT NOT NULL DEFAULT '',   -- of its rows in input
+    trace_digest TEXT NOT NULL DEFAULT '',   -- of its row in sequence_trace
+    digest TEXT NOT NULL DEFAULT ''          -- of this row
     ) WITHOUT ROWID;
   CREATE TABLE cell (
     id INTEGER PRIMARY KEY,            -- what other tables call cell
@@ -54,7 +57,14 @@ inline constexpr const char* kSchema = R"sql(
                                        -- out_of_memory
     signal TEXT NOT NULL,              -- SIGSEGV and the like, when one ended it
     why TEXT NOT NULL,
-    failed_scores INTEGER NOT NULL);   -- rows of score with status failed
+    failed_scores INTEGER NOT NULL,    -- rows of score with status failed
+    score_digest TEXT NOT NULL DEFAULT '',   -- of its rows in score, and so on; '': it has none
+    phase_digest TEXT NOT NULL DEFAULT '',
+    count_digest TEXT NOT NULL DEFAULT '',
+    note_digest TEXT NOT NULL DEFAULT '',
+    section_digest TEXT NOT NULL DEFAULT '',
+    trace_digest TEXT NOT NULL DEFAULT '',
+    digest TEXT NOT NULL DEFAULT '');        -- of this row
   CREATE TABLE score (
     cell INTEGER NOT NULL REFERENCES cell(id),
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
@@ -94,6 +104,9 @@ inline constexpr const char* kSchema = R"sql(
     reference BLOB NOT NULL,           -- TracePose, 8 floats each
     keyframes BLOB NOT NULL,           -- TracePose, in the tracker's own world
     closures BLOB NOT NULL);           -- TraceClosure, 8 floats each
+  CREATE TABLE digest (                -- of whole tables, see harness/store/digest.hpp
+    name TEXT PRIMARY KEY,             -- run, provenance; cell, sequence: sum of their digests
+    value TEXT NOT NULL);
   CREATE INDEX cell_position ON cell(position);
   CREATE INDEX score_cell ON score(cell);
   CREATE INDEX phase_cell ON phase(cell);

@@ -11,12 +11,14 @@ void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_final
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
   sqlite3* handle = nullptr;
-  const int flags = mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
-                                         : SQLITE_OPEN_READWRITE;  // a WAL left by a kill is merged
+  // One thread at a time; a WAL left by a kill is merged by whoever opens it for writing.
+  const int flags =
+      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   int code = sqlite3_open_v2(file_.c_str(), &handle, flags, nullptr);
   if (code != SQLITE_OK && mode == Mode::read) {
     sqlite3_close(handle);
-    code = sqlite3_open_v2(file_.c_str(), &handle, SQLITE_OPEN_READONLY, nullptr);
+    code = sqlite3_open_v2(
+        file_.c_str(), &handle, SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READONLY, nullptr);
   }
   handle_.reset(handle);
   if (code != SQLITE_OK) fail("cannot be opened");
@@ -50,7 +52,10 @@ Statement Database::prepare(const std::string& sql) {
 }
 
 void Database::fail(const std::string& doing) const {
-  throw InputError(file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()));
+  const bool damaged = sqlite3_errcode(handle_.get()) == SQLITE_CORRUPT;
+  throw InputError(
+      file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()) +
+      (damaged ? "; run its config with --fresh, which keeps it as previous.sqlite" : ""));
 }
 
 void Statement::expect(int code, const char* doing) const {
@@ -112,6 +117,34 @@ double Statement::real() { return sqlite3_column_double(handle_.get(), column_++
 bool Statement::is_null() const {
   return sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
 }
+
+int Statement::columns() const { return sqlite3_column_count(handle_.get()); }
+
+std::string_view Statement::bytes_of_columns(int from, int to) {
+  bytes_.clear();
+  const auto append = [&](const void* data, std::size_t size) {
+    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+  };
+  for (int i = from; i < to; ++i) {
+    const int type = sqlite3_column_type(handle_.get(), i);
+    bytes_ += static_cast<char>(type);
+    if (type == SQLITE_INTEGER) {
+      const std::int64_t value = sqlite3_column_int64(handle_.get(), i);
+      append(&value, sizeof value);
+    } else if (type == SQLITE_FLOAT) {
+      const double value = sqlite3_column_double(handle_.get(), i);
+      append(&value, sizeof value);
+    } else if (type != SQLITE_NULL) {
+      const void* data = type == SQLITE_TEXT ? sqlite3_column_text(handle_.get(), i)
+                                             : sqlite3_column_blob(handle_.get(), i);
+      const std::int64_t size = sqlite3_column_bytes(handle_.get(), i);
+      append(&size, sizeof size);
+      append(data, static_cast<std::size_t>(size));
+    }
+  }
+  return bytes_;
+}
+
 std::string Statement::blob() {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));

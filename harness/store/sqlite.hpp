@@ -64,6 +64,11 @@ class Statement {
   std::string blob();
   bool is_null() const;  ///< of the next column, which stays the next
 
+  int columns() const;
+  /// Types and values of the row's columns in [from, to), so that no two rows give the same bytes.
+  /// Valid until the next call.
+  std::string_view bytes_of_columns(int from, int to);
+
  private:
   friend class Database;
   struct Finalize {
@@ -76,6 +81,7 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
   int parameter_ = 0;
   int column_ = 0;
+  std::string bytes_;
 };
 
 /// Everything or nothing: what is not committed when it is destroyed is undone.

@@ -4,9 +4,11 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/store/cell_writer.hpp"
+#include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/schema.hpp"
+#include "harness/store/write_digests.hpp"
 #include "harness/version.hpp"
 
 namespace loopbench {
@@ -36,34 +38,20 @@ void make_ready(Database& database) {
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
 }
 
-/// Every row whole, every index in step with its table. Not of the traces, which are nearly all of
-/// the file and whose chains SQLite checks when it reads them; but none of them may be cut off.
-void check_whole(Database& database, const std::filesystem::path& file) {
-  const auto refuse = [&](const std::string& found) {
-    throw InputError(file.string() + ": is damaged (" + found +
-                     "); --fresh keeps it as previous.sqlite and starts anew");
-  };
-  if (!std::filesystem::exists(file.string() + "-wal")) {  // else its end may lie there
-    Statement pages =
-        database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
-    const std::int64_t whole = pages.step() ? pages.integer() : 0;
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
-    if (size < whole) refuse(fmt::format("{} bytes of {}", size, whole));
-  }
-  for (const char* table : {"run",
-                            "provenance",
-                            "input",
-                            "sequence",
-                            "cell",
-                            "score",
-                            "phase",
-                            "count",
-                            "note",
-                            "section"}) {
-    Statement check = database.prepare("PRAGMA quick_check(" + std::string(table) + ")");
-    const std::string found = check.step() ? check.text() : "no answer";
-    if (found != "ok") refuse(found);
-  }
+/// SQLite reads a file that was cut off as far as it goes.
+void check_size(Database& database, const std::filesystem::path& file) {
+  if (std::filesystem::exists(file.string() + "-wal")) return;  // its end may lie there
+  Statement pages =
+      database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
+  const std::int64_t whole = pages.step() ? pages.integer() : 0;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
+  if (size >= whole) return;
+  throw InputError(
+      fmt::format("{}: is damaged ({} bytes of {}); --fresh keeps it as previous.sqlite and starts "
+                  "anew",
+                  file.string(),
+                  size,
+                  whole));
 }
 
 /// Killed between making the file and its tables.
@@ -87,6 +75,7 @@ void say_run(Database& database, const Sweep& sweep) {
   }
   say("protocol", rules);
   say("baseline", sweep.baseline);
+  renew_texts(database, "run");
 }
 
 std::string config_of(Database& database) {
@@ -104,6 +93,7 @@ void say_provenance(Database& database,
       "char(10) || excluded.value WHERE "
       "instr(char(10) || value || char(10), char(10) || excluded.value || char(10)) = 0");
   for (const auto& [key, value] : provenance) insert.bind(key).bind(value).run();
+  renew_texts(database, "provenance");
 }
 
 }  // namespace
@@ -127,7 +117,7 @@ Store::Store(std::filesystem::path file,
     return;
   }
   check_schema(*database_, file_);
-  check_whole(*database_, file_);
+  check_size(*database_, file_);
   make_ready(*database_);
 }
 
@@ -160,17 +150,26 @@ void Store::create() {
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   say_run(*database_, keys_.sweep());
   say_provenance(*database_, provenance_, true);
+  renew_sum(*database_, "cell");
+  renew_sum(*database_, "sequence");
   transaction.commit();
 }
 
 Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry) {
-  if (!database_) return {planned, 0, 0, 0, false, false};
+  if (!database_) {
+    Resumed nothing;
+    nothing.missing = planned;
+    return nothing;
+  }
   Transaction transaction(*database_);
-  Resumed out = match(*database_, keys_, all, planned, retry);
+  const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
+  Resumed out = match(*database_, there, keys_, all, planned, retry);
   out.unchanged = out.unchanged && config_of(*database_) == keys_.sweep().text;
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
+  // Digests are of tables, but a cell is replaced by way of an index.
+  if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
     say_run(*database_, keys_.sweep());
@@ -183,16 +182,24 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
 void Store::write(const CellResult& result) {
   if (!database_) create();
   if (!writer_) {
+    Transaction transaction(*database_);
     changes();
+    transaction.commit();
     writer_ = std::make_unique<Writer>(*database_);
   }
   writer_->write(result, keys_);
 }
 
-void Store::changes() { database_->execute("DELETE FROM run WHERE key = 'exported'"); }
+void Store::changes() {
+  database_->execute("DELETE FROM run WHERE key = 'exported'");
+  renew_texts(*database_, "run");
+}
 
 void Store::exported() {
+  Transaction transaction(*database_);
   database_->execute("INSERT OR REPLACE INTO run VALUES ('exported', 'yes')");
+  renew_texts(*database_, "run");
+  transaction.commit();
 }
 
 }  // namespace loopbench

@@ -20,22 +20,26 @@
 
 namespace loopbench {
 
-/// Which cells that are there are run again.
-enum class Retry { none, failed, all };
+/// Which cells that are there are run again. What is damaged is in any case; `damaged` looks at
+/// traces and indexes too.
+enum class Retry { none, failed, damaged, all };
 inline auto choices(Retry) {
   return std::array{std::pair{"none", Retry::none},
                     std::pair{"failed", Retry::failed},
+                    std::pair{"damaged", Retry::damaged},
                     std::pair{"all", Retry::all}};
 }
 
 /// What a store makes of a plan.
 struct Resumed {
-  std::vector<Cell> missing;   ///< to be run, in order
-  std::size_t there = 0;       ///< planned cells that need no run
-  std::size_t failed = 0;      ///< of those, kept failures
-  std::size_t incomplete = 0;  ///< of those, judged below min_coverage
-  bool unchanged = false;      ///< the store holds exactly the sweep, of exactly this config
-  bool exported = false;       ///< and what is derived from it was written, see Store::exported()
+  std::vector<Cell> missing;         ///< to be run, in order
+  std::size_t there = 0;             ///< planned cells that need no run
+  std::size_t failed = 0;            ///< of those, kept failures
+  std::size_t incomplete = 0;        ///< of those, judged below min_coverage
+  bool unchanged = false;            ///< the store holds exactly the sweep, of exactly this config
+  std::vector<std::string> damaged;  ///< cells that were, and count as missing; by label
+  bool lost = false;      ///< others may have been lost: they were not as many as written
+  bool exported = false;  ///< and what is derived from it was written, see Store::exported()
 };
 
 class Store {
@@ -52,6 +56,7 @@ class Store {
   Store& operator=(const Store&) = delete;
 
   /// Gives cells that are there their place in the sweep, by their keys, and sets aside the others.
+  /// What is not as it was written is taken out first, see damage.hpp.
   /// `all`: every cell of the sweep; `planned`: those that --only leaves. O(cells + bytes of
   /// input).
   Resumed resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry);

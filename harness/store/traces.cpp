@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "datasets/core/error.hpp"
+#include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
 
 namespace loopbench {
@@ -21,47 +22,71 @@ std::vector<Item> from_blob(const std::string& bytes) {
 
 }  // namespace
 
-Traces::Traces(const std::filesystem::path& file) : database_(open_store(file)) {}
+Traces::Traces(const std::filesystem::path& file)
+    : file_(store_file(file)),
+      database_(open_store(file)),
+      rows_(read_cell_rows(database_)),
+      sequences_(read_sequence_rows(database_)),
+      sections_(rows_.cells.size()) {
+  read_details(database_, "section", rows_, [&](std::size_t cell, Statement& row) {
+    Section& section = sections_[cell].emplace_back();
+    section.kind = row.text();
+    section.begin = row.real();
+    section.end = row.real();
+    section.what = row.text();
+  });
+  require_whole(rows_, file_);
+  require_whole(sequences_, file_);
+  database_.execute("COMMIT");  // a report takes long: whoever writes need not wait for it
+  for (const std::size_t i : in_order(rows_))
+    by_position_.emplace(rows_.cells[i].record.position, i);
+}
+
+const CellRow* Traces::row(std::int64_t position) const {
+  const auto found = by_position_.find(position);
+  return found == by_position_.end() ? nullptr : &rows_.cells[found->second];
+}
 
 std::optional<CellTrace> Traces::cell(std::int64_t position) {
-  Statement row = database_.prepare(
-      "SELECT t.times, t.samples FROM trace t JOIN cell c ON c.id = t.cell WHERE c.position = ?");
-  if (!row.bind(position).step()) return std::nullopt;
+  const CellRow* cell = row(position);
+  if (cell == nullptr) return std::nullopt;
+  if (cell->details[detail_number("trace")].empty()) return std::nullopt;
+  Statement found = database_.prepare("SELECT * FROM trace WHERE cell = ?");
+  if (!found.bind(cell->id).step() ||
+      digest_of_columns(found, 1, found.columns()) != cell->details[detail_number("trace")]) {
+    refuse_damaged(file_, "the trace of " + label_of(cell->record) + " is");
+  }
   CellTrace out;
-  out.times = from_text<Times>(row.text()).value_or(Times::dense);
-  out.samples = from_blob<TraceSample>(row.blob());
+  found.integer();  // cell
+  out.times = from_text<Times>(found.text()).value_or(Times::dense);
+  out.samples = from_blob<TraceSample>(found.blob());
   return out;
 }
 
 std::vector<Section> Traces::sections(std::int64_t position) {
-  Statement rows = database_.prepare(
-      "SELECT s.kind, s.begin_stamp, s.end_stamp, s.what FROM section s JOIN cell c ON c.id = "
-      "s.cell "
-      "WHERE c.position = ? ORDER BY s.rowid");
-  rows.bind(position);
-  std::vector<Section> out;
-  while (rows.step()) {
-    Section& section = out.emplace_back();
-    section.kind = rows.text();
-    section.begin = rows.real();
-    section.end = rows.real();
-    section.what = rows.text();
-  }
-  return out;
+  const auto found = by_position_.find(position);
+  return found == by_position_.end() ? std::vector<Section>{} : sections_[found->second];
 }
 
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
-  Statement row = database_.prepare(
-      "SELECT s.origin_stamp, s.origin_x, s.origin_y, s.origin_z, s.reference, s.keyframes, "
-      "s.closures FROM sequence_trace s JOIN cell c ON c.asked = s.asked WHERE c.position = ?");
-  if (!row.bind(position).step()) return std::nullopt;
-  SequenceTrace out;
-  for (double* number : {&out.origin.stamp, &out.origin.x, &out.origin.y, &out.origin.z}) {
-    *number = row.real();
+  const CellRow* cell = row(position);
+  if (cell == nullptr) return std::nullopt;
+  const auto sequence = sequences_.by_asked.find(cell->asked);
+  if (sequence == sequences_.by_asked.end()) return std::nullopt;
+  if (sequence->second.trace_digest.empty()) return std::nullopt;
+  Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE asked = ?");
+  if (!found.bind(cell->asked).step() ||
+      digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
+    refuse_damaged(file_, "the trace of sequence " + cell->record.sequence + " is");
   }
-  out.reference = from_blob<TracePose>(row.blob());
-  out.keyframes = from_blob<TracePose>(row.blob());
-  out.closures = from_blob<TraceClosure>(row.blob());
+  SequenceTrace out;
+  found.text();  // asked
+  for (double* number : {&out.origin.stamp, &out.origin.x, &out.origin.y, &out.origin.z}) {
+    *number = found.real();
+  }
+  out.reference = from_blob<TracePose>(found.blob());
+  out.keyframes = from_blob<TracePose>(found.blob());
+  out.closures = from_blob<TraceClosure>(found.blob());
   return out;
 }
 

@@ -4,8 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
 #include "harness/run/trace.hpp"
+#include "harness/store/cell_rows.hpp"
+#include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
 #include "methods/report.hpp"
 
@@ -14,10 +18,12 @@ namespace loopbench {
 /// The traces of one store, which stays open; not for several threads at once.
 class Traces {
  public:
-  /// `file` may be the folder that holds results.sqlite. Throws InputError.
+  /// `file` may be the folder that holds results.sqlite. Throws InputError when
+  /// its cells, sections or sequences are not what was written. O(rows of these).
   explicit Traces(const std::filesystem::path& file);
 
-  /// Of the cell at that position of the sweep (Record::cell); nothing when none was kept.
+  /// Of the cell at that position of the sweep (Record::cell); nothing when none was kept. Throws
+  /// InputError when it is not what was written, as sequence() does.
   std::optional<CellTrace> cell(std::int64_t position);
 
   /// How the method of that cell cut up the way; empty when it told nothing. Stamps [s].
@@ -27,7 +33,14 @@ class Traces {
   std::optional<SequenceTrace> sequence(std::int64_t position);
 
  private:
+  const CellRow* row(std::int64_t position) const;
+
+  std::filesystem::path file_;
   Database database_;
+  CellRows rows_;
+  SequenceRows sequences_;
+  std::vector<std::vector<Section>> sections_;  ///< as rows_
+  std::unordered_map<std::int64_t, std::size_t> by_position_;
 };
 
 /// A list of trace structs as they lie in memory; valid as long as the list.

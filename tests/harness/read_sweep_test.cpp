@@ -93,7 +93,7 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "baseline: shifd\n")),
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
-            "c.yaml:7: method: '(' is not a regular expression");
+            "c.yaml:7: method: '(' is not a regular expression (missing ): ()");
   EXPECT_EQ(why(config("- line",
                        "- shift",
                        "- ate",

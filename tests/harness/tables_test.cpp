@@ -54,7 +54,7 @@ TEST(Where, RefusesByName) {
             "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
   EXPECT_EQ(refusal_of([] { where({"ate"}); }),
             "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
-  EXPECT_EQ(refusal_of([] { where({"method~("}); }), "where: '(' is not a regular expression");
+  EXPECT_EQ(refusal_of([] { where({"method~("}); }), "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
 }

@@ -54,7 +54,9 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
 
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
   EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
-  EXPECT_EQ(run("compare r --format csv").out.rfind("protocol,times,metric", 0), 0u);
+  const CommandResult printed = run("compare r --format csv");
+  EXPECT_EQ(printed.out.rfind("protocol,times,metric", 0), 0u);
+  EXPECT_TRUE(has(printed.err, "loopbench: loopbench 0.")) << "what made it: " << printed.err;
   EXPECT_TRUE(has(run("compare r --format latex").out, "\\begin{tabular}{lrrrrrrrrr}\n\\toprule"));
   EXPECT_TRUE(
       has(run("compare r --format terminal").out, "ate rmse, keyframes, loopbench\nmethod "));
@@ -239,6 +241,19 @@ TEST_F(VerdictCli, PlotWritesFiguresOfChosenMethods) {
   const CommandResult slip = run("plot r --methods unifrom");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_TRUE(has(slip.err, "did you mean 'uniform'?")) << slip.err;
+}
+
+TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
+  const CommandResult taken = run("plot r -o c.yaml");
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_EQ(taken.out, "");
+  EXPECT_TRUE(has(taken.err, "cannot be written: Not a directory")) << taken.err;
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const CommandResult alone = run("plot r -o without");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_TRUE(has(alone.err, "gnuplot could not draw it (package gnuplot-nox)")) << alone.err;
 }
 
 }  // namespace

@@ -7,12 +7,14 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/solvers/initial_values.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
 namespace {
 
+using test::count;
 using test::random_information;
 using test::random_twist;
 using test::walk;
@@ -150,10 +152,6 @@ TEST(PoseGraph, BoundedLossesPullLess) {
   EXPECT_LT(moved(Loss::cauchy), moved(Loss::huber));
   EXPECT_LT(moved(Loss::dcs), 0.01 * plain);
   EXPECT_LT(moved(Loss::switchable), 0.01 * plain);
-}
-
-double count(const Report& report, const std::string& name) {
-  return std::ranges::find(report.counts, name, &Count::name)->value;
 }
 
 /// Three keyframes on a line, steps measured as 1 m, the whole way as 2.3 m, all equally sure.

@@ -10,6 +10,7 @@
 #include "methods/smoothers/spline/knots.hpp"
 #include "methods/smoothers/spline_regression.hpp"
 #include "methods/solvers/spline_solver.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -17,14 +18,6 @@ namespace loopbench {
 namespace {
 
 using namespace test;
-
-double count(const Report& report, const std::string& name) {
-  for (const Count& each : report.counts) {
-    if (each.name == name) return each.value;
-  }
-  ADD_FAILURE() << "no count " << name;
-  return std::nan("");
-}
 
 TEST(SplineFactor, JacobiansAgreeWithDifferences) {
   std::mt19937_64 random(4);

@@ -18,6 +18,7 @@ FrontendOptions quick() {
   out.track.inliers_min = 15;
   out.loops.inliers_min = 30;
   out.loops.min_gap = 1.0;
+  out.refine.depth = false;  // has its own tests; it takes as long again under a sanitizer
   return out;
 }
 
@@ -117,10 +118,12 @@ TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
   const TemporaryFolder folder;
   FrontendHooks cached;
   cached.cache = folder.path() / "cache";
-  const Sequence first = run_frontend(source, "room", quick(), {});
-  const Sequence second = run_frontend(source, "room", quick(), cached);
+  FrontendOptions options = quick();
+  options.refine.depth = true;
+  const Sequence first = run_frontend(source, "room", options, {});
+  const Sequence second = run_frontend(source, "room", options, cached);
   expect_same(first, second);
-  const Sequence third = run_frontend(source, "room", quick(), cached);
+  const Sequence third = run_frontend(source, "room", options, cached);
   expect_same(first, third);
   FrontendOptions other = quick();  // features are taken from the cache, tracks are not
   other.track.keyframes.angle_max = 5.0;
@@ -130,7 +133,35 @@ TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(cached.cache)) {
     if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), entry.file_size() / 2);
   }
-  expect_same(first, run_frontend(source, "room", quick(), cached));
+  expect_same(first, run_frontend(source, "room", options, cached));
+}
+
+double mean_step_error(const Sequence& sequence, const OutAndBack& source) {
+  double out = 0.0;
+  for (const Edge& edge : sequence.problem.odometry) {
+    const auto truth = [&](std::size_t k) {
+      const double stamp = sequence.problem.keyframes[k].stamp;
+      return source.reference()[static_cast<std::size_t>(stamp / 0.125 + 0.5)].world_from_body;
+    };
+    const Pose step = truth(edge.from).inverse() * truth(edge.to);
+    out += (edge.from_from_to.translation - step.translation).norm();
+  }
+  return out / static_cast<double>(sequence.problem.odometry.size());
+}
+
+TEST(Frontend, DepthMakesStepsBetter) {
+  const OutAndBack source(0, 0);
+  FrontendOptions options = quick();
+  options.loops.enabled = false;
+  const Sequence before = run_frontend(source, "room", options, {});
+  options.refine.depth = true;
+  const Sequence after = run_frontend(source, "room", options, {});
+  check(after.problem, "room");
+  ASSERT_EQ(after.problem.keyframes.size(), before.problem.keyframes.size());
+  EXPECT_LT(mean_step_error(after, source), 0.8 * mean_step_error(before, source));
+  std::string told;
+  for (const std::string& note : after.provenance.notes) told += note + "\n";
+  EXPECT_NE(told.find("measured again by depth: "), std::string::npos) << told;
 }
 
 TEST(Frontend, SaysWhereTrackingWasLostAndRecovered) {

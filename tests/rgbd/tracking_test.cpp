@@ -150,6 +150,17 @@ TEST(NormalisedGap, IsOneOnAverageWhenTheInformationIsRight) {
   EXPECT_NEAR(sum / 200.0, 1.0, 0.12);  // three standard deviations of the mean
 }
 
+// 2 m and 5 m, each with variance 1, lie 3 apart with variance 2; together they say 3.5 m.
+TEST(RemeasuredGap, IsTheDistanceOverItsVarianceWorkedByHand) {
+  const std::vector<Edge> first{{0, 1, step_of(2.0)}, {1, 2, step_of(1.0)}};
+  std::vector<Edge> again{{0, 1, step_of(3.5)}, first[1]};
+  again[0].information = 2.0 * Matrix6::Identity();
+  const std::vector<double> gaps = remeasured_gaps(first, again);
+  ASSERT_EQ(gaps.size(), 1u);  // the other stayed as it was
+  EXPECT_NEAR(gaps[0], 9.0 / 2.0 / 6.0, 1e-5);
+  EXPECT_EQ(remeasured_excess(first, again, 2), 1.0);  // too few to tell
+}
+
 TEST(Descriptors, DistanceIsTheShareOfBits) {
   const Features f = two_groups();
   EXPECT_FLOAT_EQ(descriptor_distance(f, 0, f, 4), 0.0f);

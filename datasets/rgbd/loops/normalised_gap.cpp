@@ -13,6 +13,13 @@ Matrix6 carried(const Pose& by, const Matrix6& covariance) {
   return A * covariance * A.transpose();
 }
 
+double excess_of(std::vector<double> gaps, std::size_t fewest) {
+  if (gaps.empty() || gaps.size() < fewest) return 1.0;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return *middle / kMedianOfSix;
+}
+
 }  // namespace
 
 std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
@@ -40,11 +47,28 @@ std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
 double information_excess(const std::vector<Edge>& odometry,
                           const std::vector<Edge>& closures,
                           std::size_t fewest) {
-  std::vector<double> gaps = normalised_gaps(odometry, closures);
-  if (gaps.empty() || gaps.size() < fewest) return 1.0;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle / kMedianOfSix;
+  return excess_of(normalised_gaps(odometry, closures), fewest);
+}
+
+std::vector<double> remeasured_gaps(const std::vector<Edge>& first,
+                                    const std::vector<Edge>& again) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Matrix6 second = again[i].information - first[i].information;
+    if (second.isZero()) continue;
+    // Where both together lie, they pull equally: first * moved = second * (second's own move).
+    const Twist moved = log_se3(first[i].from_from_to.inverse() * again[i].from_from_to);
+    const Twist pull = first[i].information * moved;
+    const Matrix6 solvable = second + 1e-6 * Matrix6::Identity();  // walls leave directions open
+    out.push_back((moved.dot(pull) + pull.dot(solvable.ldlt().solve(pull))) / 6.0);
+  }
+  return out;
+}
+
+double remeasured_excess(const std::vector<Edge>& first,
+                         const std::vector<Edge>& again,
+                         std::size_t fewest) {
+  return excess_of(remeasured_gaps(first, again), fewest);
 }
 
 }  // namespace loopbench

@@ -51,8 +51,11 @@
   R.chart = (host, o) => {
     // As wide as there is room, so that letters keep their size on a telephone.
     const width = o.width || Math.max(330, Math.min(600, host.clientWidth || 600));
-    const height = Math.round((o.height || 420) * (o.y.band ? 1 : Math.min(1, 0.3 + (0.7 * width) / 600)));
-    const margin = { top: 10, right: 14, bottom: 44, left: 60, ...o.margin };
+    // There the names of rows stand above them instead of taking half the room.
+    const above = o.y.band !== undefined && width < 480;
+    const height = above ? 60 + 36 * o.y.band.length
+      : Math.round((o.height || 420) * (o.y.band ? 1 : Math.min(1, 0.3 + (0.7 * width) / 600)));
+    const margin = { top: 10, right: 14, bottom: 44, left: 60, ...o.margin, ...(above ? { left: 14 } : {}) };
     const inner = { width: width - margin.left - margin.right, height: height - margin.top - margin.bottom };
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${width} ${height}`)
       .attr("role", "img").attr("aria-label", o.label);
@@ -62,7 +65,7 @@
     let [xDomain, yDomain] = [o.x.domain, o.y.domain];
     if (o.equal) [xDomain, yDomain] = equalised(xDomain, yDomain, inner.width, inner.height);
     const scale = (axis, domain, range) => axis.band
-      ? d3.scaleBand(axis.band, range).padding(0.25)
+      ? d3.scaleBand(axis.band, range).padding(above ? 0.5 : 0.25)
       : (axis.log ? d3.scaleLog(domain, range) : d3.scaleLinear(domain, range));
     const x0 = scale(o.x, xDomain, [0, inner.width]);
     const y0 = scale(o.y, yDomain, o.y.band ? [0, inner.height] : [inner.height, 0]);
@@ -85,15 +88,25 @@
       const leading = b / a < 300 ? [1, 2, 5] : b / a < 3000 ? [1, 3] : [1];
       return s.ticks(30).filter((t) => leading.includes(Math.round(t / Math.pow(10, Math.floor(Math.log10(t) + 1e-9)))));
     };
+    // Numbers take some 7 px a digit: what would touch the one before is left out.
+    const apart = (values, s) => {
+      let end = -Infinity;
+      return values.filter((t) => {
+        const half = 3.5 * (o.x.log ? R.number(t) : s.tickFormat(7)(t)).length + 3;
+        return s(t) - half >= end && ((end = s(t) + half), true);
+      });
+    };
     const render = (x, y) => {
-      const xTicks = ticks(x, o.x, 7);
+      const xTicks = apart(ticks(x, o.x, Math.min(7, Math.ceil(inner.width / 60))), x);
       bottom.call(d3.axisBottom(x).tickValues(xTicks).tickFormat(o.x.log ? R.number : null).tickSizeOuter(0));
       grid.selectAll("line").remove();
       grid.selectAll(null).data(xTicks).join("line").attr("x1", (t) => x(t)).attr("x2", (t) => x(t)).attr("y2", inner.height);
       if (o.y.band) {
         left.call(d3.axisLeft(y).tickSize(0).tickPadding(8).tickFormat(o.y.name || null));
+        if (above) left.raise().selectAll("text").attr("class", "halo").attr("x", 4).attr("y", -17).attr("text-anchor", "start");
       } else {
-        const yTicks = ticks(y, o.y, 6);
+        let last = Infinity;
+        const yTicks = ticks(y, o.y, 6).filter((t) => last - y(t) >= 13 && ((last = y(t)), true));
         left.call(d3.axisLeft(y).tickValues(yTicks).tickFormat(o.y.log ? R.number : null).tickSizeOuter(0));
         grid.selectAll(null).data(yTicks).join("line").attr("x2", inner.width).attr("y1", (t) => y(t)).attr("y2", (t) => y(t));
       }

@@ -54,7 +54,7 @@
     const all = rows.flatMap((m) => [m.ratio, ...(m.interval || [])]).concat(1);
     R.chart(host, {
       label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
-      x: { label: "ratio to the baseline, geometric mean (left is better)", domain: R.paddedLog(d3.extent(all)), log: true },
+      x: { label: "geometric mean ratio (left is better)", domain: R.paddedLog(d3.extent(all)), log: true },
       y: { band: rows.map((m) => place.get(m.method)), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
         group.append("line").attr("class", "zero").attr("x1", x(1)).attr("x2", x(1)).attr("y1", 0).attr("y2", 1e4);

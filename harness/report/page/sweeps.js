@@ -79,7 +79,8 @@
     const [xs, ys] = [axis(option), axis(other).reverse()];
     R.caption(host, `${family.name}: ${option} and ${other}`, R.kindLabel(kind));
     if (!all.length) return R.nothing(host, "No value of this score here.");
-    const [width, height, left, top] = [600, 330, 80, 10];
+    const width = Math.max(330, Math.min(600, host.clientWidth || 600));
+    const [height, left, top] = [330, width < 480 ? 60 : 80, 10];
     const x = d3.scaleBand(xs, [left, width - 14]).padding(0.04);
     const y = d3.scaleBand(ys, [top, height - 50]).padding(0.04);
     const [low, high] = d3.extent(all);

@@ -1,0 +1,183 @@
+#include "datasets/rgbd/dense/refine_by_depth.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/interpolate.hpp"
+#include "datasets/rgbd/cpu_clock.hpp"
+#include "datasets/rgbd/dense/align_surface.hpp"
+#include "datasets/rgbd/ordered_pipeline.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr int kSurfaceWidth = 160;        // [px]
+constexpr double kFarthestMove = 0.15;    // [m]
+constexpr double kFarthestTurn = 0.15;    // [rad]
+constexpr double kGuessedVariance = 0.1;  // of an edge's least certain direction [m^2], [rad^2]
+constexpr std::size_t kClosureReach = 1;  // neighbours of the older keyframe, to each side
+
+/// Nothing was measured: the tracker joined two maps.
+bool is_guess(const Edge& edge) {
+  return edge.information.diagonal().minCoeff() < 1.0 / kGuessedVariance;
+}
+
+bool is_better(const Alignment& found, const Pose& prior, const RefineOptions& options) {
+  const Pose moved = prior.inverse() * found.world_from_camera;
+  return is_finite(found.world_from_camera) && found.share >= options.overlap_min &&
+         moved.translation.norm() < kFarthestMove && log_so3(moved.rotation).norm() < kFarthestTurn;
+}
+
+struct TimedDepth {
+  SmallDepth image;
+  double seconds = 0.0;
+};
+
+/// Small depth images of all keyframes; none of what cannot be read.
+std::vector<SmallDepth> keyframe_depths(const RgbdSource& source,
+                                        const std::vector<Keyframe>& keyframes,
+                                        double depth_max,
+                                        double& seconds) {
+  const Camera camera = source.camera();
+  const auto read = [&](std::size_t k) {
+    const double begin = cpu_seconds();
+    TimedDepth out;
+    std::string why;
+    if (const auto images = source.read(keyframes[k].frame, why)) {
+      out.image = small_depth(images->depth, camera, kSurfaceWidth, depth_max);
+    }
+    out.seconds = cpu_seconds() - begin;
+    return out;
+  };
+  std::vector<SmallDepth> out;
+  ordered_pipeline<TimedDepth>(
+      keyframes.size(), cores(), 4 * cores(), read, [&](std::size_t, TimedDepth one) {
+        seconds += one.seconds;
+        out.push_back(std::move(one.image));
+      });
+  return out;
+}
+
+/// Every keyframe laid on those before it. Gives its pose in the first one's world.
+std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
+                                  const PoseOptions& pose,
+                                  const RefineOptions& options,
+                                  const std::function<void(std::size_t)>& progress,
+                                  RefinedEdges& out) {
+  std::vector<Pose> world_from_keyframe{Pose{Rotation::Identity(), Vector3::Zero()}};
+  const auto window = static_cast<std::size_t>(options.window);
+  std::vector<Surface> surfaces;  // of the last keyframes, oldest first
+  surfaces.push_back(surface_of(depths.front(), pose.inverse_depth_sigma));
+  for (std::size_t k = 1; k < depths.size(); ++k) {
+    progress(k);
+    Edge& edge = out.odometry[k - 1];
+    const Pose& last = world_from_keyframe.back();
+    const PriorPose prior{normalized(last * edge.from_from_to), edge.information};
+    Surface surface = surface_of(depths[k], pose.inverse_depth_sigma);
+    std::vector<PlacedSurface> model;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      model.push_back({&surfaces[i], world_from_keyframe[k - surfaces.size() + i]});
+    }
+    const Alignment found = align_surface(surface, model, prior, pose);
+    Pose here = prior.world_from_camera;
+    if (!is_guess(edge) && is_better(found, here, options)) {
+      here = found.world_from_camera;
+      edge.from_from_to = normalized(last.inverse() * here);
+      edge.information = found.information;
+      ++out.odometry_refined;
+      if (surfaces.size() == window) surfaces.erase(surfaces.begin());
+    } else {
+      surfaces.clear();
+    }
+    surfaces.push_back(std::move(surface));
+    world_from_keyframe.push_back(here);
+  }
+  return world_from_keyframe;
+}
+
+struct RefinedClosure {
+  Edge edge;
+  bool better = false;
+  double seconds = 0.0;
+};
+
+RefinedClosure refine_closure(const Edge& closure,
+                              const std::vector<SmallDepth>& depths,
+                              const std::vector<Pose>& world_from_keyframe,
+                              const PoseOptions& pose,
+                              const RefineOptions& options) {
+  const double begin = cpu_seconds();
+  RefinedClosure out{closure};
+  const std::size_t first = closure.from - std::min(closure.from, kClosureReach);
+  const std::size_t last = std::min(closure.from + kClosureReach, closure.to - 1);
+  std::vector<Surface> surfaces;
+  for (std::size_t k = first; k <= last; ++k)
+    surfaces.push_back(surface_of(depths[k], pose.inverse_depth_sigma));
+  std::vector<PlacedSurface> model;
+  const Pose from_from_world = world_from_keyframe[closure.from].inverse();
+  for (std::size_t k = first; k <= last; ++k) {
+    model.push_back({&surfaces[k - first], from_from_world * world_from_keyframe[k]});
+  }
+  const PriorPose prior{closure.from_from_to, closure.information};
+  const Alignment found =
+      align_surface(surface_of(depths[closure.to], pose.inverse_depth_sigma), model, prior, pose);
+  out.better = is_better(found, closure.from_from_to, options);
+  if (out.better) {
+    out.edge.from_from_to = found.world_from_camera;
+    out.edge.information = found.information;
+  }
+  out.seconds = cpu_seconds() - begin;
+  return out;
+}
+
+}  // namespace
+
+RefinedEdges refine_by_depth(const RgbdSource& source,
+                             const Tracked& tracked,
+                             const std::vector<Edge>& closures,
+                             const PoseOptions& pose,
+                             double depth_max,
+                             const RefineOptions& options,
+                             const std::function<void(std::size_t, std::size_t)>& progress) {
+  RefinedEdges out{tracked.odometry};
+  const std::size_t steps = tracked.keyframes.size() + closures.size();
+  const auto depths = keyframe_depths(source, tracked.keyframes, depth_max, out.seconds);
+  const double begin = cpu_seconds();
+  const std::vector<Pose> poses = refine_odometry(
+      depths, pose, options, [&](std::size_t k) { progress(k + 1, steps); }, out);
+  out.seconds += cpu_seconds() - begin;
+  const auto refine = [&](std::size_t i) {
+    return refine_closure(closures[i], depths, poses, pose, options);
+  };
+  ordered_pipeline<RefinedClosure>(
+      closures.size(), cores(), 4 * cores(), refine, [&](std::size_t i, RefinedClosure one) {
+        progress(tracked.keyframes.size() + i + 1, steps);
+        out.seconds += one.seconds;
+        out.closures_refined += one.better ? 1 : 0;
+        out.closures.push_back(std::move(one.edge));
+      });
+  return out;
+}
+
+void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry) {
+  std::vector<Pose> before;
+  for (const Keyframe& keyframe : tracked.keyframes) before.push_back(keyframe.world_from_camera);
+  for (std::size_t k = 1; k < tracked.keyframes.size(); ++k) {
+    tracked.keyframes[k].world_from_camera =
+        normalized(tracked.keyframes[k - 1].world_from_camera * odometry[k - 1].from_from_to);
+  }
+  tracked.odometry = odometry;
+  std::size_t k = 0;  // the last keyframe before the frame
+  for (StampedPose& frame : tracked.frames) {
+    while (k + 2 < before.size() && tracked.keyframes[k + 1].stamp < frame.stamp) ++k;
+    const auto seen_from = [&](std::size_t keyframe) {
+      return tracked.keyframes[keyframe].world_from_camera * before[keyframe].inverse() *
+             frame.world_from_body;
+    };
+    const double begin = tracked.keyframes[k].stamp;
+    const double u = (frame.stamp - begin) / (tracked.keyframes[k + 1].stamp - begin);
+    frame.world_from_body =
+        normalized(interpolate(seen_from(k), seen_from(k + 1), std::clamp(u, 0.0, 1.0)));
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,134 @@
+#include "harness/store/cell_rows.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/store/digest.hpp"
+#include "harness/store/write_digests.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr const char* kDetailTables[] = {"score", "phase", "count", "note", "section", "trace"};
+
+template <class T>
+std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
+  const bool none = row.is_null();
+  const T value = (row.*read)();
+  return none ? std::nullopt : std::optional<T>(value);
+}
+
+CellRow cell_row(Statement& row) {
+  CellRow out;
+  CellRecord& c = out.record;
+  out.id = row.integer();
+  out.placed = !row.is_null();
+  c.position = row.integer();
+  c.key = row.text();
+  c.build = row.text();
+  out.asked = row.text();
+  c.sequence = row.text();
+  c.repeat = row.integer();
+  c.method = row.text();
+  c.dataset_options = row.text();
+  c.method_options = row.text();
+  c.closures = row.text();
+  c.oracle_closures = row.integer() != 0;
+  c.oracle = row.integer() != 0;
+  c.worker = row.text();
+  c.runs = row.integer();
+  c.seconds = row.real();
+  c.seconds_min = row.real();
+  c.seconds_max = row.real();
+  c.cpu_seconds = maybe(row, &Statement::real);
+  c.peak_memory = maybe(row, &Statement::integer);
+  c.added_memory = maybe(row, &Statement::integer);
+  c.allocations = maybe(row, &Statement::integer);
+  c.status = row.text();
+  c.signal = row.text();
+  c.why = row.text();
+  out.failed_scores = row.integer();
+  for (std::size_t i = 0; i < out.details.size(); ++i) out.details[i] = row.text();
+  out.digest = row.text();
+  return out;
+}
+
+}  // namespace
+
+std::size_t detail_number(const std::string& table) {
+  return static_cast<std::size_t>(std::ranges::find(kDetailTables, table) - kDetailTables);
+}
+
+CellRows read_cell_rows(Database& database) {
+  CellRows out;
+  SumOfDigests sum;
+  Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
+  while (rows.step()) {
+    CellRow& cell = out.cells.emplace_back(cell_row(rows));
+    cell.whole = digest_of_columns(rows, 0, rows.columns() - 1) == cell.digest;
+    sum.add(cell.digest);
+  }
+  out.complete = sum.text() == written_digest(database, "cell");
+  return out;
+}
+
+void read_details(Database& database,
+                  const std::string& table,
+                  CellRows& rows,
+                  const std::function<void(std::size_t cell, Statement& row)>& each) {
+  std::size_t cell = 0;  // rows of one cell mostly follow those of the cell before it
+  std::vector<RowsDigest> digests(rows.cells.size());
+  // Not by an index: what it leads to may be less than there is.
+  Statement row = database.prepare("SELECT * FROM " + table + " NOT INDEXED ORDER BY rowid");
+  while (row.step()) {
+    const std::int64_t id = row.integer();
+    if (cell < rows.cells.size() && rows.cells[cell].id < id) ++cell;
+    if (cell == rows.cells.size() || rows.cells[cell].id != id) {
+      cell = static_cast<std::size_t>(std::ranges::lower_bound(rows.cells, id, {}, &CellRow::id) -
+                                      rows.cells.begin());
+      if (cell == rows.cells.size() || rows.cells[cell].id != id) continue;
+    }
+    digests[cell].add(row, 1, row.columns());
+    if (each) each(cell, row);
+  }
+  const std::size_t number = detail_number(table);
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    if (digests[i].text() != rows.cells[i].details[number]) rows.cells[i].whole = false;
+  }
+}
+
+void refuse_damaged(const std::filesystem::path& file, const std::string& what) {
+  throw InputError(file.string() + ": is damaged: " + what +
+                   " not what was written; 'loopbench run' with its config and '--retry damaged' "
+                   "makes it again");
+}
+
+void require_whole(const CellRows& rows, const std::filesystem::path& file) {
+  const auto damaged = std::ranges::count(rows.cells, false, &CellRow::whole);
+  if (damaged == 0 && rows.complete) return;
+  if (damaged == 0) refuse_damaged(file, "its list of cells is");
+  const auto first = std::ranges::find(rows.cells, false, &CellRow::whole);
+  refuse_damaged(file,
+                 label_of(first->record) +
+                     (damaged == 1 ? " is" : " and " + std::to_string(damaged - 1) + " more are"));
+}
+
+std::string label_of(const CellRecord& cell) {
+  const std::string repeat = cell.repeat > 0 ? " (repeat " + std::to_string(cell.repeat) + ")" : "";
+  std::string out = cell.sequence + repeat + " / " + cell.method;
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // of a damaged name
+  }
+  return out;
+}
+
+std::vector<std::size_t> in_order(const CellRows& rows) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    if (rows.cells[i].placed) out.push_back(i);
+  }
+  std::ranges::stable_sort(out, {}, [&](std::size_t i) { return rows.cells[i].record.position; });
+  return out;
+}
+
+}  // namespace loopbench

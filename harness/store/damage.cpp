@@ -1,0 +1,120 @@
+#include "harness/store/damage.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/run/result.hpp"
+#include "harness/store/cell_writer.hpp"
+#include "harness/store/digest.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/write_digests.hpp"
+
+namespace loopbench {
+namespace {
+
+void check_sequence_traces(Database& database, SequenceRows& sequences) {
+  std::map<std::string, std::string> found;
+  Statement row = database.prepare("SELECT * FROM sequence_trace NOT INDEXED");
+  while (row.step()) {
+    const std::string digest = digest_of_columns(row, 1, row.columns());
+    found[row.text()] = digest;
+  }
+  for (auto& [asked, sequence] : sequences.by_asked) {
+    if (found[asked] != sequence.trace_digest) sequence.whole = false;
+  }
+}
+
+bool all_whole(const SequenceRows& sequences) {
+  return std::ranges::all_of(sequences.by_asked,
+                             [](const auto& entry) { return entry.second.whole; });
+}
+
+Sound look(Database& database, bool traces) {
+  Sound out;
+  out.cells = read_cell_rows(database);
+  for (const char* table : {"score", "phase", "count", "note", "section"}) {
+    read_details(database, table, out.cells);
+  }
+  out.sequences = read_sequence_rows(database);
+  if (traces) {
+    read_details(database, "trace", out.cells);
+    check_sequence_traces(database, out.sequences);
+  }
+  const bool lost = !out.sequences.complete || !all_whole(out.sequences);
+  for (CellRow& cell : out.cells.cells) {
+    const auto sequence = out.sequences.by_asked.find(cell.asked);
+    if (sequence != out.sequences.by_asked.end()) {
+      if (!sequence->second.whole) cell.whole = false;
+      continue;
+    }
+    // Only a cell that failed may have none: its sequence never finished loading.
+    const auto status = from_text<Status>(cell.record.status);
+    if (lost && !(status && is_failure(*status))) cell.whole = false;
+  }
+  return out;
+}
+
+bool is_whole(const Sound& found) {
+  return found.cells.complete && found.sequences.complete &&
+         std::ranges::all_of(found.cells.cells, &CellRow::whole) && all_whole(found.sequences);
+}
+
+void remove(Database& database, const Sound& found) {
+  for (const CellRow& cell : found.cells.cells) {
+    if (!cell.whole) remove_cell(database, cell.id);
+  }
+  // Rows whose cell was damaged beyond telling which it is must not fall to a later one.
+  for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+    database.execute(std::string("DELETE FROM ") + table +
+                     " WHERE cell NOT IN (SELECT id FROM cell)");
+  }
+  for (const auto& [asked, sequence] : found.sequences.by_asked) {
+    if (sequence.whole) continue;
+    for (const char* table : {"input", "sequence", "sequence_trace"}) {
+      database.prepare(std::string("DELETE FROM ") + table + " WHERE asked = ?").bind(asked).run();
+    }
+  }
+  renew_sum(database, "cell");
+  renew_sum(database, "sequence");
+}
+
+}  // namespace
+
+Sound remove_damaged(Database& database, const std::filesystem::path& file, bool traces) {
+  require_whole_texts(database, "run", file);
+  require_whole_texts(database, "provenance", file);
+  if (traces) database.execute("REINDEX");
+  Sound found = look(database, traces);
+  if (is_whole(found)) return found;
+  remove(database, found);
+  Sound out = look(database, traces);
+  if (!is_whole(out)) {
+    throw InputError(file.string() +
+                     ": is damaged beyond mending; --fresh keeps it as previous.sqlite and starts "
+                     "anew");
+  }
+  for (const CellRow& cell : found.cells.cells) {
+    if (!cell.whole) out.removed.push_back(label_of(cell.record));
+  }
+  out.lost = !found.cells.complete;
+  return out;
+}
+
+void require_whole_store(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  for (const char* table : {"run", "provenance"}) require_whole_texts(database, table, file);
+  const Sound found = look(database, true);
+  require_whole(found.sequences, file);
+  require_whole(found.cells, file);
+}
+
+void require_whole_texts(Database& database,
+                         const std::string& table,
+                         const std::filesystem::path& file) {
+  if (digest_of_texts(database, table) == written_digest(database, table)) return;
+  throw InputError(file.string() + ": is damaged: its table " + table +
+                   " is not what was written; 'loopbench run' with its config and '--fresh' starts "
+                   "anew and keeps this one as previous.sqlite");
+}
+
+}  // namespace loopbench

@@ -1,0 +1,36 @@
+/// What a store knows of its sequences, each held against its digest.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/run/sequence_facts.hpp"
+#include "harness/store/sqlite.hpp"
+
+namespace loopbench {
+
+struct SequenceRow {
+  std::string options;  ///< "DATASET: every option, defaults included"
+  std::int64_t keyframes = 0;
+  std::int64_t closures = 0;
+  std::vector<InputFile> inputs;
+  std::string trace_digest;
+  std::string digest;
+  bool whole = false;  ///< it and its inputs are what was written
+};
+
+struct SequenceRows {
+  std::map<std::string, SequenceRow> by_asked;
+  bool complete = false;  ///< none was lost
+};
+
+/// The tables sequence and input. O(rows).
+SequenceRows read_sequence_rows(Database& database);
+
+/// Throws InputError when one is not what was written, or was lost.
+void require_whole(const SequenceRows& rows, const std::filesystem::path& file);
+
+}  // namespace loopbench

@@ -1,0 +1,200 @@
+/// Stores in which bytes have changed: an error or the undisturbed answer, never another number.
+#include "harness/store/damage.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "harness/store/merge.hpp"
+#include "harness/store/open.hpp"
+#include "tests/support/tiny_store.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace tiny_store;  // NOLINT: the fixture and its config
+
+class Damage : public TinyStore {
+ protected:
+  static std::string bytes_of_file(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  void put(const std::string& bytes) const {
+    for (const char* tail : {"-wal", "-shm", "-journal"}) {
+      std::filesystem::remove(file_.string() + tail);
+    }
+    std::ofstream(file_, std::ios::binary) << bytes;
+  }
+
+  /// A place in use: most of the pages of so small a store is empty.
+  static std::size_t place(const std::string& bytes, std::mt19937_64& random) {
+    std::size_t at = random() % bytes.size();
+    while (bytes[at] == 0) at = random() % bytes.size();
+    return at;
+  }
+
+  void change(const std::string& sql) const { Database(file_, Database::Mode::read).execute(sql); }
+
+  /// Every answer that commands are made of, times and memory included.
+  static std::string answers(const std::filesystem::path& file) {
+    std::string out = store_text(file);
+    for (const CellRecord& c : read_cells(file)) {
+      out += c.build + std::to_string(c.seconds) + std::to_string(c.peak_memory.value_or(-1)) +
+             std::to_string(c.allocations.value_or(-1)) + std::to_string(c.closure_count) +
+             std::to_string(c.oracle) + "\n";
+      for (const Phase& p : c.phases) out += p.name + std::to_string(p.seconds) + "\n";
+    }
+    for (const Record& r : read_records(file)) {
+      out += r.sequence + r.method + r.protocol_version + std::to_string(r.possible) + r.closures +
+             std::to_string(r.milliseconds) + "\n";
+    }
+    for (const auto& texts : {read_run(file), read_provenance(file), read_dataset_options(file)}) {
+      for (const auto& [key, value] : texts) out += key + "=" + value + "\n";
+    }
+    for (const auto& [label, files] : read_inputs(file)) {
+      for (const InputFile& input : files) out += label + input.path + input.hash + "\n";
+    }
+    return out;
+  }
+
+  std::string refusal(const std::filesystem::path& file) const {
+    try {
+      answers(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+/// One method fails, so that reasons and states are there to be damaged too.
+const std::string kConfigWithFailures = config(
+    "straight, {method: shift, by: 1, label: shifted}, {method: shift, fail: true, label: "
+    "fails}");
+
+TEST_F(Damage, AChangedByteIsAnErrorOrChangesNothing) {
+  run(kConfigWithFailures);
+  const std::string sound = bytes_of_file(file_);
+  const std::string expected = answers(file_);
+  std::mt19937_64 random(11);
+  int errors = 0;
+  int harmless = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::string bytes = sound;
+    const std::size_t at = i % 4 == 0 ? random() % bytes.size() : place(bytes, random);
+    bytes[at] = static_cast<char>(bytes[at] ^ static_cast<char>(1u << (random() % 8)));
+    put(bytes);
+    try {
+      ASSERT_EQ(answers(file_), expected) << "byte " << at;
+      ++harmless;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos) << error.what();
+      ++errors;
+    }
+  }
+  RecordProperty("errors", errors);
+  RecordProperty("harmless", harmless);
+  EXPECT_GT(errors, 50) << harmless << " harmless";
+}
+
+TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
+  run(kConfigWithFailures);
+  const std::string sound = bytes_of_file(file_);
+  const std::string expected = store_text(file_);
+  std::mt19937_64 random(12);
+  int mended = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string bytes = sound;
+    const std::size_t at = place(bytes, random);
+    bytes[at] = static_cast<char>(random());
+    put(bytes);
+    try {
+      const Ran again = run(kConfigWithFailures, Retry::damaged);
+      if (!again.cells.empty()) ++mended;
+    } catch (const InputError&) {
+      continue;  // beyond mending, and it said so
+    }
+    ASSERT_EQ(store_text(file_), expected) << "byte " << at;
+    ASSERT_EQ(run(kConfigWithFailures).cells, Labels{}) << "byte " << at;
+  }
+  EXPECT_GT(mended, 10);
+}
+
+TEST_F(Damage, NamesTheCellAndWhatToDo) {
+  run(kUsual);
+  const std::string expected = store_text(file_);
+  change(
+      "UPDATE score SET rmse = rmse * 0.999 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
+  const std::string said = refusal(file_);
+  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not what was written"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("makes it again"), std::string::npos) << said;
+  const Ran again = run(kUsual);
+  EXPECT_EQ(again.cells, Labels{"b / shifted"});
+  EXPECT_EQ(again.resumed.damaged, Labels{"b / shifted"});
+  EXPECT_EQ(store_text(file_), expected);
+}
+
+TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
+  run(kUsual);
+  const std::string sound = bytes_of_file(file_);
+  const std::string expected = store_text(file_);
+  for (const char* table : {"cell", "score", "section", "sequence", "trace", "sequence_trace"}) {
+    put(sound);
+    const std::string key = std::string(table).starts_with("sequence") ? "asked" : "rowid";
+    change(std::string("DELETE FROM ") + table + " WHERE " + key + " = (SELECT max(" + key +
+           ") FROM " + table + ")");
+    EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos) << table;
+    EXPECT_FALSE(run(kUsual, Retry::damaged).cells.empty()) << table;
+    EXPECT_EQ(store_text(file_), expected) << table;
+  }
+  put(sound);
+  change("UPDATE sequence SET asked = 'f' || asked");
+  EXPECT_EQ(run(kUsual).cells.size(), 4u) << "none of its cells has a sequence any more";
+  EXPECT_EQ(store_text(file_), expected);
+  EXPECT_EQ(read_dataset_options(file_).size(), 2u);
+  for (const char* table : {"run", "provenance"}) {
+    put(sound);
+    change(std::string("DELETE FROM ") + table);
+    EXPECT_NE(refusal(file_).find("--fresh"), std::string::npos) << table;
+    expect_refused("--fresh");
+  }
+}
+
+TEST_F(Damage, ADamagedStoreIsNotMerged) {
+  run(kUsual);
+  change("UPDATE trace SET samples = zeroblob(length(samples)) WHERE cell = 1");
+  const std::filesystem::path out = folder_.path() / "merged.sqlite";
+  EXPECT_THROW(merge_stores({file_}, out, false), InputError);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(run(kUsual).cells, Labels{}) << "traces are looked at when told";
+  EXPECT_EQ(run(kUsual, Retry::damaged).cells, Labels{"a / straight"});
+  EXPECT_EQ(merge_stores({file_}, out, false).cells, 4u);
+}
+
+TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
+  run(kUsual, Retry::none, "a / ");
+  change("PRAGMA journal_mode = WAL");  // as it is while a sweep writes
+  Database reader = open_store(file_);
+  CellRows rows = read_cell_rows(reader);
+  EXPECT_EQ(run(kUsual).cells.size(), 2u);
+  read_details(reader, "score", rows);
+  require_whole(rows, file_);
+  EXPECT_EQ(rows.cells.size(), 2u);
+  require_whole(read_sequence_rows(reader), file_);
+  EXPECT_EQ(read_cells(file_).size(), 4u);
+}
+
+TEST_F(Damage, AnotherToolMayReadAndPackIt) {
+  run(kUsual);
+  const std::string expected = answers(file_);
+  change("VACUUM");
+  change("CREATE VIEW best AS SELECT min(rmse) FROM score");
+  EXPECT_EQ(answers(file_), expected);
+  EXPECT_EQ(run(kUsual).cells, Labels{});
+}
+
+}  // namespace
+}  // namespace loopbench

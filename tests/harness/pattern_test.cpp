@@ -1,0 +1,60 @@
+#include "harness/pattern/pattern.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string refusal(const std::string& expression) {
+  try {
+    Pattern{expression};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(Pattern, IsFoundAnywhereOrHasToBeAllOfTheText) {
+  const Pattern chains("KITTI 0[67]");
+  EXPECT_TRUE(chains.is_in("held out: KITTI 07 loam"));
+  EXPECT_FALSE(chains.is_in("KITTI 00 loam"));
+  EXPECT_FALSE(chains.is_all_of("held out: KITTI 07 loam"));
+  EXPECT_TRUE(chains.is_all_of("KITTI 06"));
+  EXPECT_TRUE(Pattern("").is_in("anything"));
+  EXPECT_TRUE(Pattern("KITTI .*(loam|imls)").is_all_of("KITTI 06 imls"));
+}
+
+TEST(Pattern, BracketsOfTheTextAreTextWhenEscaped) {
+  EXPECT_TRUE(Pattern(R"(^evo \(align=se3\)$)").is_in("evo (align=se3)"));
+}
+
+TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
+  EXPECT_EQ(refusal("("), "'(' is not a regular expression (missing ): ()");
+  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // no repetition: literal braces
+  EXPECT_EQ(refusal("a{1001}"),
+            "'a{1001}' is not a regular expression (invalid repetition size: {1001})");
+  EXPECT_EQ(refusal("\\99999999999"),
+            "'\\99999999999' is not a regular expression (invalid escape sequence: \\9)");
+  EXPECT_EQ(refusal("(?!a)"), "'(?!a)' is not a regular expression (invalid perl operator: (?!)");
+  EXPECT_EQ(refusal(std::string(1'001, 'a')), "a pattern of more than 1000 characters");
+  EXPECT_EQ(refusal("\xff"), "'\xff' is not a regular expression (invalid UTF-8)");
+  try {
+    Pattern::of_option("--only", "[");
+    ADD_FAILURE() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "--only: '[' is not a regular expression (missing ]: [)");
+  }
+}
+
+TEST(Pattern, NeitherNestingNorRepetitionRunsAway) {
+  // Each of these costs a backtracking matcher exponential time, or its stack.
+  EXPECT_FALSE(Pattern("(a+)+$").is_in(std::string(100'000, 'a') + "b"));
+  EXPECT_FALSE(Pattern("(a|aa)*c").is_in(std::string(100'000, 'a')));
+  EXPECT_NE(refusal("((((a{100}){100}){100}){100})"), "taken");
+  EXPECT_TRUE(Pattern(std::string(499, '(') + "a" + std::string(499, ')')).is_in("a"));
+}
+
+}  // namespace
+}  // namespace loopbench

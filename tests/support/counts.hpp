@@ -1,0 +1,22 @@
+// What a method counted: iterations, kinks, segments ...
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "methods/report.hpp"
+
+namespace loopbench::test {
+
+/// The count of that name; fails the test when there is none.
+inline double count(const Report& report, const std::string& name) {
+  for (const Count& each : report.counts) {
+    if (each.name == name) return each.value;
+  }
+  ADD_FAILURE() << "no count " << name;
+  return std::nan("");
+}
+
+}  // namespace loopbench::test
