@@ -5,6 +5,7 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
+#include "methods/correctors/unit_of_length.hpp"
 
 namespace loopbench {
 std::optional<std::string> Dual::declines(const Problem& problem) const {
@@ -18,15 +19,20 @@ std::optional<std::string> Dual::declines(const Problem& problem) const {
 }
 
 Trajectory Dual::correct(const Problem& problem, Report& report) const {
+  if (!options_.scale || !changes_unit(problem)) return correct_rigid(options_, problem, report);
+  return correct_rigid(options_, in_one_unit(problem), report);
+}
+
+Trajectory Dual::correct_rigid(const Options& options, const Problem& problem, Report& report) {
   LoopedChain chain(problem, stated_belief(problem));
   report.count("cost_before", chain.cost());
   if (!std::isfinite(chain.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = 0;
-  while (iterations < options_.max_iterations) {
+  while (iterations < options.max_iterations) {
     const double before = chain.cost();
     if (!chain.step()) break;
     ++iterations;
-    if (before - chain.cost() <= options_.tolerance * before) break;
+    if (before - chain.cost() <= options.tolerance * before) break;
   }
   report.count("iterations", iterations);
   report.count("cost", chain.cost());

@@ -14,10 +14,13 @@ namespace loopbench {
 ///
 ///     (A S A' + S_L) lambda = c,   e_i = -S_i sum_k A_ki' lambda_k,
 ///
-/// then relinearised, and near the end curved as loops are (loop_newton.hpp), until it stands still:
-/// some ten iterations. Every block of A S A' is a difference of one prefix sum
-/// over the chain, so an iteration costs O(n + (6 K)^3) for n keyframes and K closures, and memory
-/// O(n + (6 K)^2): no sparse solver. For many loops a pose graph is the better choice.
+/// then relinearised, and near the end curved as loops are (loop_newton.hpp), until it stands
+/// still: some ten iterations. Every block of A S A' is a difference of one prefix sum over the
+/// chain, so an iteration costs O(n + (6 K)^3) for n keyframes and K closures, and memory O(n + (6
+/// K)^2): no sparse solver. For many loops a pose graph is the better choice.
+///
+/// Where edges change the unit of length (monocular chains, Sim(3)) that is settled first, in
+/// closed form too (unit_of_length.hpp); `scale` off: poses are rigid and edges' scales ignored.
 ///
 /// Odometry edges must join every two neighbours. Information matrices are used whole.
 /// Source: generalised least squares with few constraints; design notes, methods 2.10.
@@ -27,6 +30,7 @@ class Dual final : public Corrector {
     int max_iterations = 500;
     double tolerance = 1e-10;
     int max_closures = 300;
+    bool scale = true;
   };
   explicit Dual(const Options& options) : options_(options) {}
 
@@ -37,6 +41,8 @@ class Dual final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
+  static Trajectory correct_rigid(const Options& options, const Problem& problem, Report& report);
+
   Options options_;
 };
 
@@ -51,6 +57,7 @@ void fields(Dual::Options& o, Visit visit) {
         o.max_closures,
         "declines above: the dense solve grows with their cube",
         Between{1, 2000});
+  visit("scale", o.scale, "first settle the unit of length where edges change it (Sim(3) chains)");
 }
 
 }  // namespace loopbench

@@ -186,7 +186,9 @@ TEST(MotionDriftEvidence, MeanErrorsOfOneModelAreItsConditionalMeanAndOfTwoLieBe
 
 /// One gap of size 2 that one term explains, of median variance 1 and spread 1.5.
 struct OneGap {
-  MotionPrior prior{{{Cause::noise, Half::translation, Growth::edge, 1.0}}, {{{0, 1.5}}}, 1};
+  MotionPrior prior{
+      {{.medians = {{Cause::noise, Half::translation, Growth::edge, 1.0}}, .hangs = {{{1, 1.5}}}}},
+      2};
   Evidence evidence{{0}, Eigen::VectorXd::Constant(1, 2.0), {Eigen::MatrixXd::Ones(1, 1)}};
 };
 
@@ -196,17 +198,15 @@ TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives)
   double mean = 0.0;
   double square = 0.0;
   for (double u = -6.0; u <= 6.0; u += 0.01) {
-    const double density =
-        std::exp(-0.5 * u * u +
-                 log_evidence(model_at(one.prior, Eigen::VectorXd::Constant(1, u)), one.evidence));
+    const double density = std::exp(
+        -0.5 * u * u + log_evidence(model_at(one.prior, Eigen::Vector2d(0.0, u)), one.evidence));
     mass += density;
     mean += density * u;
     square += density * u * u;
   }
   mean /= mass;
   const double deviation = std::sqrt(square / mass - mean * mean);
-  const MotionPosterior drawn =
-      posterior_of(one.prior, one.evidence, {.draws = 4000, .steps = 3}, Eigen::VectorXd::Zero(1));
+  const MotionPosterior drawn = posterior_of(one.prior, one.evidence, {.draws = 4000, .steps = 3});
   double sum = 0.0;
   double squares = 0.0;
   for (const MotionModel& model : drawn.draws) {
@@ -221,13 +221,53 @@ TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives)
 
 TEST(MotionDriftPosterior, ASpreadOfZeroKeepsTheMedianAndNoDensityIsAnError) {
   OneGap one;
-  one.prior.hangs[0][0].spread = 0.0;
-  const MotionPosterior drawn =
-      posterior_of(one.prior, one.evidence, {.draws = 5}, Eigen::VectorXd::Zero(1));
+  one.prior.hypotheses[0].hangs[0][0].spread = 0.0;
+  const MotionPosterior drawn = posterior_of(one.prior, one.evidence, {.draws = 5});
   for (const MotionModel& model : drawn.draws) EXPECT_DOUBLE_EQ(model[0].value, 1.0);
-  one.prior.medians[0].value = 0.0;
-  EXPECT_THROW(posterior_of(one.prior, one.evidence, {}, Eigen::VectorXd::Zero(1)),
-               std::runtime_error);
+  one.prior.hypotheses[0].medians[0].value = 0.0;
+  EXPECT_THROW(posterior_of(one.prior, one.evidence, {}), std::runtime_error);
+}
+
+TEST(MotionDriftPosterior, HypothesesGetTheChancesThatBayesGivesThem) {
+  // Variance 1 or 4, before the gap of 2 believed as one to three.
+  OneGap two;
+  two.prior.hypotheses[0].hangs[0][0].spread = 0.0;
+  two.prior.hypotheses.push_back(two.prior.hypotheses[0]);
+  two.prior.hypotheses[0].chance = 0.25;
+  two.prior.hypotheses[1].chance = 0.75;
+  two.prior.hypotheses[1].medians[0].value = 4.0;
+  const double first = 0.25 * std::exp(-2.0);
+  const double second = 0.75 * std::exp(-0.5) / 2.0;
+  const MotionPosterior drawn = posterior_of(two.prior, two.evidence, {.draws = 4000, .steps = 3});
+  EXPECT_NEAR(drawn.chances[0], first / (first + second), 0.03);
+  EXPECT_NEAR(drawn.chances[0] + drawn.chances[1], 1.0, 1e-9);
+  EXPECT_DOUBLE_EQ(drawn.centre[0].value, 4.0);
+}
+
+TEST(MotionDriftPrior, AsStatedOneFactorIsOnEverythingAndTheLastHypothesisDeniesNothing) {
+  const Problem problem = test::hand_held();
+  const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
+  const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
+                          {Cause::stated, Half::rotation, Growth::edge},
+                          {Cause::drift, Half::rotation, Growth::time, 0.0, false, 2},
+                          {Cause::closures, Half::translation, Growth::edge, 1.0}};
+  const MotionPrior prior = prior_of(terms, {}, problem, motions(problem), gap);
+  ASSERT_EQ(prior.hypotheses.size(), 6u);
+  double chances = 0.0;
+  for (const MotionPrior::Hypothesis& one : prior.hypotheses) chances += one.chance;
+  EXPECT_NEAR(chances, 1.0, 1e-12);
+  for (const Term& term : prior.hypotheses.back().medians) EXPECT_GT(term.value, 0.0);
+
+  Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(prior.unknowns, -1.0, 1.0);
+  u[0] = -5.0;  // the first: as stated, nothing drifts
+  ASSERT_EQ(hypothesis_at(prior, u), 0u);
+  const MotionModel model = model_at(prior, u);
+  EXPECT_EQ(model[0].value, 0.0);
+  EXPECT_GT(model[1].value, 0.0);
+  EXPECT_EQ(model[2].value, 0.0);
+  EXPECT_DOUBLE_EQ(model[3].value, model[1].value);
+  u[0] = 5.0;
+  EXPECT_EQ(hypothesis_at(prior, u), 5u);
 }
 
 TEST(MotionDriftPrior, PartsOfTheNoiseAndItsTimeToDriftAreAsTheOptionsSay) {
@@ -245,7 +285,8 @@ TEST(MotionDriftPrior, PartsOfTheNoiseAndItsTimeToDriftAreAsTheOptionsSay) {
   }
   const MotionPrior prior = prior_of(terms, {.steady_after = 2.0 * seconds}, problem, moved, gap);
   // Half as much drift as noise, in squared angle at the loops' ends.
-  EXPECT_NEAR(prior.medians[1].value * squared, 0.5 * prior.medians[0].value * seconds, 1e-12);
+  const MotionModel& medians = prior.hypotheses.back().medians;
+  EXPECT_NEAR(medians[1].value * squared, 0.5 * medians[0].value * seconds, 1e-12);
 }
 
 }  // namespace

@@ -129,8 +129,13 @@ TEST(MotionDrift, TellsWhatItFitted) {
   Report report;
   MotionDrift({}).correct(test::hand_held(), report);
   EXPECT_TRUE(std::isfinite(count(report, "log_evidence")));
-  EXPECT_GT(count(report, "noise.t.per_metre"), 0.0);
-  EXPECT_GT(count(report, "drift.r.per_second.x"), 0.0);
+  EXPECT_NEAR(count(report, "chance.as_stated") + count(report, "chance.scaled") +
+                  count(report, "chance.free"),
+              1.0,
+              1e-9);
+  EXPECT_GE(count(report, "chance.steady"), 0.0);
+  EXPECT_GE(count(report, "noise.t.per_metre"), 0.0);  // 0 where the likeliest denies it
+  EXPECT_GE(count(report, "drift.r.per_second.x"), 0.0);
   EXPECT_GT(count(report, "stated"), 0.0);
   EXPECT_GT(count(report, "closures.r"), 0.0);
 }
@@ -139,7 +144,22 @@ TEST(MotionDrift, TurnsAboutOneAxisOnlyInThePlane) {
   Report report;
   MotionDrift({}).correct(test::planar(), report);
   EXPECT_TRUE(std::isnan(count(report, "drift.r.per_second.x")));
-  EXPECT_GT(count(report, "drift.r.per_second.z"), 0.0);
+  EXPECT_GE(count(report, "drift.r.per_second.z"), 0.0);
+}
+
+TEST(MotionDrift, IsDualWhenAllIsBelievedAsStated) {
+  const Problem problem = test::hand_held();
+  MotionDrift::Options options;
+  options.prior.as_stated_chance = 1.0;
+  options.prior.scaled_chance = 0.0;
+  options.prior.steady_chance = 0.0;
+  Report report;
+  const Trajectory ours = MotionDrift(options).correct(problem, report);
+  const Trajectory dual = Dual({.tolerance = 0.0}).correct(problem, report);
+  EXPECT_EQ(count(report, "chance.as_stated"), 1.0);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_TRUE(is_close(ours[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
+  }
 }
 
 TEST(MotionDrift, AnotherSeedHardlyMatters) {

@@ -85,6 +85,7 @@ Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidenc
   const Eigen::Index size = evidence.gap.size();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t j = 0; j < model.size(); ++j) {
+    if (model[j].value == 0.0) continue;
     out.noalias() += model[j].value * evidence.shares[j];  // whole: faster than half of it
   }
   return out;

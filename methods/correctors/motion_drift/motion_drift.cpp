@@ -5,6 +5,7 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/motion_drift/mean_errors.hpp"
+#include "methods/correctors/unit_of_length.hpp"
 
 namespace loopbench {
 namespace {
@@ -82,6 +83,20 @@ std::vector<std::size_t> spread_choice(std::size_t size, std::size_t most) {
   return out;
 }
 
+void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, Report& report) {
+  double chances[] = {0.0, 0.0, 0.0};
+  double steady = 0.0;
+  for (std::size_t h = 0; h < prior.hypotheses.size(); ++h) {
+    chances[static_cast<std::size_t>(prior.hypotheses[h].covariance)] += posterior.chances[h];
+    if (prior.hypotheses[h].steady) steady += posterior.chances[h];
+  }
+  if (prior.hypotheses.size() < 2) return;
+  report.count("chance.as_stated", chances[0]);
+  report.count("chance.scaled", chances[1]);
+  report.count("chance.free", chances[2]);
+  report.count("chance.steady", steady);
+}
+
 double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - less[i]).squaredNorm();
@@ -101,24 +116,29 @@ std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
 }
 
 Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
+  if (!options_.scale || !changes_unit(problem)) return correct_rigid(problem, report);
+  return correct_rigid(in_one_unit(problem), report);
+}
+
+Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
   const std::vector<EdgeMotion> moved = motions(problem);
   LoopedChain chain(problem, stated_belief(problem));
   const MotionPrior prior = prior_of(
       model_of(options_, problem.planar), options_.prior, problem, moved, chain.linearised().gap);
-  MotionPosterior posterior{{prior.medians}, prior.medians, Eigen::VectorXd::Zero(prior.unknowns)};
+  MotionPosterior posterior;
+  posterior.centre = prior.hypotheses.back().medians;
   chain.believe(belief_of(posterior.centre, problem, moved));
   int iterations = most_likely(chain);
-  const auto seen =
-      spread_choice(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
-  for (int round = 0; options_.fit && round < options_.fit_rounds; ++round) {
-    posterior = posterior_of(prior,
-                             evidence_of(prior.medians, chain, problem, moved, seen),
-                             options_.sampling,
-                             posterior.last);
+  if (options_.fit) {
+    const auto seen =
+        spread_choice(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
+    posterior = posterior_of(
+        prior, evidence_of(posterior.centre, chain, problem, moved, seen), options_.sampling);
     chain.believe(belief_of(posterior.centre, problem, moved));
     iterations += most_likely(chain);
+    report.count("log_evidence", posterior.log_evidence);
+    count_chances(prior, posterior, report);
   }
-  if (options_.fit) report.count("log_evidence", posterior.log_evidence);
   const bool few = problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
   if (posterior.draws.size() > 1 && few) {
     iterations += average(posterior.draws, chain, problem, moved);

@@ -19,16 +19,19 @@ namespace loopbench {
 /// Nobody knows these variances, and a few loops do not tell them: they are drawn from what is
 /// believed of them before (prior.hpp) times the density of the gaps that the loops leave
 /// (posterior.hpp), and the answer is the mean of the errors that the models drawn expect
-/// (mean_errors.hpp), relinearised until it rests. No reference is needed. Where the loops speak
-/// for no drift, or do not speak, little is corrected for it. Values given as options (by
-/// `loopbench calibrate`) replace the prior's medians; with `fit: false` they are kept as they are.
+/// (mean_errors.hpp), relinearised until it rests. No reference is needed. Simple hypotheses are
+/// believed beside the full model: that all covariances are as stated, or wrong by a factor each
+/// for odometry and closures; that nothing drifts. Where loops say little the answer stays near
+/// `dual`'s. Values given as options (by `loopbench calibrate`) replace the prior's medians; with
+/// `fit: false` they are kept as they are.
 ///
 /// With more than `average_closures` closures, which leave little doubt, one model stands for all:
-/// the logarithmic mean of those drawn.
+/// the logarithmic mean of those drawn of the likeliest hypothesis. Where edges change the unit of
+/// length (Sim(3)) that is settled first, as in `dual`.
 ///
 /// Complexity O(edges + (6 closures)^3) some ten times, O((6 fit_closures)^3) some thousand times.
 /// Sources: design notes, methods 5; Murray, Adams, MacKay, Elliptical slice sampling, AISTATS
-/// 2010.
+/// 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
 class MotionDrift final : public Corrector {
  public:
   /// What errors grow with, each including those before it. `drift` adds steady drift and what the
@@ -41,12 +44,12 @@ class MotionDrift final : public Corrector {
     bool fit = true;
     MotionPriorOptions prior = {};
     Sampling sampling = {};
-    int fit_closures = 12;
-    int fit_rounds = 2;
+    int fit_closures = 8;
     int average_closures = 60;
     int max_iterations = 20;
     double tolerance = 1e-14;
     int max_closures = 300;
+    bool scale = true;
     std::array<Values, 2> noise{};                    ///< by Half; variances
     std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates
     std::array<std::optional<double>, 2> closures{};  ///< by Half; factors on the stated covariance
@@ -55,11 +58,13 @@ class MotionDrift final : public Corrector {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations`, `log_evidence` of the gaps, and every variance by its name. Throws
-  /// std::runtime_error when the loop equations cannot be solved.
+  /// Counts: `iterations`, `log_evidence` of the gaps, `chance.*` of the hypotheses given the gaps,
+  /// and every variance of the likeliest one by its name (0: denied). Throws std::runtime_error
+  /// when the loop equations cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
+  Trajectory correct_rigid(const Problem& problem, Report& report) const;
   /// Both return the iterations they took.
   int most_likely(LoopedChain& chain) const;
   int average(const std::vector<MotionModel>& models,
@@ -100,13 +105,18 @@ void fields(MotionDrift::Options& o, Visit visit) {
   visit("prior.share_spread", p.share_spread, "of each term beside all that [-]", spread);
   visit("prior.stated_spread", p.stated_spread, "of what edges state beside that [-]", spread);
   visit("prior.closures_spread", p.closures_spread, "of the closures' factors [-]", spread);
+  visit("prior.as_stated_chance",
+        p.as_stated_chance,
+        "that all err as stated, but for one factor [-]",
+        share);
+  visit("prior.scaled_chance", p.scaled_chance, "that closures need another factor [-]", share);
+  visit("prior.steady_chance", p.steady_chance, "that anything drifts steadily [-]", share);
 
   visit("draws", o.sampling.draws, "error models averaged", Between{1, 10000});
   visit("draw_steps", o.sampling.steps, "of the sampler from draw to draw", Between{1, 1000});
   visit("warm_up", o.sampling.warm_up, "steps before the first draw", Between{0, 100000});
   visit("seed", o.sampling.seed, "of the sampler", Between{0});
   visit("fit_closures", o.fit_closures, "closures the fit looks at, well spread", Between{1, 300});
-  visit("fit_rounds", o.fit_rounds, "of fitting and relinearising", Between{1, 100});
   visit("average_closures",
         o.average_closures,
         "with more, one model stands for all drawn",
@@ -120,6 +130,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
         o.max_closures,
         "declines above: the dense solve grows with their cube",
         Between{1, 2000});
+  visit("scale", o.scale, "first settle the unit of length where edges change it (Sim(3) chains)");
 
   const char* none = "none: guessed";
   const auto by_growth = [&](const std::string& what, MotionDrift::Values& values, auto first) {

@@ -1,5 +1,6 @@
 #include "methods/correctors/motion_drift/posterior.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -59,28 +60,50 @@ void slice_step(SlicePoint& at,
   }
 }
 
+/// A fresh hypothesis, all else as it is.
+void choice_step(SlicePoint& at,
+                 const MotionPrior& prior,
+                 const Evidence& evidence,
+                 SliceDraws& draw) {
+  Eigen::VectorXd there = at.unknowns;
+  there[0] = draw.normal(1)[0];
+  const double enough = at.log_evidence + std::log(draw.uniform());
+  const double value = log_evidence(model_at(prior, there), evidence);
+  if (value > enough) at = {there, value};
+}
+
 }  // namespace
 
 MotionPosterior posterior_of(const MotionPrior& prior,
                              const Evidence& evidence,
-                             const Sampling& sampling,
-                             const Eigen::VectorXd& start) {
+                             const Sampling& sampling) {
   SliceDraws draw(sampling.seed);
-  SlicePoint at{start, log_evidence(model_at(prior, start), evidence)};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(prior.unknowns);
+  SlicePoint at{zero, log_evidence(model_at(prior, zero), evidence)};
   if (!std::isfinite(at.log_evidence)) {
     throw std::runtime_error("the covariance of the loop gaps is not positive definite");
   }
-  for (int i = 0; i < sampling.warm_up; ++i) slice_step(at, prior, evidence, draw);
+  const auto move = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      if (prior.hypotheses.size() > 1) choice_step(at, prior, evidence, draw);
+      slice_step(at, prior, evidence, draw);
+    }
+  };
+  move(sampling.warm_up);
   MotionPosterior out;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(prior.unknowns);
+  out.chances.resize(prior.hypotheses.size(), 0.0);
+  std::vector<Eigen::VectorXd> sums(prior.hypotheses.size(), zero);
   for (int i = 0; i < sampling.draws; ++i) {
-    for (int s = 0; s < sampling.steps; ++s) slice_step(at, prior, evidence, draw);
+    move(sampling.steps);
+    const std::size_t chosen = hypothesis_at(prior, at.unknowns);
     out.draws.push_back(model_at(prior, at.unknowns));
-    mean += at.unknowns / sampling.draws;
+    out.chances[chosen] += 1.0 / sampling.draws;
+    sums[chosen] += at.unknowns / sampling.draws;
     out.log_evidence += at.log_evidence / sampling.draws;
   }
-  out.centre = model_at(prior, mean);
-  out.last = at.unknowns;
+  const auto likeliest =
+      static_cast<std::size_t>(std::ranges::max_element(out.chances) - out.chances.begin());
+  out.centre = model_at(prior, sums[likeliest] / out.chances[likeliest]);
   return out;
 }
 

@@ -18,20 +18,19 @@ struct Sampling {
 
 struct MotionPosterior {
   std::vector<MotionModel> draws;
-  MotionModel centre;         ///< values whose logarithms are the draws' mean
-  Eigen::VectorXd last;       ///< unknowns of the last draw: where another round may start
-  double log_evidence = 0.0;  ///< of the gaps, mean over the draws
+  std::vector<double> chances;  ///< of the hypotheses, given the gaps: parts of the draws
+  MotionModel centre;           ///< of the likeliest: values whose logarithms are its draws' mean
+  double log_evidence = 0.0;    ///< of the gaps, mean over the draws
 };
 
-/// Draws from prior times log_evidence() by elliptical slice sampling, which has nothing to tune:
-/// from u and a fresh normal v it goes to the first point tried on the ellipse through both that is
-/// likely enough. The same seed, the same bits. Throws std::runtime_error when the model at
-/// `start` gives the gaps no density.
-/// O(steps (gaps^3 + gaps^2 terms)) with some five points tried a step.
+/// Draws from prior times log_evidence(). Each step tries a fresh hypothesis, all else as it is
+/// (Metropolis), then samples by elliptical slices, which have nothing to tune: from u and a fresh
+/// normal v to the first point tried on the ellipse through both that is likely enough. The same
+/// seed, the same bits. Throws std::runtime_error when the model at u = 0 gives the gaps no
+/// density. O(steps (gaps^3 + gaps^2 terms)) with some six points tried a step.
 /// Source: Murray, Adams, MacKay, Elliptical slice sampling, AISTATS 2010.
 MotionPosterior posterior_of(const MotionPrior& prior,
                              const Evidence& evidence,
-                             const Sampling& sampling,
-                             const Eigen::VectorXd& start);
+                             const Sampling& sampling);
 
 }  // namespace loopbench

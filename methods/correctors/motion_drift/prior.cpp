@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace loopbench {
 namespace {
@@ -118,22 +119,23 @@ void guess_closures(MotionModel& model,
   }
 }
 
-}  // namespace
+/// What every hypothesis knows u by; a term's own follow.
+enum : Eigen::Index {
+  kChoice,
+  kTranslation,
+  kRotation,
+  kSteady,
+  kAxis,
+  kGrowth = kAxis + 3,
+  kOwn = kGrowth + static_cast<Eigen::Index>(kGrowths.size())
+};
 
-MotionPrior prior_of(const MotionModel& model,
-                     const MotionPriorOptions& options,
-                     const Problem& problem,
-                     const std::vector<EdgeMotion>& motions,
-                     const Eigen::VectorXd& gap) {
-  MotionPrior out{model, {}, 0};
-  const ClosureMeans closures = means_of(problem, gap);
-  guess_odometry(out.medians, options, problem, motions, closures);
-  guess_closures(out.medians, problem, motions, closures);
-  std::erase_if(out.medians, [](const Term& term) { return term.value == 0.0; });
-
-  enum : Eigen::Index { kTranslation, kRotation, kSteady, kAxis, kGrowth = kAxis + 3 };
-  out.unknowns = kGrowth + static_cast<Eigen::Index>(kGrowths.size());
-  for (const Term& term : out.medians) {
+std::vector<std::vector<MotionPrior::Hang>> hangs_of(const MotionModel& medians,
+                                                     const MotionPriorOptions& options,
+                                                     bool planar) {
+  std::vector<std::vector<MotionPrior::Hang>> out;
+  Eigen::Index own = kOwn;
+  for (const Term& term : medians) {
     std::vector<MotionPrior::Hang> hangs;
     if (term.cause != Cause::closures) {
       const bool moves = term.cause != Cause::stated && term.half == Half::translation;
@@ -143,26 +145,100 @@ MotionPrior prior_of(const MotionModel& model,
       hangs.push_back({kSteady, options.steady_spread});
       if (term.axis >= 0) {
         // In the plane there is one axis to turn about and nothing to compare it with.
-        if (!problem.planar) hangs.push_back({kAxis + term.axis, options.axis_spread});
+        if (!planar) hangs.push_back({kAxis + term.axis, options.axis_spread});
         hangs.push_back({kGrowth + static_cast<Eigen::Index>(term.growth), options.share_spread});
       }
     }
     if (term.axis < 0) {
-      hangs.push_back({out.unknowns++,
+      hangs.push_back({own++,
                        term.cause == Cause::stated     ? options.stated_spread
                        : term.cause == Cause::closures ? options.closures_spread
                                                        : options.share_spread});
     }
-    out.hangs.push_back(std::move(hangs));
+    out.push_back(std::move(hangs));
+  }
+  return out;
+}
+
+bool guesses(const MotionModel& model, Cause cause) {
+  return std::ranges::any_of(model, [&](const Term& term) { return is_guessed(term, cause); });
+}
+
+/// Turns the free hypothesis into one of the simple ones.
+void simplify(MotionPrior::Hypothesis& to, Covariance covariance, const MotionPriorOptions& by) {
+  to.covariance = covariance;
+  double stated = 0.0;
+  for (Term& term : to.medians) {
+    if (term.cause == Cause::stated) stated = term.value /= by.stated_part;  // all of the noise
+    if (is_guessed(term, Cause::noise)) term.value = 0.0;
+  }
+  for (std::size_t j = 0; j < to.medians.size(); ++j) {
+    Term& term = to.medians[j];
+    const bool follows = covariance == Covariance::as_stated && is_guessed(term, Cause::closures);
+    if (follows) term.value = stated;
+    if (follows || term.cause == Cause::stated) to.hangs[j] = {{kRotation, by.scale_spread}};
+  }
+}
+
+}  // namespace
+
+MotionPrior prior_of(const MotionModel& model,
+                     const MotionPriorOptions& options,
+                     const Problem& problem,
+                     const std::vector<EdgeMotion>& motions,
+                     const Eigen::VectorXd& gap) {
+  MotionModel medians = model;
+  const ClosureMeans closures = means_of(problem, gap);
+  guess_odometry(medians, options, problem, motions, closures);
+  guess_closures(medians, problem, motions, closures);
+  std::erase_if(medians, [](const Term& term) { return term.value == 0.0; });
+
+  MotionPrior out;
+  out.unknowns = kOwn + static_cast<Eigen::Index>(medians.size());
+  const MotionPrior::Hypothesis all{
+      Covariance::free, true, 1.0, medians, hangs_of(medians, options, problem.planar)};
+  const bool drifts = guesses(medians, Cause::drift);
+  const double chances[] = {options.as_stated_chance,
+                            options.scaled_chance,
+                            std::max(0.0, 1.0 - options.as_stated_chance - options.scaled_chance)};
+  for (const bool steady : {false, true}) {
+    if (!steady && !drifts) continue;
+    for (const Covariance covariance :
+         {Covariance::as_stated, Covariance::scaled, Covariance::free}) {
+      MotionPrior::Hypothesis one = all;
+      if (covariance != Covariance::free) {
+        if (!guesses(medians, Cause::stated)) continue;
+        simplify(one, covariance, options);
+      }
+      one.chance = chances[static_cast<std::size_t>(covariance)];
+      if (drifts) one.chance *= steady ? options.steady_chance : 1.0 - options.steady_chance;
+      one.steady = steady;
+      for (Term& term : one.medians) {
+        if (is_guessed(term, Cause::drift) && !steady) term.value = 0.0;
+      }
+      out.hypotheses.push_back(std::move(one));
+    }
+  }
+  return out;
+}
+
+std::size_t hypothesis_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) {
+  double sum = 0.0;
+  for (const MotionPrior::Hypothesis& h : prior.hypotheses) sum += h.chance;
+  double left = 0.5 * std::erfc(-unknowns[kChoice] / std::numbers::sqrt2) * sum;
+  std::size_t out = 0;
+  while (out + 1 < prior.hypotheses.size() && left >= prior.hypotheses[out].chance) {
+    left -= prior.hypotheses[out++].chance;
   }
   return out;
 }
 
 MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) {
-  MotionModel out = prior.medians;
+  const MotionPrior::Hypothesis& chosen = prior.hypotheses[hypothesis_at(prior, unknowns)];
+  MotionModel out = chosen.medians;
   for (std::size_t j = 0; j < out.size(); ++j) {
     double log_factor = 0.0;
-    for (const MotionPrior::Hang& hang : prior.hangs[j]) {
+    for (const MotionPrior::Hang& hang : chosen.hangs[j]) {
       log_factor += hang.spread * unknowns[hang.unknown];
     }
     out[j].value *= std::exp(log_factor);

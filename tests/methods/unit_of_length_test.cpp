@@ -1,0 +1,104 @@
+#include "methods/correctors/unit_of_length.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/motion_drift/motion_drift.hpp"
+#include "methods/correctors/pose_graph.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Once round a square of 40 m in steps of one metre, whose unit grows by `creep` a step without
+/// the odometry knowing; the closure, from the end to the start, does.
+struct Creeping {
+  Trajectory truth;
+  Problem problem;
+};
+
+/// `sure`: information of the closure.
+Creeping creeping(double creep, double sure) {
+  Creeping out;
+  Pose pose;
+  Pose seen;
+  double unit = 1.0;  // of where we are; the true metre is unit of the first
+  Matrix6 information = Matrix6::Identity() * 1e4;
+  for (std::size_t i = 0; i <= 40; ++i) {
+    out.truth.push_back({static_cast<double>(i), pose});
+    out.problem.keyframes.push_back({static_cast<double>(i), seen});
+    if (i == 40) break;
+    const double turn = i % 10 == 9 ? 0.5 * std::numbers::pi : 0.0;
+    const Pose step{exp_so3({0, 0, turn}), Vector3(1, 0, 0)};
+    const Pose measured{step.rotation, step.translation / unit};
+    out.problem.odometry.push_back({i, i + 1, measured, information, 1.0});
+    pose = normalized(pose * step);
+    seen = normalized(seen * measured);
+    unit *= std::exp(creep);
+  }
+  out.problem.closures.push_back({0, 40, pose, Matrix6::Identity() * sure, unit});
+  return out;
+}
+
+double off(const Trajectory& estimate, const Trajectory& truth) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (estimate[i].world_from_body.translation - truth[i].world_from_body.translation)
+               .squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+TEST(UnitOfLength, IsSpreadOverTheLoopWithItsShareLeftToTheClosure) {
+  // 40 edges and a closure, all as sure of scale, none of poses: an edge takes a 41st of the gap of
+  // 40 creeps.
+  const Creeping square = creeping(0.02, 1e-12);
+  ASSERT_TRUE(changes_unit(square.problem));
+  const Problem rigid = in_one_unit(square.problem);
+  EXPECT_FALSE(changes_unit(rigid));
+  for (const std::size_t i : {1u, 10u, 39u}) {
+    const double left = std::exp(0.02 * static_cast<double>(i) * (40.0 / 41.0 - 1.0));
+    EXPECT_NEAR(rigid.odometry[i].from_from_to.translation.x(), left, 1e-9);
+  }
+  // 1e4 in units of exp(0.02 * 400 / 41): the deviation grows with what it is measured in.
+  EXPECT_NEAR(rigid.odometry[10].information(0, 0), 1e4 * std::exp(-2.0 * 8.0 / 41.0), 1e-4);
+  EXPECT_NEAR(rigid.odometry[10].information(5, 5), 1e4, 1e-9);
+}
+
+TEST(UnitOfLength, OverlappingLoopsShareItsChange) {
+  // Chain of 3 edges, loops 0-2 and 1-3 with log scales 1 and 2: (N + I) = [3 1; 1 3], so
+  // lambda = (1/8, 5/8) and the edges change by 1/8, 6/8, 5/8.
+  Problem problem;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto x = static_cast<double>(i);
+    problem.keyframes.push_back({x, {Rotation::Identity(), Vector3(x, 0, 0)}});
+    if (i < 3) problem.odometry.push_back({i, i + 1, {Rotation::Identity(), Vector3(1, 0, 0)}});
+  }
+  const Pose two{Rotation::Identity(), Vector3(2, 0, 0)};
+  const Matrix6 unsure = Matrix6::Identity() * 1e-12;
+  problem.closures = {{0, 2, two, unsure, std::exp(1.0)}, {1, 3, two, unsure, std::exp(2.0)}};
+  const Problem rigid = in_one_unit(problem);
+  EXPECT_NEAR(rigid.odometry[0].from_from_to.translation.x(), 1.0, 1e-9);
+  EXPECT_NEAR(rigid.odometry[1].from_from_to.translation.x(), std::exp(1.0 / 8), 1e-9);
+  EXPECT_NEAR(rigid.odometry[2].from_from_to.translation.x(), std::exp(7.0 / 8), 1e-9);
+  EXPECT_NEAR(rigid.closures[1].from_from_to.translation.x(), 2.0 * std::exp(1.0 / 8), 1e-9);
+  EXPECT_NEAR(rigid.keyframes[3].world_from_body.translation.x(),
+              1 + std::exp(0.125) + std::exp(0.875),
+              1e-9);
+}
+
+TEST(UnitOfLength, DualIsThePoseGraphOfSimilaritiesThen) {
+  const Creeping square = creeping(0.01, 1e4);
+  Report report;
+  const Trajectory graph = PoseGraphOptimizer({}).correct(square.problem, report);
+  const Trajectory dual = Dual({}).correct(square.problem, report);
+  const Trajectory drift = MotionDrift({}).correct(square.problem, report);
+  const Trajectory rigid = Dual({.scale = false}).correct(square.problem, report);
+  EXPECT_LT(off(dual, square.truth), 0.1 * off(rigid, square.truth));
+  EXPECT_LT(off(drift, square.truth), 0.1 * off(rigid, square.truth));
+  EXPECT_LT(off(dual, graph), 1e-3 * off(rigid, graph));
+}
+
+}  // namespace
+}  // namespace loopbench
