@@ -46,14 +46,14 @@ TumMotions laid_side_by_side(const Paired& whole,
                              double offset,
                              const Alignment& alignment,
                              const std::vector<FromTo>& pairs) {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  constexpr std::size_t kUnused = kNone - 1;
+  constexpr std::size_t kUnmatched = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kUnused = kUnmatched - 1;
   const auto& reference = whole.reference;
   const auto& estimate = whole.estimate;
   const std::vector<double> reference_stamps = stamps(reference);
   const double limit = 2.0 * median_step(reference_stamps);
   std::vector<std::size_t> nearest(estimate.size(), kUnused);
-  for (const auto& [i, j] : pairs) nearest[i] = nearest[j] = kNone;
+  for (const auto& [i, j] : pairs) nearest[i] = nearest[j] = kUnmatched;
   in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       if (nearest[i] == kUnused) continue;
@@ -63,9 +63,9 @@ TumMotions laid_side_by_side(const Paired& whole,
     }
   });
   TumMotions out;
-  std::vector<std::size_t> place(estimate.size(), kNone);  // of the poses in `out`
+  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // of the poses in `out`
   const auto taken = [&](std::size_t i) {
-    if (place[i] == kNone) {
+    if (place[i] == kUnmatched) {
       place[i] = out.poses.estimate.size();
       out.poses.estimate.push_back(estimate[i]);
       out.poses.reference.push_back(reference[nearest[i]]);
@@ -73,7 +73,7 @@ TumMotions laid_side_by_side(const Paired& whole,
     return place[i];
   };
   for (const auto& [i, j] : pairs) {
-    if (nearest[i] == kNone || nearest[j] == kNone) continue;
+    if (nearest[i] == kUnmatched || nearest[j] == kUnmatched) continue;
     const std::size_t from = taken(i);
     out.pairs.emplace_back(from, taken(j));
   }

@@ -66,12 +66,11 @@ TEST(Eval, DoesAsRpgsFolderAsks) {
   std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
   std::filesystem::copy_file(golden("est_drift.txt"), folder.path() / "stamped_traj_estimate.txt");
   const auto cfg = folder.path() / "eval_cfg.yaml";
-  const auto rmse = [&](const std::string& settings, const std::string& more = "--protocol=rpg") {
+  const auto rmse = [&](const std::string& settings, const std::string& align = "") {
     written(cfg, settings);
-    return find(eval_json({folder.path().string(), "--protocol=rpg", more}),
-                "ate",
-                "translation")["rmse"]
-        .get<double>();
+    std::vector<std::string> arguments{folder.path().string(), "--protocol=rpg"};
+    if (!align.empty()) arguments.push_back(align);
+    return find(eval_json(arguments), "ate", "translation")["rmse"].get<double>();
   };
   EXPECT_NEAR(rmse("align_type: sim3\nalign_num_frames: -1\n"), 0.660473127811482, 1e-12);
   EXPECT_NEAR(rmse("align_type: se3\n"), 0.676208260682124, 1e-12);
@@ -118,10 +117,13 @@ TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {
       "(KITTI), --period S or --association index";
   EXPECT_EQ(refusal<InputError>({stamped, numbered}), numbered + rule);
   EXPECT_EQ(refusal<InputError>({numbered, stamped}), numbered + rule);
-  EXPECT_EQ(
-      eval_json({stamped, numbered, "--period=0.05", "--align=none", "--max-diff=0.1"})["protocol"]
-                                                                                       ["name"],
-      "loopbench");
+  const Json told = eval_json({stamped,
+                               numbered,
+                               "--period=0.1",
+                               "--offset=1700000000",
+                               "--max-diff=0.05",
+                               "--align=none"});
+  EXPECT_GT(told["pairs"], 100);
 }
 
 TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {

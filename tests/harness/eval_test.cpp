@@ -261,7 +261,9 @@ TEST(Eval, WritesOverNoneOfItsInputs) {
 TEST(Eval, RefusesWhatItCannotJudge) {
   const std::string kitti = golden("kitti_gt.txt");
   const std::string tum = golden("gt.txt");
-  EXPECT_EQ(refusal<InputError>({tum, kitti}).find(kitti + " against " + tum + ": no pose of"), 0u);
+  EXPECT_EQ(refusal<InputError>({tum, kitti, "--period=0.1"})
+                .find(kitti + " against " + tum + ": no pose of"),
+            0u);
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=best"}),
             "align = best: expected one of se3 | sim3 | scale | posyaw | origin | posyaw_origin | "
             "none");

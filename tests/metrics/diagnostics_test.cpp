@@ -84,12 +84,15 @@ TEST(Diagnostics, CountsPosesUsedAgainAndPairsThatCross) {
 
 TEST(Diagnostics, ScoresAreSingleNumbers) {
   const Trajectory reference = with_a_stop();
-  const Evaluation e = evaluate(reference, without(reference, 1.05, 4.05), {});
+  const Trajectory estimate = without(reference, 1.05, 4.05);
+  Evaluation e = evaluate(reference, estimate, {});
+  e.context.reference = &reference;
+  e.context.estimate = &estimate;
   for (const Score& score : diagnostics(e, {})) {
     EXPECT_EQ(score.statistics.count, 1u);
     EXPECT_EQ(score.statistics.rmse, score.statistics.max) << score.relation;
   }
-  EXPECT_NEAR(find(diagnostics(e, {}), "lost", "").mean, 3.1, 1e-9);  // from the pairs alone
+  EXPECT_NEAR(find(diagnostics(e, {}), "lost", "").mean, 3.1, 1e-9);
 }
 
 /// A bend without any attitude, as of GPS.
