@@ -8,6 +8,10 @@ namespace loopbench {
 std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files) {
   std::vector<InputFile> out;
   for (const std::filesystem::path& file : files) {
+    if (!std::filesystem::exists(file)) {
+      out.push_back({file.string(), 0, hex(Hash{})});
+      continue;
+    }
     const std::string hash = hex(hash_of_file(file));
     out.push_back({file.string(), std::filesystem::file_size(file), hash});
   }

@@ -31,13 +31,15 @@ struct SequenceFacts {
   bool oracle_closures = false;  ///< they were measured in the reference
   SequenceSize size;
   std::vector<std::string> notes;  ///< what a user should know of how it was made
-  SequenceTrace trace;  ///< empty when the sweep keeps no traces
+  SequenceTrace trace;             ///< empty when the sweep keeps no traces
 };
 
 /// Reads the inputs again to hash them. Throws InputError.
 SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
 
-/// The files with their sizes and hashes. Throws InputError for one that is not there.
+/// The files with their sizes and hashes; zeros for one that is not there and that its sequence did
+/// without (an image of a recording), so that a later run notices when it has come. Throws
+/// InputError for one that cannot be read.
 std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files);
 
 }  // namespace loopbench
