@@ -60,7 +60,7 @@ Trajectory read_truth(const std::filesystem::path& file,
       pose = normalized(camera_from_body.inverse() * pose * camera_from_body);
     }
   }
-  return truth;
+  return of_estimate_body(std::move(truth), o.reference_body);
 }
 
 std::string told(const PoseGraphOptions& o, const PoseGraph& graph, std::size_t count) {

@@ -3,6 +3,7 @@
 
 #include "datasets/dataset.hpp"
 #include "datasets/derive/false_closures.hpp"
+#include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/g2o.hpp"
 
 namespace loopbench {
@@ -14,7 +15,8 @@ inline auto choices(GraphClosures) {
 }
 
 /// `kitti_camera`: the truth's body is KITTI's camera (x right, y down, z forward) and the graph's
-/// is a vehicle at the same point (x forward, y left, z up); the truth is turned to the latter.
+/// is a vehicle (x forward, y left, z up); the truth is turned to the latter.
+/// Where it then still follows another point, `reference_body` says which.
 enum class TruthAxes { same, kitti_camera };
 inline auto choices(TruthAxes) {
   return std::array{std::pair{"same", TruthAxes::same},
@@ -31,6 +33,7 @@ struct PoseGraphOptions {
   std::string path;
   std::string truth;
   TruthAxes truth_axes = TruthAxes::same;
+  ReferenceBody reference_body;
   TurnInformation turns = TurnInformation::half_angles;
   double period = 0.1;
   std::int64_t keyframes_every = 1;
@@ -49,6 +52,7 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("path", o.path, "g2o file");
   visit("truth", o.truth, "g2o with the same ids, or poses, as many; empty: none");
   visit("truth_axes", o.truth_axes, "body axes of the truth");
+  reference_body_fields(o.reference_body, visit);
   visit("information",
         o.turns,
         "what that of :QUAT edges is about: half_angles as g2o, angles as GTSAM and SE-Sync");

@@ -144,7 +144,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   TrajectoryInputs in;
   in.estimate = read(o.estimate, o.format);
   in.frames = read(o.frames, o.format);
-  in.reference = read(o.reference, o.reference_format);
+  in.reference = of_estimate_body(read(o.reference, o.reference_format), o.reference_body);
   if (o.closures == ClosureSource::estimate) in.other_run = read(o.closures_file, o.format);
   if (o.closures == ClosureSource::file) {
     in.closures = read_closure_file(open(o.closures_file), o.closures_noise);

@@ -7,6 +7,7 @@
 #include "datasets/derive/false_closures.hpp"
 #include "datasets/derive/keyframes.hpp"
 #include "datasets/derive/odometry.hpp"
+#include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -24,12 +25,14 @@ inline auto choices(ClosureScale) {
   return std::array{std::pair{"same", ClosureScale::same}, std::pair{"local", ClosureScale::local}};
 }
 
-/// Estimate, reference and other run must describe the same body: two runs on the same camera do,
-/// a camera and an IMU do not. TUM and KITTI files are camera poses throughout.
+/// Estimate and other run must describe the same body: two runs on the same camera do, a camera and
+/// an IMU do not. So must the reference, unless `reference_body` says where its own is. TUM and
+/// KITTI files are camera poses throughout.
 struct TrajectoryOptions {
   std::string name;
   std::string estimate;
   std::string reference;
+  ReferenceBody reference_body;
   std::string frames;
   Format format = Format::automatic;
   Format reference_format = Format::automatic;
@@ -58,6 +61,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("name", o.name, "of the sequence; empty: folder and stem of the estimate");
   visit("estimate", o.estimate, "file with the drifting (or corrected) poses");
   visit("reference", o.reference, "file with the reference; empty: none");
+  reference_body_fields(o.reference_body, visit);
   visit("frames", o.frames, "frames of the same run, when the estimate is a keyframe file");
   visit("format", o.format, "of estimate, frames and closures.file");
   visit("reference_format", o.reference_format, "of the reference");

@@ -5,6 +5,7 @@
 #include "metrics/ape.hpp"
 #include "metrics/ate.hpp"
 #include "metrics/axis_error.hpp"
+#include "metrics/body_offset.hpp"
 #include "metrics/closure_residual.hpp"
 #include "metrics/coverage.hpp"
 #include "metrics/diagnostics.hpp"
@@ -63,6 +64,8 @@ std::vector<MetricEntry> metrics() {
           "loop_detection",
           "the place recogniser: precision, recall and their curve",
           loop_detection),
+      metric<BodyOffsetOptions>(
+          "body_offset", "where the reference's body sits in the estimate's", body_offset_scores),
       metric<DiagnosticsOptions>("diagnostics", "can the numbers be trusted at all", diagnostics),
   };
 }

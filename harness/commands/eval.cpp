@@ -85,11 +85,14 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
-  const bool is_devkit = std::ranges::any_of(
-      rules, [](const NamedProtocol& p) { return p.rules.form == ErrorForm::kitti; });
+  const bool is_devkit =
+      a.reference_body.empty() && std::ranges::any_of(rules, [](const NamedProtocol& p) {
+        return p.rules.form == ErrorForm::kitti;
+      });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
+  const ReferenceBody body = reference_body(a);
   Reader reader{a, is_devkit};
   std::vector<Judgement> out;
   std::string read_last;
@@ -100,7 +103,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
       Loaded loaded = reader.read_reference(pair.reference);
-      reference = std::move(loaded.poses);
+      reference = of_estimate_body(std::move(loaded.poses), body);
       unstamped = loaded.unstamped;
       mended = loaded.mended;
       printed.reference = std::move(loaded.matrices);
@@ -138,6 +141,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
         out.push_back(failure(pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
+      out.back().reference_body = a.reference_body;
       out.back().estimate = pair.estimate;
     }
   }

@@ -119,6 +119,30 @@ std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
   return out;
 }
 
+ReferenceBody reference_body(const EvalArguments& a) {
+  ReferenceBody out;
+  if (a.reference_body.empty()) return out;
+  const auto refuse = [&] {
+    return InputError("--ref-body: '" + a.reference_body +
+                      "' is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+  };
+  double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
+  const char* at = a.reference_body.data();
+  const char* const end = at + a.reference_body.size();
+  std::size_t count = 0;
+  for (;; ++at) {
+    if (count == std::size(members)) throw refuse();
+    const auto [rest, error] = std::from_chars(at, end, *members[count]);
+    if (error != std::errc{} || !std::isfinite(*members[count])) throw refuse();
+    ++count;
+    at = rest;
+    if (at == end) break;
+    if (*at != ',') throw refuse();
+  }
+  if (count != 3 && count != 7) throw refuse();
+  return out;
+}
+
 std::vector<FilePair> file_pairs(const EvalArguments& a) {
   const bool is_folder = std::filesystem::is_directory(a.reference);
   if (a.estimates.empty()) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/commands/judgement.hpp"
 #include "harness/commands/layout.hpp"
@@ -21,6 +22,7 @@ struct EvalArguments {
   std::vector<std::string> estimates;
   std::string format = "auto";
   std::string reference_format;  ///< empty: as `format`
+  std::string reference_body;    ///< x,y,z or x,y,z,qx,qy,qz,qw; empty: the estimates' own
   std::string times;             ///< empty: none
   std::string repeats = "refuse";
   std::optional<double> period;  ///< [s]; none: that of ReadOptions
@@ -54,6 +56,9 @@ std::vector<NamedProtocol> protocols(const EvalArguments& arguments);
 /// evo's habits: a relation asks for ape and rpe in it; a delta or unit alone for one rpe. Without
 /// any the usual questions. Throws OptionError.
 std::vector<Asked> questions(const EvalArguments& arguments, const Protocol& protocol);
+
+/// Throws InputError when it is not three or seven numbers.
+ReferenceBody reference_body(const EvalArguments& arguments);
 
 /// REF with each EST, or the files of an rpg folder (no EST) or of ov_eval folders (REF and EST).
 /// Throws InputError, CLI::RequiredError when an EST is missing.

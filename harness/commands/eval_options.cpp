@@ -23,6 +23,11 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   word("--format", a.format, choice_list<Format>())->capture_default_str();
   word("--ref-format", a.reference_format, "Format of REF, when it is another");
+  command
+      .add_option("--ref-body",
+                  a.reference_body,
+                  "Where REF's body (marker, IMU, camera) sits in the estimates', if elsewhere")
+      ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
   word("--repeats", a.repeats, "Equal stamps: " + choice_list<Repeats>())->capture_default_str();
   command.add_option("--times", a.times, "Stamps of KITTI poses, one a line")->type_name("FILE");
   command.add_option("--period", a.period, "Between KITTI or g2o poses without stamps [s]")

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "harness/run/incomplete.hpp"
+#include "metrics/body_offset.hpp"
 #include "metrics/diagnostics.hpp"
 
 namespace loopbench {
@@ -66,6 +67,9 @@ Judgement judge(const Trajectory& reference,
   }
   out.diagnosis.push_back(
       single("left_out", "", "1", static_cast<double>(options.mended.repeated)));
+  if (const auto offset = body_offset(evaluation, {})) {
+    out.other_body = other_body(*offset);
+  }
   if (options.with_poses) out.poses = pose_errors(evaluation);
   const std::vector<MetricEntry> known = metrics();
   for (const Asked& asked : options.questions) {

@@ -40,6 +40,7 @@ struct JudgedMetric {
 
 struct Judgement {
   std::string reference;
+  std::string reference_body;  ///< where it sits in the estimate's, as typed; empty: it is the same
   std::string estimate;
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
@@ -48,6 +49,7 @@ struct Judgement {
   std::string why_incomplete;  ///< set when coverage is below the limit; the numbers stand
   Alignment alignment;
   std::vector<Score> diagnosis;  ///< of `diagnostics` at its defaults
+  std::string other_body;        ///< set when the reference seems to follow another one
   std::vector<JudgedMetric> metrics;
   std::vector<PoseError> poses;  ///< only when asked for
   std::string why_failed;        ///< set when nothing could be judged: names and protocol only
@@ -78,7 +80,7 @@ std::string text(const Judgement& judgement);
 std::string comparison(const std::vector<Judgement>& judgements);
 
 /// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
-/// estimate, protocol {name, version, changes, rules}, status (see above), why, pairs,
+/// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version, changes, rules}, status (see above), why, pairs,
 /// possible, coverage (pairs / possible), span, alignment {type, scale, rank, condition}, diagnosis
 /// {name: value}, metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined

@@ -62,6 +62,8 @@ Json to_json(const Judgement& j) {
              {"rules", to_json(echo(j.protocol.rules))}}},
            {"status", status(j)},
            {"why", why_not_ok(j)}};
+  if (!j.reference_body.empty()) out["reference_body"] = j.reference_body;
+  if (!j.other_body.empty()) out["other_body"] = j.other_body;
   if (j.why_failed.empty()) {
     out["pairs"] = j.coverage.pairs;
     out["possible"] = j.coverage.possible;

@@ -98,7 +98,10 @@ std::string label(const JudgedMetric& metric) {
 
 std::string text(const Judgement& j) {
   std::string out =
-      fmt::format("reference  {} ({} poses)\n", j.reference, j.reference_poses) +
+      fmt::format("reference  {} ({} poses){}\n",
+                  j.reference,
+                  j.reference_poses,
+                  j.reference_body.empty() ? "" : ", its body at " + j.reference_body) +
       fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
       fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
       fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
@@ -108,7 +111,9 @@ std::string text(const Judgement& j) {
                   100.0 * j.coverage.span) +
       (j.why_incomplete.empty() ? "" : "incomplete " + j.why_incomplete + "\n") +
       fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
-      diagnosis_text(j.diagnosis) + "\n";
+      diagnosis_text(j.diagnosis) +
+      (j.other_body.empty() ? "" : "other body " + j.other_body + "; --ref-body takes it in\n") +
+      "\n";
   const Widths widths(j);
   out += widths.line("metric", "relation", "axis", "unit");
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
@@ -161,6 +166,7 @@ std::string comparison(const std::vector<Judgement>& judgements) {
       notes.push_back({j.estimate, "", "incomplete", j.why_incomplete});
     }
     if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
+    if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
     for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
     for (const JudgedMetric& metric : j.metrics) {
       for (const auto& [relation, axis, unit, s, why] : metric.scores) {

@@ -1,9 +1,31 @@
 #include "harness/run/sequence_facts.hpp"
 
+#include "datasets/derive/poses_at.hpp"
 #include "harness/provenance/hash.hpp"
+#include "metrics/body_offset.hpp"
 #include "metrics/loop_detection.hpp"
+#include "metrics/position_only.hpp"
 
 namespace loopbench {
+namespace {
+
+/// Whether the raw keyframes move as if the reference were somebody else; empty: they do not.
+std::string reference_of_other_body(const Sequence& sequence) {
+  const Trajectory& keyframes = sequence.problem.keyframes;
+  if (sequence.reference.empty() || is_position_only(sequence.reference)) return "";
+  const auto there = poses_at(sequence.reference, stamps(keyframes), {});
+  Trajectory estimate, reference;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (!there[i]) continue;
+    estimate.push_back(keyframes[i]);
+    reference.push_back({keyframes[i].stamp, *there[i]});
+  }
+  const auto offset = body_offset(reference, estimate, {});
+  const std::string text = offset ? other_body(*offset) : "";
+  return text.empty() ? "" : text + "; the dataset's option reference_body takes it in";
+}
+
+}  // namespace
 
 std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files) {
   std::vector<InputFile> out;
@@ -33,6 +55,9 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back(to_text(judge_detection(sequence, {})));
+  }
+  if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
+    out.notes.push_back(note);
   }
   if (with_trace) out.trace = sequence_trace(sequence);
   return out;

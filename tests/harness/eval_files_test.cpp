@@ -1,9 +1,12 @@
 // Which files `eval` takes for what: folders of other tools, clocks, positions alone.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "datasets/core/se3.hpp"
+#include "datasets/formats/formats.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,6 +19,7 @@ using test::find;
 using test::golden;
 using test::Json;
 using test::refusal;
+using testing::HasSubstr;
 
 std::string written(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file) << text;
@@ -108,6 +112,47 @@ TEST(Eval, TellsWhatReadingMended) {
   EXPECT_NEAR(judged["diagnosis"]["off_unit"].get<double>(), 0.005, 1e-12);
   EXPECT_EQ(judged["diagnosis"]["left_out"], 1.0);
   EXPECT_NEAR(find(judged, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
+}
+
+/// A bent way of 100 poses, followed at `aside` of the body.
+std::string bent_way(const std::filesystem::path& file, const Pose& aside) {
+  Trajectory poses;
+  Pose pose;
+  for (int i = 0; i < 100; ++i) {
+    poses.push_back({static_cast<double>(i), pose * aside});
+    pose = normalized(pose * exp_se3(twist({1.0, 0.0, 0.2}, {0.1 * (i % 2), 0.1 * (i % 3), 0.2})));
+  }
+  write_tum(file, poses);
+  return file.string();
+}
+
+TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
+  const TemporaryFolder folder;
+  const std::string reference =
+      bent_way(folder.path() / "marker.txt", {Rotation(0.5, 0.5, 0.5, 0.5), {0.1, -0.2, 0.3}});
+  const std::string estimate = bent_way(folder.path() / "camera.txt", {});
+  const std::string place = "0.1,-0.2,0.3,0.5,0.5,0.5,0.5";
+  EXPECT_THAT(eval({reference, estimate}),
+              HasSubstr("other body the reference seems to follow another body, at " + place));
+  const Json plain = eval_json({reference, estimate});
+  EXPECT_TRUE(plain.contains("other_body"));
+  EXPECT_GT(find(plain, "ate", "translation")["rmse"].get<double>(), 0.1);
+
+  const Json told = eval_json({reference, estimate, "--ref-body=" + place});
+  EXPECT_FALSE(told.contains("other_body"));
+  EXPECT_EQ(told["reference_body"], place);
+  EXPECT_LT(find(told, "ate", "translation")["rmse"].get<double>(), 1e-9);
+  EXPECT_LT(find(told, "rpe", "rotation")["rmse"].get<double>(), 1e-6);
+  EXPECT_THAT(eval({reference, estimate, "--ref-body=" + place}),
+              HasSubstr("(100 poses), its body at " + place));
+  for (const char* wrong :
+       {"1,2", "1,2,3,", "1,2,x", "1,2,3,4", "1,2,3,0,0,0,1,1", "nan,0,0", ","}) {
+    EXPECT_THAT(refusal<InputError>({reference, estimate, std::string("--ref-body=") + wrong}),
+                HasSubstr("is not x,y,z [m] or x,y,z,qx,qy,qz,qw"))
+        << wrong;
+  }
+  EXPECT_THAT(refusal<OptionError>({reference, estimate, "--ref-body=0,0,0,0,0,0,2"}),
+              HasSubstr("expected a unit quaternion"));
 }
 
 TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "datasets/core/se3.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
@@ -21,6 +22,24 @@ TEST(HashedInputs, OneThatASequenceDidWithoutIsKnownWhenItComes) {
   const InputFile come = hashed_inputs({image}).front();
   EXPECT_EQ(come.bytes, 6u);
   EXPECT_NE(come.hash, missing.hash);
+}
+
+TEST(SequenceFacts, TellOfAReferenceThatFollowsAnotherBody) {
+  Sequence sequence;
+  Pose pose;
+  for (int i = 0; i < 100; ++i) {
+    sequence.problem.keyframes.push_back({0.5 * i, pose});
+    sequence.reference.push_back({0.5 * i, pose * Pose{Rotation::Identity(), {0.0, 0.5, 0.0}}});
+    pose = normalized(pose * exp_se3(twist({1.0, 0.0, 0.0}, {0.1 * (i % 2), 0.1 * (i % 3), 0.2})));
+  }
+  const auto notes = sequence_facts(sequence, false).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0],
+            "the reference seems to follow another body, at 0.0,0.5,0.0 of the estimate's: that "
+            "explains 100 % of how differently they move in turns; the dataset's option "
+            "reference_body takes it in");
+  sequence.reference = sequence.problem.keyframes;
+  EXPECT_TRUE(sequence_facts(sequence, false).notes.empty());
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+#include "datasets/derive/reference_body.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "datasets/dataset.hpp"
+#include "tests/datasets/random_poses.hpp"
+#include "tests/support/refusal_of.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using testing::HasSubstr;
+
+// A marker 2 m ahead, on a vehicle that has gone 3 m and turned left: the marker is at (3, 2).
+TEST(ReferenceBody, IsTakenBackToTheEstimatesBody) {
+  const Rotation left = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
+  const Trajectory marker{{0.0, {Rotation::Identity(), {2.0, 0.0, 0.0}}},
+                          {1.0, {left, {3.0, 2.0, 0.0}}}};
+  ReferenceBody ahead;
+  ahead.x = 2.0;
+  const Trajectory vehicle = of_estimate_body(marker, ahead);
+  EXPECT_TRUE(is_close(vehicle[0].world_from_body, {}, 1e-12, 1e-12));
+  EXPECT_TRUE(is_close(vehicle[1].world_from_body, {left, {3.0, 0.0, 0.0}}, 1e-12, 1e-12));
+  EXPECT_EQ(vehicle[1].stamp, 1.0);
+}
+
+TEST(ReferenceBody, UndoesEveryOffset) {
+  const Pose body_from_reference = exp_se3(twist({0.3, -0.2, 0.1}, {0.5, -1.0, 2.0}));
+  const Rotation& turn = body_from_reference.rotation;
+  const Vector3& at = body_from_reference.translation;
+  const ReferenceBody body{at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
+  const Trajectory truth = random_walk(50, 3, 1.0, 0.5);
+  Trajectory reference = truth;
+  for (auto& [stamp, pose] : reference) pose = normalized(pose * body_from_reference);
+  reference = of_estimate_body(reference, body);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_TRUE(is_close(reference[i].world_from_body, truth[i].world_from_body, 1e-9, 1e-9)) << i;
+  }
+}
+
+TEST(ReferenceBody, SameBodyKeepsEveryBit) {
+  const Trajectory truth = random_walk(20, 4, 1.0, 0.5);
+  const Trajectory same = of_estimate_body(truth, {});
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_EQ(same[i].world_from_body.rotation.coeffs(),
+              truth[i].world_from_body.rotation.coeffs());
+    EXPECT_EQ(same[i].world_from_body.translation, truth[i].world_from_body.translation);
+  }
+}
+
+Sequence loaded(const std::string& dataset, const std::filesystem::path& folder, Params given) {
+  for (const DatasetEntry& entry : datasets()) {
+    if (entry.name == dataset) return entry.load(given, {{folder}});
+  }
+  throw std::logic_error("no such dataset");
+}
+
+TEST(ReferenceBody, IsAnOptionOfTrajectoriesAndGraphs) {
+  const TemporaryFolder folder;
+  folder.file("estimate.txt", "0 0 0 0 0 0 0 1\n1 3 0 0 0 0 0.70710678118 0.70710678118\n");
+  folder.file("marker.txt", "0 2 0 0 0 0 0 1\n1 3 2 0 0 0 0.70710678118 0.70710678118\n");
+  folder.file("vo.g2o", "EDGE_SE2 0 1 3 0 1.5707963267948966 1 0 0 1 0 1\n");
+  folder.file("marker.g2o", "EDGE_SE2 0 1 1 2 1.5707963267948966 1 0 0 1 0 1\n");
+  const Sequence trajectory = loaded(
+      "trajectory",
+      folder.path(),
+      {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.x", 2.0}});
+  const Sequence graph =
+      loaded("pose_graph",
+             folder.path(),
+             {{"path", "vo.g2o"}, {"truth", "marker.g2o"}, {"reference_body.x", 2.0}});
+  for (const Sequence& sequence : {trajectory, graph}) {
+    ASSERT_EQ(sequence.reference.size(), 2u);
+    const Pose step =
+        sequence.reference[0].world_from_body.inverse() * sequence.reference[1].world_from_body;
+    EXPECT_TRUE(step.translation.isApprox(Vector3(3.0, 0.0, 0.0), 1e-9)) << step.translation;
+  }
+  const auto refusal = refusal_of([&] {
+    loaded("trajectory",
+           folder.path(),
+           {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.qx", 1.0}});
+  });
+  EXPECT_THAT(refusal, HasSubstr("expected a unit quaternion"));
+}
+
+}  // namespace
+}  // namespace loopbench
