@@ -10,7 +10,7 @@
 namespace loopbench {
 
 struct Sampling {
-  int draws = 32;
+  int draws = 64;
   int steps = 8;     ///< from draw to draw
   int warm_up = 60;  ///< steps before the first
   std::int64_t seed = 1;

@@ -22,7 +22,7 @@ struct MotionPriorOptions {
   double closures_spread = 0.7;
   double as_stated_chance = 0.5;  ///< see Covariance; the rest is its last
   double scaled_chance = 0.25;
-  double steady_chance = 0.3;  ///< that anything drifts steadily
+  double steady_chance = 0.7;  ///< that anything drifts steadily
 };
 
 /// What the noise may be like. As stated: every covariance of the problem times one factor, which
