@@ -5,7 +5,6 @@
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/ate.hpp"
-#include "metrics/position_only.hpp"
 #include "metrics/rpy.hpp"
 
 namespace loopbench {

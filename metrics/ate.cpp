@@ -3,7 +3,6 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/motion.hpp"
-#include "metrics/position_only.hpp"
 
 namespace loopbench {
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrics/position_only.hpp"
-
 namespace loopbench {
 namespace {
 

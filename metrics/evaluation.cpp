@@ -128,4 +128,15 @@ Evaluation evaluate(const Trajectory& reference,
   return out;
 }
 
+std::string why_no_attitude(const Evaluation& evaluation) {
+  const auto text = [](const std::string& whose) {
+    return "the " + whose +
+           " keeps one attitude while its path turns: it holds positions only, so rotation is not "
+           "judged";
+  };
+  if (is_position_only(evaluation.reference)) return text("reference");
+  if (is_position_only(evaluation.estimate)) return text("estimate");
+  return "";
+}
+
 }  // namespace loopbench

@@ -55,4 +55,8 @@ Evaluation evaluate(const Trajectory& reference,
                     Times times,
                     const Protocol& protocol);
 
+/// Why numbers that use attitudes mean nothing here (position_only.hpp), or empty when they do.
+/// O(n).
+std::string why_no_attitude(const Evaluation& evaluation);
+
 }  // namespace loopbench

@@ -5,7 +5,6 @@
 
 #include "datasets/core/polyline.hpp"
 #include "metrics/pair_search.hpp"
-#include "metrics/position_only.hpp"
 
 namespace loopbench {
 namespace {

@@ -5,7 +5,6 @@
 #include "datasets/core/interpolate.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/natural_cubic.hpp"
-#include "metrics/position_only.hpp"
 
 namespace loopbench {
 namespace {

@@ -36,15 +36,4 @@ bool is_position_only(const Trajectory& trajectory) {
   return !keeps_one_line(trajectory);
 }
 
-std::string why_no_attitude(const Evaluation& evaluation) {
-  const auto text = [](const std::string& whose) {
-    return "the " + whose +
-           " keeps one attitude while its path turns: it holds positions only, so rotation is not "
-           "judged";
-  };
-  if (is_position_only(evaluation.reference)) return text("reference");
-  if (is_position_only(evaluation.estimate)) return text("estimate");
-  return "";
-}
-
 }  // namespace loopbench

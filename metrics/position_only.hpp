@@ -1,9 +1,7 @@
 /// Trajectories that hold positions and a made-up attitude: then nothing is said about rotation.
 #pragma once
 
-#include <string>
-
-#include "metrics/evaluation.hpp"
+#include "datasets/core/trajectory.hpp"
 
 namespace loopbench {
 
@@ -11,8 +9,5 @@ namespace loopbench {
 /// attitude on a straight path is left in peace; one that slides round a bend without turning
 /// would be mistaken, and none is known. Fewer than ten poses are no evidence. O(n).
 bool is_position_only(const Trajectory& trajectory);
-
-/// Why numbers that use attitudes mean nothing here, or empty when they do.
-std::string why_no_attitude(const Evaluation& evaluation);
 
 }  // namespace loopbench

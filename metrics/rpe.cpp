@@ -6,7 +6,6 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/pairs/tum_motions.hpp"
-#include "metrics/position_only.hpp"
 #include "metrics/rpy.hpp"
 
 namespace loopbench {

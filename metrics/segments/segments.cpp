@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "metrics/angle.hpp"
-#include "metrics/position_only.hpp"
 #include "metrics/segments/ends.hpp"
 #include "metrics/segments/errors.hpp"
 #include "metrics/segments/lengths.hpp"
