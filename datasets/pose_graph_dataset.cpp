@@ -135,6 +135,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
       o.name.empty() ? (folder.empty() ? "" : folder + "_") + path.stem().string() : o.name;
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
+  sequence.provenance.body_from_reference = pose_of(o.reference_body);
   sequence.provenance.closures = told(o, graph, sequence.problem.closures.size());
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");

@@ -155,6 +155,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   sequence.reference = std::move(in.reference);
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
+  sequence.provenance.body_from_reference = pose_of(o.reference_body);
   sequence.provenance.closures = told(o, sequence.problem.closures.size());
   if (o.false_closures.share > 0.0) {
     sequence.provenance.closures +=

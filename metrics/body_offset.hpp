@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "metrics/hand_eye.hpp"
 #include "metrics/metric.hpp"
 
 namespace loopbench {
@@ -20,23 +21,11 @@ void fields(BodyOffsetOptions& o, Visit visit) {
 }
 
 struct BodyOffset {
-  Pose body_from_reference;             ///< where the reference's body sits in the estimate's
-  Vector3 deviation = Vector3::Zero();  ///< standard deviations of its translation [m]
-  double explained = 0.0;  ///< part of the squared differences in position; below 0: none [-]
+  HandEye fit;
   std::size_t stretches = 0;
 };
 
-/// Hand and eye: over stretches that turn, reference Q and estimate Z of one body with offset C
-/// move by Z C = C Q. Its rotation turns the reference's motions into the estimate's in least
-/// squares (Kabsch, of rotation vectors, and of displacements where all turn about one axis), and
-/// is left out below 5 degrees or where it does not explain half of how they differ. Its
-/// translation c solves (R_Z - I) c = R_C t_Q - t_Z with Huber's weights, about the means of both
-/// sides: where all turn one way, steady drift looks like another place. Directions that turning
-/// hardly tells (along a vehicle's only axis) stay zero.
-///
-/// `reference` and `estimate` are pairs. Nothing with fewer than 20 stretches. O(n).
-/// Source: F. Park, B. Martin, Robot sensor calibration: solving AX = XB on the Euclidean group,
-/// IEEE T-RO 1994.
+/// `reference` and `estimate` are pairs. Nothing with fewer than 20 turning stretches. O(n).
 std::optional<BodyOffset> body_offset(const Trajectory& reference,
                                       const Trajectory& estimate,
                                       const BodyOffsetOptions& options);
@@ -46,13 +35,15 @@ std::optional<BodyOffset> body_offset(const Trajectory& reference,
 std::optional<BodyOffset> body_offset(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options);
 
-/// A sentence when the offset explains at least half of the differences, the mean's too, else
-/// empty. The place is x,y,z [m] and, when turned, qx,qy,qz,qw. Of 31 real runs that follow their
-/// reference's camera (TUM, KITTI) it accuses none.
-std::string other_body(const BodyOffset& offset);
+/// A sentence when axes or place explain at least half of the differences, else empty. `stated` is
+/// where the reference's body was already taken to be; the place told, x,y,z [m] and when turned
+/// qx,qy,qz,qw, is to stand in its stead. Smaller offsets that matter can stay unsaid: on KITTI
+/// below half a metre to a metre, hand-held below ten to twenty centimetres.
+std::string other_body(const BodyOffset& offset, const Pose& stated);
 
-/// The offset as numbers: x, y, z [m], turn [deg], explained [%]. Throws Undefined where there is
-/// none.
+/// The offset as numbers: position x, y, z and its deviation x, y, z [m], attitude x, y, z, w [1],
+/// turn [deg], turn_explained and position_explained [%], stretches. Throws Undefined where there
+/// is none.
 std::vector<Score> body_offset_scores(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,9 @@ struct Provenance {
   bool oracle_closures = false;               ///< the closures were measured in the reference
   std::string licence;                        ///< of the data; empty: unknown
   std::vector<std::filesystem::path> inputs;  ///< every file read
-  std::vector<std::string> notes = {};        ///< what a user should know: skipped images, lost tracking
+  std::vector<std::string> notes = {};  ///< what a user should know: skipped images, lost tracking
+  /// Where the reference's own body was taken to sit, body_from_reference; empty: nobody could say.
+  std::optional<Pose> body_from_reference = {};
 };
 
 /// What a place recogniser thought of one pair of keyframes, accepted or not.

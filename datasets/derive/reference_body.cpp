@@ -1,5 +1,7 @@
 #include "datasets/derive/reference_body.hpp"
 
+#include <algorithm>
+
 namespace loopbench {
 namespace {
 
@@ -7,18 +9,25 @@ constexpr double kUnit = 1e-2;  // as in files
 
 }  // namespace
 
-Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body) {
-  const Pose body_from_reference{{body.qw, body.qx, body.qy, body.qz}, {body.x, body.y, body.z}};
-  const double norm = body_from_reference.rotation.norm();
+Pose pose_of(const ReferenceBody& body) {
+  const Pose out{{body.qw, body.qx, body.qy, body.qz}, {body.x, body.y, body.z}};
+  const double norm = out.rotation.norm();
   if (!(std::abs(norm - 1.0) <= kUnit)) {
     throw OptionError("reference_body.qw",
                       "reference_body: qx, qy, qz, qw have norm " + to_text(norm) +
                           ", expected a unit quaternion");
   }
-  const Pose reference_from_body = normalized(body_from_reference).inverse();
-  const bool is_same =
-      reference_from_body.translation.isZero(0.0) && reference_from_body.rotation.vec().isZero(0.0);
-  if (is_same) return reference;
+  return normalized(out);
+}
+
+bool is_elsewhere(const ReferenceBody& body) {
+  const double parts[] = {body.x, body.y, body.z, body.qx, body.qy, body.qz};
+  return std::ranges::any_of(parts, [](double part) { return part != 0.0; });
+}
+
+Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body) {
+  const Pose reference_from_body = pose_of(body).inverse();
+  if (!is_elsewhere(body)) return reference;
   for (auto& [stamp, world_from_body] : reference) {
     world_from_body = normalized(world_from_body * reference_from_body);
   }

@@ -31,9 +31,15 @@ void reference_body_fields(ReferenceBody& o, Visit visit) {
   visit("reference_body.qw", o.qw, "likewise [-]", unit);
 }
 
+/// body_from_reference. Throws OptionError when the quaternion is off unit by more than 0.01.
+Pose pose_of(const ReferenceBody& body);
+
+/// Not at the estimate's body itself.
+bool is_elsewhere(const ReferenceBody& body);
+
 /// The reference as the estimate's body would have gone, world_from_reference *
-/// body_from_reference^-1; to the bit what it was when they are the same body. Throws OptionError
-/// when the quaternion is off unit by more than 0.01. O(n).
+/// body_from_reference^-1; to the bit what it was when they are the same body. Throws as pose_of.
+/// O(n).
 Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body);
 
 }  // namespace loopbench

@@ -85,14 +85,14 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
+  const ReferenceBody body = reference_body(a);
   const bool is_devkit =
-      a.reference_body.empty() && std::ranges::any_of(rules, [](const NamedProtocol& p) {
+      !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
         return p.rules.form == ErrorForm::kitti;
       });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
-  const ReferenceBody body = reference_body(a);
   Reader reader{a, is_devkit};
   std::vector<Judgement> out;
   std::string read_last;
@@ -125,7 +125,8 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
                                  a.min_coverage,
                                  are_printed ? &printed : nullptr,
                                  {std::max(mended.off_unit, loaded.mended.off_unit),
-                                  mended.repeated + loaded.mended.repeated}};
+                                  mended.repeated + loaded.mended.repeated},
+                                 pose_of(body)};
       const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
       if (is_alone && !why.empty()) throw InputError(why);
       if (!why.empty()) {
@@ -141,7 +142,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
         out.push_back(failure(pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
-      out.back().reference_body = a.reference_body;
+      out.back().reference_body = a.reference_body.value_or("");
       out.back().estimate = pair.estimate;
     }
   }

@@ -121,25 +121,35 @@ std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
 
 ReferenceBody reference_body(const EvalArguments& a) {
   ReferenceBody out;
-  if (a.reference_body.empty()) return out;
-  const auto refuse = [&] {
-    return InputError("--ref-body: '" + a.reference_body +
-                      "' is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+  if (!a.reference_body) return out;
+  const std::string& text = *a.reference_body;
+  const auto refuse = [&](const std::string& what) {
+    return InputError("--ref-body: '" + text + "' " + what);
   };
   double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
-  const char* at = a.reference_body.data();
-  const char* const end = at + a.reference_body.size();
+  const char* at = text.data();
+  const char* const end = at + text.size();
   std::size_t count = 0;
   for (;; ++at) {
-    if (count == std::size(members)) throw refuse();
+    constexpr double kMost = 1e6;  // [m], that of the datasets' option
+    if (count == std::size(members)) break;
     const auto [rest, error] = std::from_chars(at, end, *members[count]);
-    if (error != std::errc{} || !std::isfinite(*members[count])) throw refuse();
+    if (error != std::errc{} || !(std::abs(*members[count]) <= kMost)) {
+      count = 0;
+      break;
+    }
     ++count;
     at = rest;
-    if (at == end) break;
-    if (*at != ',') throw refuse();
+    if (at == end || *at != ',') break;
   }
-  if (count != 3 && count != 7) throw refuse();
+  if (at != end || (count != 3 && count != 7)) {
+    throw refuse("is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+  }
+  try {
+    pose_of(out);
+  } catch (const OptionError&) {
+    throw refuse("has no unit quaternion behind the place");
+  }
   return out;
 }
 

@@ -21,9 +21,9 @@ struct EvalArguments {
   std::string reference;
   std::vector<std::string> estimates;
   std::string format = "auto";
-  std::string reference_format;  ///< empty: as `format`
-  std::string reference_body;    ///< x,y,z or x,y,z,qx,qy,qz,qw; empty: the estimates' own
-  std::string times;             ///< empty: none
+  std::string reference_format;               ///< empty: as `format`
+  std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: the estimates' own
+  std::string times;                          ///< empty: none
   std::string repeats = "refuse";
   std::optional<double> period;  ///< [s]; none: that of ReadOptions
   std::vector<std::string> protocols{"loopbench"};
@@ -57,7 +57,7 @@ std::vector<NamedProtocol> protocols(const EvalArguments& arguments);
 /// any the usual questions. Throws OptionError.
 std::vector<Asked> questions(const EvalArguments& arguments, const Protocol& protocol);
 
-/// Throws InputError when it is not three or seven numbers.
+/// Throws InputError when it is not three or seven numbers, the latter a unit quaternion's.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
 /// REF with each EST, or the files of an rpg folder (no EST) or of ov_eval folders (REF and EST).

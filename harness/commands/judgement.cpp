@@ -68,7 +68,7 @@ Judgement judge(const Trajectory& reference,
   out.diagnosis.push_back(
       single("left_out", "", "1", static_cast<double>(options.mended.repeated)));
   if (const auto offset = body_offset(evaluation, {})) {
-    out.other_body = other_body(*offset);
+    out.other_body = other_body(*offset, options.body_from_reference);
   }
   if (options.with_poses) out.poses = pose_errors(evaluation);
   const std::vector<MetricEntry> known = metrics();

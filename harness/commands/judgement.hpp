@@ -29,6 +29,7 @@ struct JudgeOptions {
   double min_coverage = 0.0;              ///< below it a judgement is incomplete, 0..1
   const PrintedPoses* printed = nullptr;  ///< when both files are of matrices: their digits
   ReadFindings mended = {};               ///< of both files together
+  Pose body_from_reference = {};          ///< that the reference was moved by
 };
 
 struct JudgedMetric {
@@ -40,7 +41,7 @@ struct JudgedMetric {
 
 struct Judgement {
   std::string reference;
-  std::string reference_body;  ///< where it sits in the estimate's, as typed; empty: it is the same
+  std::string reference_body;  ///< body_from_reference as typed; empty: they are the same
   std::string estimate;
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
@@ -80,9 +81,9 @@ std::string text(const Judgement& judgement);
 std::string comparison(const std::vector<Judgement>& judgements);
 
 /// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
-/// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version, changes, rules}, status (see above), why, pairs,
-/// possible, coverage (pairs / possible), span, alignment {type, scale, rank, condition}, diagnosis
-/// {name: value}, metrics
+/// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version,
+/// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
+/// alignment {type, scale, rank, condition}, diagnosis {name: value}, metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
 /// [{metric, options, why}], with relation and axis when only one number of a metric is. What
 /// failed has no numbers, but empty metrics and undefined.

@@ -16,10 +16,11 @@ std::string head(const Judgement& j) {
 std::string csv(const std::vector<Judgement>& judgements) {
   std::string out =
       "reference,estimate,protocol,protocol_version,metric,options,relation,axis,unit,count,rmse,"
-      "mean,median,std,min,max,sse,pairs,possible,scale,status,why\n";
+      "mean,median,std,min,max,sse,pairs,possible,scale,status,why,reference_body\n";
   for (const Judgement& j : judgements) {
+    const std::string body = quoted(j.reference_body);
     if (!j.why_failed.empty()) {
-      out += head(j) + ",,,,,,,,,,,,,,,,,failed," + quoted(j.why_failed) + "\n";
+      out += head(j) + ",,,,,,,,,,,,,,,,,failed," + quoted(j.why_failed) + "," + body + "\n";
     }
     const std::string tail =
         fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
@@ -27,16 +28,17 @@ std::string csv(const std::vector<Judgement>& judgements) {
       const std::string front = head(j) + "," + metric.name + "," + quoted(to_text(metric.options));
       for (const auto& [relation, axis, unit, s, why] : metric.scores) {
         if (!why.empty()) {
-          out += fmt::format("{},{},{},{},,,,,,,,,{},undefined,{}\n",
+          out += fmt::format("{},{},{},{},,,,,,,,,{},undefined,{},{}\n",
                              front,
                              relation,
                              axis,
                              unit,
                              tail,
-                             quoted(why));
+                             quoted(why),
+                             body);
           continue;
         }
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                            front,
                            relation,
                            axis,
@@ -51,11 +53,12 @@ std::string csv(const std::vector<Judgement>& judgements) {
                            s.sse,
                            tail,
                            j.why_incomplete.empty() ? "ok" : "incomplete",
-                           quoted(j.why_incomplete));
+                           quoted(j.why_incomplete),
+                           body);
       }
       if (metric.why_undefined.empty()) continue;
-      out +=
-          fmt::format("{},,,,,,,,,,,,{},undefined,{}\n", front, tail, quoted(metric.why_undefined));
+      out += fmt::format(
+          "{},,,,,,,,,,,,{},undefined,{},{}\n", front, tail, quoted(metric.why_undefined), body);
     }
   }
   return out;

@@ -21,6 +21,10 @@ double quoted_statistic(const Protocol& protocol, const Statistics& s) {
   return protocol.statistic == Statistic::median ? s.median : s.rmse;
 }
 
+std::string body_text(const Judgement& j) {
+  return j.reference_body.empty() ? "" : ", its body at " + j.reference_body;
+}
+
 std::string protocol_text(const NamedProtocol& protocol) {
   return fmt::format("{} [{}]", protocol.label(), protocol.version);
 }
@@ -98,10 +102,7 @@ std::string label(const JudgedMetric& metric) {
 
 std::string text(const Judgement& j) {
   std::string out =
-      fmt::format("reference  {} ({} poses){}\n",
-                  j.reference,
-                  j.reference_poses,
-                  j.reference_body.empty() ? "" : ", its body at " + j.reference_body) +
+      fmt::format("reference  {} ({} poses){}\n", j.reference, j.reference_poses, body_text(j)) +
       fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
       fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
       fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
@@ -140,8 +141,11 @@ std::string comparison(const std::vector<Judgement>& judgements) {
   std::vector<std::vector<Missing>> missing;                // of each table
   for (const Judgement& j : judgements) {
     const Protocol& rules = j.protocol.rules;
-    const std::string title = fmt::format(
-        "{}, {} against {}", protocol_text(j.protocol), to_text(rules.statistic), j.reference);
+    const std::string title = fmt::format("{}, {} against {}{}",
+                                          protocol_text(j.protocol),
+                                          to_text(rules.statistic),
+                                          j.reference,
+                                          body_text(j));
     auto table = std::ranges::find(tables, title, &Table::title);
     if (table == tables.end()) {
       table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});

@@ -21,8 +21,9 @@ std::string reference_of_other_body(const Sequence& sequence) {
     reference.push_back({keyframes[i].stamp, *there[i]});
   }
   const auto offset = body_offset(reference, estimate, {});
-  const std::string text = offset ? other_body(*offset) : "";
-  return text.empty() ? "" : text + "; the dataset's option reference_body takes it in";
+  const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
+  const std::string text = offset ? other_body(*offset, stated.value_or(Pose{})) : "";
+  return text.empty() || !stated ? text : text + "; reference_body of the dataset takes it in";
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(Eval, OneBadEstimateIsARowAndTheOthersStand) {
   as_csv.push_back("--csv");
   const std::string csv = eval(as_csv, kExitSomeCellsFailed);
   const std::string row =
-      golden("gt.txt") + "," + bad + ",loopbench,2,,,,,,,,,,,,,,,,,failed," + why;
+      golden("gt.txt") + "," + bad + ",loopbench,2,,,,,,,,,,,,,,,,,failed," + why + ",";
   EXPECT_NE(csv.find("\n" + row + "\n"), std::string::npos) << csv;
   const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
   EXPECT_EQ(commas(row), commas(csv.substr(0, csv.find('\n'))));
