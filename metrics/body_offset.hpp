@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "metrics/hand_eye.hpp"
+#include "metrics/hand_eye/hand_eye.hpp"
 #include "metrics/metric.hpp"
 
 namespace loopbench {

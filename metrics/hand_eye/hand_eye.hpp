@@ -1,25 +1,9 @@
 /// Where one body sits in another, from how both move: hand and eye.
 #pragma once
 
-#include <vector>
-
-#include "datasets/core/trajectory.hpp"
+#include "metrics/hand_eye/turning_stretches.hpp"
 
 namespace loopbench {
-
-/// How reference and estimate moved over the same time, each in its own body at the beginning.
-struct MotionPair {
-  Pose reference;
-  Pose estimate;
-};
-
-/// From each pose on to the first that both have turned to by `turn` [rad]; stretches that take
-/// longer than `longest` [s] are left out, for then odometry has drifted. The lists are pairs.
-/// O(n).
-std::vector<MotionPair> turning_stretches(const Trajectory& reference,
-                                          const Trajectory& estimate,
-                                          double turn,
-                                          double longest);
 
 /// What reference Q and estimate Z of one body with offset C owe to it: Z C = C Q.
 struct HandEye {
