@@ -34,13 +34,18 @@ struct DatasetEntry {
   std::function<Sequence(const Params&, const DataRoot&)> load;
 };
 
-/// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry.
+/// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. What no
+/// field can refuse alone is refused by `void check_combination(const Options&)`, where there is
+/// one.
 template <class Options, class Load>
 DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
           std::move(summary),
           describe(Options{}),
-          [](const Params& given) { with(Options{}, given); },
+          [](const Params& given) {
+            const Options options = with(Options{}, given);
+            if constexpr (requires { check_combination(options); }) check_combination(options);
+          },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
           }};

@@ -80,6 +80,11 @@ std::string told(const PoseGraphOptions& o, const PoseGraph& graph, std::size_t 
 
 }  // namespace
 
+void check_combination(const PoseGraphOptions& o) {
+  if (o.path.empty()) throw OptionError("path", "path: names no file");
+  pose_of(o.reference_body);  // refuses what is no pose
+}
+
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& o,
                        const std::filesystem::path& file,
@@ -115,7 +120,7 @@ Problem derive_problem(const PoseGraph& graph,
 }
 
 Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
-  if (o.path.empty()) throw OptionError("path", "path: names no file");
+  check_combination(o);
   const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
   Sequence sequence;
   auto& inputs = sequence.provenance.inputs;

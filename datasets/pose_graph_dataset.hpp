@@ -70,6 +70,9 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
+/// Throws OptionError.
+void check_combination(const PoseGraphOptions& options);
+
 /// Consecutive poses need an edge each where poses are left out between keyframes or the file has
 /// no vertices; otherwise the graph may have gaps. Keyframes are every k-th pose, the last one and
 /// both ends of every closure taken; odometry between them is composed from the file's edges. The

@@ -73,6 +73,8 @@ void require(bool holds, const std::string& option, const std::string& wanted) {
   if (!holds) throw OptionError(option, option + ": " + wanted);
 }
 
+}  // namespace
+
 void check_combination(const TrajectoryOptions& o) {
   require(!o.estimate.empty(), "estimate", "names no file");
   const bool takes_file =
@@ -86,9 +88,8 @@ void check_combination(const TrajectoryOptions& o) {
   require(o.closures_scale == ClosureScale::same || o.closures == ClosureSource::estimate,
           "closures.scale",
           "local compares with another run, and closures.source is not estimate");
+  pose_of(o.reference_body);  // refuses what is no pose
 }
-
-}  // namespace
 
 Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
   std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);

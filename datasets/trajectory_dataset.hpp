@@ -106,6 +106,9 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
+/// Files that are needed are named, and fit what else is asked. Throws OptionError.
+void check_combination(const TrajectoryOptions& options);
+
 /// The files' content, read.
 struct TrajectoryInputs {
   Trajectory estimate;

@@ -39,6 +39,11 @@ void fields(RgbdOptions& o, Visit visit) {
   fields(o.frontend, visit);
 }
 
+/// Throws OptionError.
+inline void check_combination(const RgbdOptions& options) {
+  if (options.path.empty()) throw OptionError("path", "path: names no folder");
+}
+
 /// Images of a room that does not exist, tracked. Throws InputError when nothing can be tracked.
 Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks = {});
 

@@ -28,6 +28,23 @@ Param typed(const std::string& word) {
   return word;
 }
 
+/// Between commas, up to a million like the datasets' option; none when one of them is no number.
+std::vector<double> numbers(const std::string& text) {
+  constexpr double kMost = 1e6;
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    const bool is_number = error == std::errc{} && std::abs(value) <= kMost;
+    if (!is_number || (rest != end && *rest != ',')) return {};
+    out.push_back(value);
+    if (rest == end) return out;
+    at = rest + 1;
+  }
+}
+
 /// -s makes the alignment a similarity; alone, as in evo, it only scales.
 std::string scaled(const std::string& align) {
   if (align == "none") return "scale";
@@ -122,29 +139,15 @@ std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
 ReferenceBody reference_body(const EvalArguments& a) {
   ReferenceBody out;
   if (!a.reference_body) return out;
-  const std::string& text = *a.reference_body;
   const auto refuse = [&](const std::string& what) {
-    return InputError("--ref-body: '" + text + "' " + what);
+    return InputError("--ref-body: '" + *a.reference_body + "' " + what);
   };
-  double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  std::size_t count = 0;
-  for (;; ++at) {
-    constexpr double kMost = 1e6;  // [m], that of the datasets' option
-    if (count == std::size(members)) break;
-    const auto [rest, error] = std::from_chars(at, end, *members[count]);
-    if (error != std::errc{} || !(std::abs(*members[count]) <= kMost)) {
-      count = 0;
-      break;
-    }
-    ++count;
-    at = rest;
-    if (at == end || *at != ',') break;
-  }
-  if (at != end || (count != 3 && count != 7)) {
+  const std::vector<double> given = numbers(*a.reference_body);
+  if (given.size() != 3 && given.size() != 7) {
     throw refuse("is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
   }
+  double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
+  for (std::size_t i = 0; i < given.size(); ++i) *members[i] = given[i];
   try {
     pose_of(out);
   } catch (const OptionError&) {

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace loopbench {
 namespace {
@@ -82,6 +83,7 @@ double left_by(const std::vector<LeverEquation>& all, const Vector3& lever, doub
 
 LeverFit fit_lever(std::vector<LeverEquation> all) {
   constexpr int kRounds = 20;
+  constexpr double kSettled = 1e-6;
   constexpr double kHuber = 2.0, kJump = 6.0;  // times the residuals' scale
   constexpr double kMedianOf3d = 1.54;         // of a standard normal vector's length
   const auto count = static_cast<double>(all.size());
@@ -98,10 +100,11 @@ LeverFit fit_lever(std::vector<LeverEquation> all) {
     std::vector<double> sorted = lengths;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    sigma = std::max(*middle / kMedianOf3d, 1e-9 * way);
+    const double last = std::exchange(sigma, std::max(*middle / kMedianOf3d, 1e-9 * way));
     for (std::size_t k = 0; k < all.size(); ++k) {
       all[k].weight = lengths[k] > kHuber * sigma ? kHuber * sigma / lengths[k] : 1.0;
     }
+    if (std::abs(sigma - last) <= kSettled * sigma) break;
   }
   LeverFit out = sure_part(found);
   for (std::size_t k = 0; k < all.size(); ++k) {

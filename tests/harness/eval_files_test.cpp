@@ -13,12 +13,7 @@
 namespace loopbench {
 namespace {
 
-using test::eval;
-using test::eval_json;
-using test::find;
-using test::golden;
-using test::Json;
-using test::refusal;
+using namespace test;
 using testing::HasSubstr;
 
 std::string written(const std::filesystem::path& file, const std::string& text) {

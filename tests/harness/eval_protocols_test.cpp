@@ -12,12 +12,7 @@
 namespace loopbench {
 namespace {
 
-using test::eval;
-using test::eval_json;
-using test::find;
-using test::golden;
-using test::Json;
-using test::refusal;
+using namespace test;
 
 double rmse(const std::vector<std::string>& options, const std::string& metric) {
   std::vector<std::string> arguments{golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo"};

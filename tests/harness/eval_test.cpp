@@ -12,12 +12,7 @@
 namespace loopbench {
 namespace {
 
-using test::eval;
-using test::eval_json;
-using test::find;
-using test::golden;
-using test::Json;
-using test::refusal;
+using namespace test;
 
 // Values of golden.json, evo APE translation_part at max_diff 0.01.
 TEST(Eval, EqualsEvoUnderEvosAssociation) {

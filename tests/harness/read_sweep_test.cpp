@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/catalogue.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {
@@ -141,6 +142,31 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
             "c.yaml:7: protocol: is not swept; give a list of protocols");
   EXPECT_EQ(refusal("\n  base: kitti\n  offset: 1"),
             "c.yaml:9: protocol: offset = 1.0: association index does not look at stamps");
+}
+
+// What no option can refuse alone is found before anything runs, with its place.
+TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
+  const auto refusal = [](const std::string& dataset) {
+    const std::string text = "datasets:\n  - {" + dataset + "}\nmethods: [raw]\nmetrics: [ate]\n";
+    try {
+      parse_sweep(text, "c.yaml", catalogue({}));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("dataset: trajectory, reference: gt.txt"),
+            "c.yaml:2: trajectory: estimate: names no file");
+  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, closures: {source: file}"),
+            "c.yaml:2: trajectory: closures.file: names no file, and closures.source = file needs "
+            "one");
+  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {qw: 0.5}"),
+            "c.yaml:2: trajectory: reference_body: qx, qy, qz, qw have norm 0.5, expected a unit "
+            "quaternion");
+  EXPECT_EQ(refusal("dataset: pose_graph, truth: gt.g2o"),
+            "c.yaml:2: pose_graph: path: names no file");
+  EXPECT_EQ(refusal("dataset: rgbd, label: room"), "c.yaml:2: rgbd: path: names no folder");
+  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {x: 1}"), "");
 }
 
 }  // namespace

@@ -139,9 +139,10 @@ void print_left_out(const std::vector<DevelopmentChain>& chains) {
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  if (argc != 2) {
-    fmt::print(stderr, "usage: motion_drift_study DATA\n");
-    return 2;
+  if (argc != 2 || argv[1][0] == '-') {
+    const bool is_asked = argc == 2 && std::string(argv[1]) == "--help";
+    fmt::print(is_asked ? stdout : stderr, "usage: motion_drift_study DATA\n");
+    return is_asked ? 0 : 2;
   }
   try {
     const auto chains = development_chains({{argv[1]}});
