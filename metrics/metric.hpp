@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
+#include "metrics/better.hpp"
 #include "metrics/evaluation.hpp"
 #include "metrics/statistics.hpp"
 #include "metrics/undefined.hpp"
@@ -18,6 +19,8 @@ struct Score {
   std::string unit;      ///< "m", "deg"
   Statistics statistics;
   std::string why_undefined = {};  ///< set when this number means nothing here: no statistics then
+  Better better = Better::lower;
+  double target = 0.0;  ///< best value where `better` is target
 };
 
 /// A number that is no distribution: count 1, std 0, every other statistic the (signed) value.

@@ -5,12 +5,6 @@
 
 namespace loopbench {
 
-enum class Better {
-  lower,   ///< errors and times
-  higher,  ///< gains
-  neither  ///< descriptions (pairs, coverage, diagnostics) and ratios that are best at one
-};
-
 /// By the metric's label, which starts with the metric's name unless a config says otherwise;
 /// a label that no built-in starts with is taken for an error.
 Better better(const Record& record);

@@ -32,6 +32,7 @@ const char* better_name(const Record& r) {
       return "lower";
     case Better::higher:
       return "higher";
+    case Better::target:
     case Better::neither:
       return "neither";
   }

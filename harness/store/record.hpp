@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "methods/report.hpp"
+#include "metrics/better.hpp"
 #include "metrics/statistics.hpp"
 
 namespace loopbench {
@@ -25,9 +26,14 @@ struct Record {
   std::string protocol_version;
   std::string times;  ///< keyframes | dense
   std::string metric;
+  std::string label;  ///< of the metric in the config; empty: the metric's name
   std::string relation;
   std::string axis;
   std::string unit;
+  Better better = Better::lower;
+  double target = 0.0;  ///< best value where `better` is target
+  std::string group;    ///< runs of one group are not independent; empty: a group of its own
+  std::string content;  ///< hash of problem and reference: equal inputs, one observation; or empty
   Statistics statistics;
   std::int64_t pairs = 0;     ///< pose pairs judged
   std::int64_t possible = 0;  ///< pose pairs that could have been
