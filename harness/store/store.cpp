@@ -60,7 +60,8 @@ bool is_empty(Database& database) {
   return count.step() && count.integer() == 0;
 }
 
-void say_run(Database& database, const Sweep& sweep) {
+void say_run(Database& database, const CellKeys& keys) {
+  const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
   const auto say = [&](const std::string& key, const std::string& text) {
     insert.bind(key).bind(text).run();
@@ -74,6 +75,8 @@ void say_run(Database& database, const Sweep& sweep) {
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
   say("protocol", rules);
+  say("metrics", keys.metrics_in_full());
+  say("methods", keys.methods_in_full());
   say("baseline", sweep.baseline);
   renew_texts(database, "run");
 }
@@ -148,7 +151,7 @@ void Store::create() {
   Transaction transaction(*database_);
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  say_run(*database_, keys_.sweep());
+  say_run(*database_, keys_);
   say_provenance(*database_, provenance_, true);
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
@@ -172,7 +175,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    say_run(*database_, keys_.sweep());
+    say_run(*database_, keys_);
     say_provenance(*database_, provenance_, out.there == 0 && out.missing.size() == all.size());
   }
   transaction.commit();
