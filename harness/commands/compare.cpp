@@ -24,22 +24,21 @@ struct CompareArguments {
   std::string out;
 };
 
-/// The scores of one metric, by its label or its short name with axis ("error x").
+/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, where
+/// neither is meant, by the metric's name.
 void keep_metric(std::vector<Record>& records, const std::string& metric) {
   std::vector<std::string> known;
-  std::vector<std::string> scores;
-  for (const Record& r : records) {
-    if (r.metric.empty()) continue;
-    for (const std::string& name : {r.metric, field(r, "score")}) {
-      if (std::ranges::count(known, name) == 0) known.push_back(name);
+  for (const char* column : {"label", "score", "metric"}) {
+    const auto is_wanted = [&](const Record& r) { return field(r, column) == metric; };
+    for (const Record& r : records) {
+      if (r.metric.empty() || std::ranges::count(known, field(r, column)) > 0) continue;
+      known.push_back(field(r, column));
     }
+    if (std::ranges::none_of(records, is_wanted)) continue;
+    std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && !is_wanted(r); });
+    return;
   }
-  if (std::ranges::count(known, metric) == 0) {
-    throw InputError("--metric: " + unknown_name("metric", metric, known));
-  }
-  std::erase_if(records, [&](const Record& r) {
-    return !r.metric.empty() && r.metric != metric && field(r, "score") != metric;
-  });
+  throw InputError("--metric: " + unknown_name("metric", metric, known));
 }
 
 std::string text(const std::vector<Comparison>& comparisons, ExportFormat format) {
@@ -92,7 +91,9 @@ void add_compare(CLI::App& app, int& exit_code) {
   command
       ->add_option("--baseline", arguments->options.baseline, "Method that others are set against")
       ->type_name("METHOD");
-  command->add_option("--metric", arguments->metric, "Label of a metric, or a score: ate, error x")
+  command
+      ->add_option(
+          "--metric", arguments->metric, "label or name of a metric, or a score: ate, error x")
       ->capture_default_str();
   command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
       ->capture_default_str();

@@ -24,8 +24,8 @@ RunErrors shared(const StampedErrors& method, const StampedErrors& baseline) {
 }
 
 bool is_of_positions(const Comparison& c) {
-  return c.kind.metric.starts_with("ate") && c.kind.relation == "translation" &&
-         c.kind.axis == "3d" && c.options.value == "rmse" && c.options.over == Over::runs;
+  return c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d" &&
+         c.options.value == "rmse" && c.options.over == Over::runs;
 }
 
 }  // namespace

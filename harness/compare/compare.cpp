@@ -6,7 +6,6 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/better.hpp"
 #include "harness/statistics/average.hpp"
 #include "harness/statistics/effect_size.hpp"
 #include "harness/statistics/friedman.hpp"
@@ -205,13 +204,13 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   }
   std::vector<Comparison> out;
   for (const Observations& table : all) {
-    const Better way = better(table.kind);
-    if (way == Better::neither) continue;
+    const Better way = table.kind.better;
+    if (way == Better::neither || way == Better::target) continue;
     out.push_back(compare_one(table, options, way == Better::higher));
     out.back().oracles.assign(oracles.begin(), oracles.end());
   }
   if (out.empty()) {
-    throw InputError("'" + all[0].kind.metric +
+    throw InputError("'" + metric_label(all[0].kind) +
                      "' describes: no value of it is better than another");
   }
   return out;

@@ -11,9 +11,10 @@ namespace loopbench {
 namespace {
 
 auto table_kind(const Record& r) {
-  return std::tie(r.protocol, r.times, r.metric, r.relation, r.axis);
+  return std::tie(r.protocol, r.times, r.metric, metric_label(r), r.relation, r.axis);
 }
-using TableKind = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+using TableKind =
+    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
 
 }  // namespace
 

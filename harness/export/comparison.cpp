@@ -15,7 +15,7 @@ std::string title(const Comparison& c) {
   std::string out;
   const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
   const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
-  for (const std::string& word : {c.kind.metric, relation, axis, c.options.value}) {
+  for (const std::string& word : {metric_label(c.kind), relation, axis, c.options.value}) {
     if (!word.empty()) out += (out.empty() ? "" : " ") + word;
   }
   return out + ", " + c.kind.times + ", " + c.kind.protocol;
@@ -64,37 +64,40 @@ Sheet sheet(const Comparison& c) {
 
 std::string csv(const std::vector<Comparison>& comparisons) {
   std::string out =
-      "protocol,times,metric,relation,axis,unit,value,baseline,observations,method,median,ratio,"
+      "protocol,times,metric,label,relation,axis,unit,value,baseline,observations,method,median,"
+      "ratio,"
       "ratio_low,ratio_high,better,worse,equal,p,rank_biserial,d_z,average_rank,p_best,groups\n";
   for (const Comparison& c : comparisons) {
     for (const MethodVerdict& m : c.methods) {
       const auto bound = [&](double Interval::*end) {
         return m.has_interval ? fmt::format("{}", (*m.ratio).*end) : "";
       };
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                         quoted(c.kind.protocol),
-                         c.kind.times,
-                         quoted(c.kind.metric),
-                         c.kind.relation,
-                         c.kind.axis,
-                         c.kind.unit,
-                         c.options.value,
-                         quoted(c.options.baseline),
-                         c.observations,
-                         quoted(m.method),
-                         m.median,
-                         m.ratio ? fmt::format("{}", m.ratio->estimate) : "",
-                         bound(&Interval::low),
-                         bound(&Interval::high),
-                         m.wins,
-                         m.losses,
-                         m.ties,
-                         m.p,
-                         m.rank_biserial,
-                         m.dz ? fmt::format("{}", *m.dz) : "",
-                         m.average_rank,
-                         m.p_best,
-                         m.groups);
+      out +=
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                      quoted(c.kind.protocol),
+                      c.kind.times,
+                      quoted(c.kind.metric),
+                      quoted(metric_label(c.kind)),
+                      c.kind.relation,
+                      c.kind.axis,
+                      c.kind.unit,
+                      c.options.value,
+                      quoted(c.options.baseline),
+                      c.observations,
+                      quoted(m.method),
+                      m.median,
+                      m.ratio ? fmt::format("{}", m.ratio->estimate) : "",
+                      bound(&Interval::low),
+                      bound(&Interval::high),
+                      m.wins,
+                      m.losses,
+                      m.ties,
+                      m.p,
+                      m.rank_biserial,
+                      m.dz ? fmt::format("{}", *m.dz) : "",
+                      m.average_rank,
+                      m.p_best,
+                      m.groups);
     }
   }
   return out;
@@ -108,6 +111,7 @@ std::string json(const std::vector<Comparison>& comparisons) {
                {"protocol_version", c.kind.protocol_version},
                {"times", c.kind.times},
                {"metric", c.kind.metric},
+               {"label", metric_label(c.kind)},
                {"relation", c.kind.relation},
                {"axis", c.kind.axis},
                {"unit", c.kind.unit},

@@ -42,12 +42,12 @@ std::string csv(const std::vector<Table>& tables) {
 std::string csv(const std::vector<Record>& records) {
   std::string out =
       "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
-      "times,metric,"
-      "relation,axis,unit,count,rmse,"
+      "times,metric,label,"
+      "relation,axis,unit,better,target,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {
     const Statistics& s = r.statistics;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},",
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
                        quoted(r.sequence),
                        r.repeat,
                        quoted(r.method),
@@ -58,9 +58,12 @@ std::string csv(const std::vector<Record>& records) {
                        quoted(r.protocol_version),
                        r.times,
                        quoted(r.metric),
+                       quoted(metric_label(r)),
                        r.relation,
                        r.axis,
-                       r.unit);
+                       r.unit,
+                       to_text(r.better),
+                       r.better == Better::target ? fmt::format("{}", r.target) : "");
     // An undefined score has no numbers, not zeros.
     out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",

@@ -8,7 +8,7 @@ namespace loopbench {
 namespace {
 
 auto place(const Record& r) {
-  return std::tie(r.sequence, r.repeat, r.protocol, r.times, r.metric, r.axis);
+  return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
 }
 using RowPlace =
     std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
@@ -26,6 +26,7 @@ template <class Number>
 std::vector<Record> one_per_cell(const std::vector<Record>& records,
                                  const std::string& metric,
                                  const std::string& unit,
+                                 Better better,
                                  Number number) {
   std::vector<Record> out;
   std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
@@ -34,6 +35,8 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
     if (!seen.emplace(r.cell, r.protocol, r.times).second) continue;
     Record one = r;
     one.metric = metric;
+    one.label.clear();
+    one.better = better;
     one.relation = one.axis = "";
     one.unit = unit;
     const double x = number(r);
@@ -57,6 +60,8 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
     const Statistics& b = *found->second;
     Record g = r;
     g.metric = "gain";
+    g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
+    g.better = Better::higher;
     g.unit = "%";
     for (double Statistics::*number : {&Statistics::rmse,
                                        &Statistics::mean,
@@ -73,12 +78,14 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  return one_per_cell(records, "time", "ms", [](const Record& r) { return r.milliseconds; });
+  return one_per_cell(
+      records, "time", "ms", Better::lower, [](const Record& r) { return r.milliseconds; });
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  return one_per_cell(
-      records, "pairs", "", [](const Record& r) { return static_cast<double>(r.pairs); });
+  return one_per_cell(records, "pairs", "", Better::neither, [](const Record& r) {
+    return static_cast<double>(r.pairs);
+  });
 }
 
 }  // namespace loopbench

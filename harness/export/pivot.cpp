@@ -5,7 +5,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/name_order.hpp"
-#include "harness/export/better.hpp"
 #include "harness/export/notes.hpp"
 
 namespace loopbench {
@@ -24,7 +23,8 @@ std::string fields_joined(const Record& record,
 
 /// What must not be averaged with another: everything but sequence, repeat and method.
 std::string kind(const Record& r) {
-  return r.times + " / " + r.metric + " / " + r.relation + " / " + r.axis + " [" + r.unit + "]";
+  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
+         "]";
 }
 
 /// What is compared where the best is marked.
@@ -60,7 +60,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   if (record.status != "ok") {
     // Too little coverage is one reason for every metric; an undefined number names itself.
     const bool is_whole = record.metric.empty() || record.status == "incomplete";
-    const std::string what = is_whole ? "" : fields_joined(record, {"metric", "relation"}, " ");
+    const std::string what = is_whole ? "" : fields_joined(record, {"label", "relation"}, " ");
     table.missing.push_back({name, what, record.status, record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);
@@ -90,7 +90,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   CellContest& contest = table.contests[{row, column}];
   if (record.oracle) return;  // who was shown the reference does not compete
   contest.runs[record.sequence + "\n" + std::to_string(record.repeat)] = own_value;
-  contest.better = better(record);
+  contest.better = record.better;
 }
 
 /// Marks the best along every column (or every row) of the finished table.
@@ -111,7 +111,7 @@ void mark(Table& out, const Builder& table, bool along_columns, double alpha) {
       competitors[i] = found->second.runs;
       way = found->second.better;
     }
-    if (way == Better::neither) continue;
+    if (way == Better::neither || way == Better::target) continue;
     const Marks marks = mark_best(competitors, way == Better::higher, alpha);
     if (!marks.why_none.empty()) why_none = marks.why_none;
     for (std::size_t i = 0; i < entries; ++i) {

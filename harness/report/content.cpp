@@ -21,7 +21,7 @@ const Comparison* ReportContent::headline() const {
   for (const Comparison& c : comparisons) {
     if (c.methods.size() < 2) continue;
     const bool is_ate =
-        c.kind.metric.starts_with("ate") && c.kind.relation == "translation" && c.kind.axis == "3d";
+        c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d";
     const int rank = (is_ate ? 2 : 0) + (c.kind.times == "dense" ? 1 : 0);
     if (rank <= best) continue;
     best = rank;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "harness/export/better.hpp"
 #include "harness/report/data.hpp"
 
 namespace loopbench {
@@ -23,11 +22,11 @@ using ScoreKind =
     std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
 
 ScoreKind score_kind(const Record& r) {
-  return {r.protocol, r.times, r.metric, r.relation, r.axis, r.unit};
+  return {r.protocol, r.times, metric_label(r), r.relation, r.axis, r.unit};
 }
 
 const char* better_name(const Record& r) {
-  switch (better(r)) {
+  switch (r.better) {
     case Better::lower:
       return "lower";
     case Better::higher:

@@ -70,7 +70,8 @@ void score(CellResult& result,
            ScoreResult row,
            const Evaluation& evaluation,
            const Catalogue& catalogue) {
-  row.metric = choice.label;
+  row.metric = choice.metric.name;
+  row.label = choice.label;
   row.coverage = evaluation.coverage;
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
@@ -128,7 +129,8 @@ void judge(CellResult& result,
   });
   if (none.status == Status::ok) return;
   for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
-    none.metric = choice.label;
+    none.metric = choice.metric.name;
+    none.label = choice.label;
     result.scores.push_back(none);
   }
 }
@@ -151,7 +153,7 @@ void judge_without_reference(CellResult& result,
                           evaluation.protocol,
                           nullptr,
                           &sequence.loop_candidates};
-    const ScoreResult row{p, Times::keyframes, "", {}, {}, Status::ok, ""};
+    const ScoreResult row{p, Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
       score(result, choice, row, evaluation, catalogue);
@@ -206,7 +208,7 @@ CellResult run_cell(const Cell& cell,
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const Times times : sweep.times) {
-        const ScoreResult row{p, times, "", {}, {}, Status::ok, ""};
+        const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
         judge(result, row, sweep, sequence, *curve, catalogue);
       }
     }

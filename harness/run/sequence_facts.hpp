@@ -30,6 +30,8 @@ struct SequenceFacts {
   std::string closures;          ///< where the loop closures came from
   bool oracle_closures = false;  ///< they were measured in the reference
   SequenceSize size;
+  std::string content;             ///< hash of problem and reference as they were loaded; or empty
+  std::string group;               ///< runs of one group are not independent; empty: its own
   std::vector<std::string> notes;  ///< what a user should know of how it was made
   SequenceTrace trace;             ///< empty when the sweep keeps no traces
 };

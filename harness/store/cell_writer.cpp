@@ -41,8 +41,8 @@ CellWriter::CellWriter(Database& database)
           "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
           "status, signal, why, failed_scores) VALUES "
           "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      score_(
-          database.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      score_(database.prepare(
+          "INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
@@ -136,9 +136,12 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
         .bind(protocol.version)
         .bind(to_text(row.times))
         .bind(row.metric)
+        .bind(row.label)
         .bind(row.score.relation)
         .bind(row.score.axis)
         .bind(row.score.unit)
+        .bind(to_text(row.score.better))
+        .bind(row.score.target)
         .bind(static_cast<std::int64_t>(s.count))
         .bind(s.rmse)
         .bind(s.mean)
@@ -177,7 +180,7 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
   database_
       .prepare(
           "INSERT OR REPLACE INTO sequence (asked, options, keyframes, odometry, closures, frames, "
-          "reference) VALUES (?,?,?,?,?,?,?)")
+          "reference, content, group_name) VALUES (?,?,?,?,?,?,?,?,?)")
       .bind(asked)
       .bind(keys.dataset_in_full(cell))
       .bind(size.keyframes)
@@ -185,6 +188,8 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
       .bind(size.closures)
       .bind(size.frames)
       .bind(size.reference)
+      .bind(facts.content)
+      .bind(facts.group)
       .run();
   const SequenceTrace& trace = facts.trace;
   if (!trace.keyframes.empty()) {

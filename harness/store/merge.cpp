@@ -37,8 +37,8 @@ constexpr const char* kCellColumns =
 /// The tables that belong to a cell, and their columns but `cell`.
 constexpr std::pair<const char*, const char*> kDetails[] = {
     {"score",
-     "protocol, protocol_version, times, metric, relation, axis, unit, count, rmse, mean, median, "
-     "std, min, max, sse, pairs, possible, span, status, why"},
+     "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target, "
+     "count, rmse, mean, median, std, min, max, sse, pairs, possible, span, status, why"},
     {"phase", "name, seconds"},
     {"count", "name, value"},
     {"note", "text"},

@@ -53,9 +53,12 @@ void add_score(const CellRecord& cell, Statement& row, std::vector<Record>& out)
   r.protocol_version = row.text();
   r.times = row.text();
   r.metric = row.text();
+  r.label = row.text();
   r.relation = row.text();
   r.axis = row.text();
   r.unit = row.text();
+  r.better = from_text<Better>(row.text()).value_or(Better::neither);
+  r.target = row.real();
   r.statistics.count = static_cast<std::size_t>(row.integer());
   for (double* number : {&r.statistics.rmse,
                          &r.statistics.mean,
@@ -104,10 +107,18 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     if (rows.cells[cell].placed) add_score(rows.cells[cell].record, row, scores[cell]);
   });
   require_whole(rows, store_file(file));
+  const SequenceRows sequences = read_sequence_rows(database);
+  require_whole(sequences, store_file(file));
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
+    const auto sequence = sequences.by_asked.find(rows.cells[cell].asked);
     // A declined or failed cell has no score.
-    if (scores[cell].empty()) out.push_back(record_of(rows.cells[cell].record));
+    if (scores[cell].empty()) scores[cell].push_back(record_of(rows.cells[cell].record));
+    for (Record& r : scores[cell]) {
+      if (sequence == sequences.by_asked.end()) break;
+      r.content = sequence->second.content;
+      r.group = sequence->second.group;
+    }
     std::ranges::move(scores[cell], std::back_inserter(out));
   }
   return out;

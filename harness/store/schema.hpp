@@ -3,7 +3,7 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 5;
+inline constexpr int kSchemaVersion = 6;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -26,6 +26,8 @@ inline constexpr const char* kSchema = R"sql(
     closures INTEGER NOT NULL,
     frames INTEGER NOT NULL,           -- tracked between keyframes
     reference INTEGER NOT NULL,        -- poses the judge has
+    content TEXT NOT NULL,             -- hash of problem and reference as loaded; '': not known
+    group_name TEXT NOT NULL,          -- runs of one group are not independent; '': its own
     input_digest TEXT NOT NULL DEFAULT '',   -- of its rows in input
     trace_digest TEXT NOT NULL DEFAULT '',   -- of its row in sequence_trace
     digest TEXT NOT NULL DEFAULT ''          -- of this row
@@ -70,10 +72,13 @@ inline constexpr const char* kSchema = R"sql(
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- of the original tool that was followed
     times TEXT NOT NULL,               -- keyframes | dense
-    metric TEXT NOT NULL,
+    metric TEXT NOT NULL,              -- catalogue name
+    label TEXT NOT NULL,               -- in the config; the name unless it says otherwise
     relation TEXT NOT NULL,
     axis TEXT NOT NULL,
     unit TEXT NOT NULL,                -- of every statistic but count and sse (its square)
+    better TEXT NOT NULL,              -- lower | higher | target | neither
+    target REAL NOT NULL,              -- best value where better is target
     count INTEGER NOT NULL,
     rmse REAL NOT NULL, mean REAL NOT NULL, median REAL NOT NULL, std REAL NOT NULL,
     min REAL NOT NULL, max REAL NOT NULL, sse REAL NOT NULL,

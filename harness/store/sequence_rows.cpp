@@ -20,6 +20,8 @@ SequenceRows read_sequence_rows(Database& database) {
     s.closures = rows.integer();
     rows.integer();  // frames
     rows.integer();  // reference
+    s.content = rows.text();
+    s.group = rows.text();
     input_digests[asked] = rows.text();
     s.trace_digest = rows.text();
     s.digest = rows.text();

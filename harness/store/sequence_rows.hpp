@@ -16,6 +16,8 @@ struct SequenceRow {
   std::string options;  ///< "DATASET: every option, defaults included"
   std::int64_t keyframes = 0;
   std::int64_t closures = 0;
+  std::string content;
+  std::string group;
   std::vector<InputFile> inputs;
   std::string trace_digest;
   std::string digest;

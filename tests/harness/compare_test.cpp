@@ -170,6 +170,7 @@ TEST(Compare, TakesDifferencesWhereValuesAreNotPositive) {
   std::vector<Record> records = sweep();
   for (Record& r : records) {
     r.metric = "gain";
+    r.better = Better::higher;
     r.statistics.rmse = r.method == "dual" ? 10.0 : r.method == "raw" ? 0.0 : -5.0;
   }
   const Comparison c = compared(records);
@@ -188,9 +189,26 @@ TEST(Compare, KeepsScoresApartAndPassesDescriptionsOver) {
     r.times = "keyframes";
     records.push_back(r);
     r.metric = "pairs";
+    r.better = Better::neither;
     records.push_back(r);
   }
   EXPECT_EQ(compare(records, {.baseline = "uniform"}).size(), 2u);
+}
+
+TEST(Compare, TakesTheDirectionFromTheScoreNotFromItsLabel) {
+  std::vector<Record> records = sweep();
+  for (Record& r : records) {
+    r.metric = "gain_along";
+    r.label = "gain_along improved or worsened";
+    r.relation = "worsened";
+  }
+  EXPECT_EQ(compared(records).methods[0].method, "dual");  // worsens least
+  for (Record& r : records) r.relation = "improved";
+  for (Record& r : records) r.better = Better::higher;
+  EXPECT_NE(compared(records).methods[0].method, "dual");
+  for (Record& r : records) r.better = Better::neither;
+  EXPECT_EQ(refusal_of([&] { compared(records); }),
+            "'gain_along improved or worsened' describes: no value of it is better than another");
 }
 
 TEST(Compare, RefusesByName) {
@@ -209,7 +227,7 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   EXPECT_NE(text.find("\n- dual ranks best: "), std::string::npos);
   const std::string table = csv(all);
   EXPECT_EQ(std::ranges::count(table, '\n'), 5);
-  EXPECT_NE(table.find("loopbench,dense,ate,translation,3d,m,rmse,uniform,8,raw,"),
+  EXPECT_NE(table.find("loopbench,dense,ate,ate,translation,3d,m,rmse,uniform,8,raw,"),
             std::string::npos)
       << table;
   EXPECT_NE(json(all).find("\"verdict\": \"dual ranks best"), std::string::npos);

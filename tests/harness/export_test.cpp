@@ -144,8 +144,10 @@ TEST(Pivot, RefusesUnknownColumnsByName) {
 TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
-  EXPECT_NE(text.find("\nroom,0,\"a, \"\"b\"\"\",,false,false,,,keyframes,ate,translation,3d,m,0,0.1,"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("\nroom,0,\"a, "
+                "\"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
+      std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;
   EXPECT_NE(csv(pivot(records, TableSpec{})).find("0.3333333333333333"), std::string::npos);

@@ -30,6 +30,18 @@ TEST(Where, KeepsWhatEveryRuleKeeps) {
   EXPECT_FALSE(keeps("metric=rpe"));
   EXPECT_TRUE(keeps("metric!=rpe"));
   EXPECT_FALSE(keeps("metric!=ate"));
+  const auto keeps_labelled = [](const std::string& rule) {
+    Record r = ate("raw", 1.0);
+    r.label = "error";
+    return where({rule})(r);
+  };
+  EXPECT_TRUE(keeps_labelled("metric=ate"));  // name and label alike
+  EXPECT_TRUE(keeps_labelled("metric=error"));
+  EXPECT_TRUE(keeps_labelled("metric~^err"));
+  EXPECT_FALSE(keeps_labelled("metric!=ate"));
+  EXPECT_FALSE(keeps_labelled("metric!=error"));
+  EXPECT_TRUE(keeps_labelled("label=error"));
+  EXPECT_FALSE(keeps_labelled("label=ate"));
   EXPECT_TRUE(keeps("method~^dm_.[0-9]$"));
   EXPECT_FALSE(keeps("method~^raw"));
   EXPECT_TRUE(keeps("metric=ate,method~dm,times=dense"));
@@ -54,7 +66,8 @@ TEST(Where, RefusesByName) {
             "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
   EXPECT_EQ(refusal_of([] { where({"ate"}); }),
             "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
-  EXPECT_EQ(refusal_of([] { where({"method~("}); }), "where: 'method~(': '(' is not a regular expression (missing ): ()");
+  EXPECT_EQ(refusal_of([] { where({"method~("}); }),
+            "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
 }
@@ -172,6 +185,7 @@ TEST(Pivot, MarksNothingAmongDescriptions) {
     for (const char* method : {"raw", "dm"}) {
       records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
       records.back().metric = "pairs";
+      records.back().better = Better::neither;
     }
   }
   const std::vector<Table> tables = pivot(records, TableSpec{});
