@@ -131,31 +131,6 @@ std::string scores_html(const ReportContent& content) {
   return out.empty() ? "<p>No cell has scores.</p>\n" : out;
 }
 
-std::string failures_html(const ReportContent& content) {
-  struct Reason {
-    std::size_t cells = 0;
-    std::set<std::string> sequences;
-  };
-  std::map<std::tuple<std::string, std::string, std::string>, Reason> reasons;
-  for (const CellRecord& cell : content.cells) {
-    if (cell.status == "ok") continue;
-    const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
-    Reason& reason = reasons[{cell.status, cell.method, why}];
-    ++reason.cells;
-    reason.sequences.insert(cell.sequence);
-  }
-  if (reasons.empty()) return "<p>Every cell ran to its end and was judged.</p>\n";
-  Listing out{
-      "cells without their numbers", {"method", "status", "cells", "sequences", "why"}, {}, {}};
-  for (const auto& [key, reason] : reasons) {
-    const auto& [status, method, why] = key;
-    std::string names;
-    for (const std::string& name : reason.sequences) names += (names.empty() ? "" : ", ") + name;
-    out.rows.push_back({method, status, std::to_string(reason.cells), names, why});
-  }
-  return html_text_table(out);
-}
-
 std::string costs_html(const ReportContent& content) {
   std::string out;
   for (const Listing& listing : {costs(content.cells),

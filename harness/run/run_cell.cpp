@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <new>
 
 #include "harness/run/allocations.hpp"
+#include "harness/run/finite_output.hpp"
 #include "harness/run/incomplete.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
@@ -64,6 +66,12 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return curve;
 }
 
+bool is_finite(const Statistics& s) {
+  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
+         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
+         std::isfinite(s.sse);
+}
+
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
@@ -81,6 +89,10 @@ void score(CellResult& result,
       if (!score.why_undefined.empty()) {
         added.status = Status::declined;
         added.why = score.why_undefined;
+      } else if (!is_finite(score.statistics)) {
+        added.status = Status::failed;
+        added.why = "is not finite";
+        score.statistics = {};
       }
       added.score = std::move(score);
     }
@@ -201,6 +213,7 @@ CellResult run_cell(const Cell& cell,
     }
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
+    require_finite(*curve, sequence, sweep);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
       judge_without_reference(result, sweep, sequence, *curve, catalogue);

@@ -97,7 +97,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const auto cpu =
       result.cpu_seconds.empty() ? std::nullopt : std::optional<double>(median(result.cpu_seconds));
   const auto failed_scores =
-      std::ranges::count(result.scores, Status::failed, &ScoreResult::status);
+      std::ranges::count_if(result.scores, is_failure, &ScoreResult::status);
   cell_.bind(static_cast<std::int64_t>(result.cell.index))
       .bind(keys.key(result.cell, facts.inputs))
       .bind(keys.build())

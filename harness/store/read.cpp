@@ -8,6 +8,7 @@
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/sequence_rows.hpp"
+#include "harness/store/whole_failures.hpp"
 
 namespace loopbench {
 namespace {
@@ -121,6 +122,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     }
     std::ranges::move(scores[cell], std::back_inserter(out));
   }
+  name_failed_scores(out);
   return out;
 }
 

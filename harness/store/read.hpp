@@ -12,7 +12,8 @@
 
 namespace loopbench {
 
-/// All records in the order of the sweep, whatever the order they were written in. `file` may be
+/// All records in the order of the sweep, whatever the order they were written in. A metric that
+/// failed or was declined as a whole has a record for every score it gives elsewhere. `file` may be
 /// the folder that holds results.sqlite. Throws InputError when it is not a store.
 std::vector<Record> read_records(const std::filesystem::path& file);
 

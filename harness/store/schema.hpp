@@ -59,7 +59,7 @@ inline constexpr const char* kSchema = R"sql(
                                        -- out_of_memory
     signal TEXT NOT NULL,              -- SIGSEGV and the like, when one ended it
     why TEXT NOT NULL,
-    failed_scores INTEGER NOT NULL,    -- rows of score with status failed
+    failed_scores INTEGER NOT NULL,    -- rows of score that failed in any way
     score_digest TEXT NOT NULL DEFAULT '',   -- of its rows in score, and so on; '': it has none
     phase_digest TEXT NOT NULL DEFAULT '',
     count_digest TEXT NOT NULL DEFAULT '',
