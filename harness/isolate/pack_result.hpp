@@ -35,7 +35,7 @@ void walk(Archive& a, T& r) {
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, InputFile>
-void walk(Archive& a, T& file) { a(file.path)(file.bytes)(file.hash); }
+void walk(Archive& a, T& file) { a(file.option)(file.path)(file.bytes)(file.hash); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/damage.hpp"
@@ -13,17 +14,14 @@
 namespace loopbench {
 namespace {
 
-std::map<std::string, std::string> read_pairs(const std::filesystem::path& file,
-                                              const std::string& table) {
-  Database database = open_store(file);
-  require_whole_texts(database, table, store_file(file));
-  Statement rows = database.prepare("SELECT key, value FROM " + table + " NOT INDEXED");
-  std::map<std::string, std::string> out;
-  while (rows.step()) {
-    std::string key = rows.text();
-    out.emplace(std::move(key), rows.text());
+/// Adds the lines of `more` that `text` does not have.
+void add_lines(std::string& text, const std::string& more) {
+  std::istringstream lines(more);
+  for (std::string line; std::getline(lines, line);) {
+    if (("\n" + text + "\n").find("\n" + line + "\n") != std::string::npos) continue;
+    if (!text.empty() && !text.ends_with('\n')) text += "\n";
+    text += line;
   }
-  return out;
 }
 
 /// "LABEL" or "LABEL (repeat N)".
@@ -91,10 +89,10 @@ void for_sequences(const std::filesystem::path& file, Add add) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const std::size_t i : in_order(rows)) {
     const CellRow& cell = rows.cells[i];
-    const auto found = sequences.by_asked.find(cell.asked);
-    if (found == sequences.by_asked.end()) continue;
+    const auto found = sequences.by_key.find(cell.sequence_key);
+    if (found == sequences.by_key.end()) continue;
     const std::string label = sequence_label(cell.record);
-    if (seen.emplace(label, cell.asked).second) add(label, found->second);
+    if (seen.emplace(label, cell.sequence_key).second) add(label, found->second);
   }
 }
 
@@ -112,11 +110,11 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   require_whole(sequences, store_file(file));
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
-    const auto sequence = sequences.by_asked.find(rows.cells[cell].asked);
+    const auto sequence = sequences.by_key.find(rows.cells[cell].sequence_key);
     // A declined or failed cell has no score.
     if (scores[cell].empty()) scores[cell].push_back(record_of(rows.cells[cell].record));
     for (Record& r : scores[cell]) {
-      if (sequence == sequences.by_asked.end()) break;
+      if (sequence == sequences.by_key.end()) break;
       r.content = sequence->second.content;
       r.group = sequence->second.group;
     }
@@ -147,8 +145,8 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   std::vector<CellRecord> out;
   for (const std::size_t cell : in_order(rows)) {
     out.push_back(std::move(record(cell)));
-    const auto found = sequences.by_asked.find(rows.cells[cell].asked);
-    if (found == sequences.by_asked.end()) continue;
+    const auto found = sequences.by_key.find(rows.cells[cell].sequence_key);
+    if (found == sequences.by_key.end()) continue;
     out.back().keyframes = found->second.keyframes;
     out.back().closure_count = found->second.closures;
   }
@@ -156,11 +154,33 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
 }
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
-  return read_pairs(file, "run");
+  Database database = open_store(file);
+  require_whole_texts(database, "run", store_file(file));
+  Statement rows = database.prepare("SELECT key, value FROM run NOT INDEXED");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    std::string key = rows.text();
+    out.emplace(std::move(key), rows.text());
+  }
+  return out;
 }
 
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {
-  return read_pairs(file, "provenance");
+  Database database = open_store(file);
+  require_whole_texts(database, "provenance", store_file(file));
+  Statement rows = database.prepare(
+      "SELECT key, value FROM provenance NOT INDEXED JOIN (SELECT made, min(position) AS first "
+      "FROM cell NOT INDEXED WHERE position IS NOT NULL GROUP BY made) USING (made) ORDER BY "
+      "first");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    const std::string key = rows.text();
+    const std::string value = rows.text();
+    if (const auto [place, is_new] = out.emplace(key, value); !is_new) {
+      add_lines(place->second, value);
+    }
+  }
+  return out;
 }
 
 std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file) {

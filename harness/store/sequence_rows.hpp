@@ -13,6 +13,7 @@
 namespace loopbench {
 
 struct SequenceRow {
+  std::string asked;    ///< CellKeys::asked
   std::string options;  ///< "DATASET: every option, defaults included"
   std::int64_t keyframes = 0;
   std::int64_t closures = 0;
@@ -25,7 +26,7 @@ struct SequenceRow {
 };
 
 struct SequenceRows {
-  std::map<std::string, SequenceRow> by_asked;
+  std::map<std::string, SequenceRow> by_key;  ///< CellKeys::sequence_key
   bool complete = false;  ///< none was lost
 };
 
