@@ -53,7 +53,7 @@ struct GateCell {
   std::string sequence;
   std::int64_t repeat = 0;
   std::string method;
-  bool oracle = false;       ///< the method was shown the reference
+  bool oracle = false;       ///< the method or its data was shown the reference
   bool oracle_data = false;  ///< its loop closures were measured in the reference
   std::string group;         ///< see Record::group
   std::string content;       ///< see Record::content

@@ -109,7 +109,7 @@ class Checker {
            "",
            what + (is ? ", was not" : " no longer"));
     };
-    flag(before.oracle, now.oracle, "oracle: the method is shown the reference");
+    flag(before.oracle, now.oracle, "oracle: the method or its data is shown the reference");
     flag(before.oracle_data, now.oracle_data, "oracle: closures are measured in the reference");
   }
 

@@ -21,11 +21,8 @@ struct PowerLaw {
 /// when the largest x is less than four times the smallest: too short a lever. O(n).
 std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Relative difference below which two methods are equally accurate or equally fast.
-inline constexpr double kRelevant = 1e-6;
-
 /// For each point whether no other is at least as good in both and better in one; less is better,
-/// and a relative difference below kRelevant is none. O(n^2).
+/// and a relative difference up to kRelevant (statistics/ranks.hpp) is none. O(n^2).
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Every table below marks methods that were shown the reference with "(oracle)", and its notes

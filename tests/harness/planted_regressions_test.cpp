@@ -78,8 +78,9 @@ TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
 TEST(PlantedRegression, AnHonestMethodReplacedByAnOracleUnderItsLabel) {
   expect_named(caught_definition([](Snapshot& now) { now.methods["uniform"] = "paper_oracle"; }),
                {"another method 'uniform'", "'paper_oracle'"});
-  expect_named(caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
-               {"room / uniform", "oracle: the method is shown the reference, was not"});
+  expect_named(
+      caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
+      {"room / uniform", "oracle: the method or its data is shown the reference, was not"});
 }
 
 TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
