@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-void add_ratio(MethodVerdict& method, const Paired& pair, const Comparison& of) {
+void add_ratio(MethodVerdict& method, const PairedMethods& pair, const Comparison& of) {
   const std::optional<double> middle = mean_difference(pair);
   if (!of.is_ratio || !middle) return;
   const double sign = of.kind.better == Better::higher ? -1.0 : 1.0;
@@ -28,7 +28,7 @@ void add_ratio(MethodVerdict& method, const Paired& pair, const Comparison& of) 
   method.has_interval = true;
 }
 
-void add_baseline(MethodVerdict& method, const Paired& pair, const Comparison& of) {
+void add_baseline(MethodVerdict& method, const PairedMethods& pair, const Comparison& of) {
   add_ratio(method, pair, of);
   method.wins = pair.wins;
   method.losses = pair.losses;

@@ -7,8 +7,8 @@
 
 namespace loopbench {
 
-Paired paired(const Levels& levels, std::size_t first, std::size_t second) {
-  Paired out;
+PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second) {
+  PairedMethods out;
   for (std::size_t group = 0; group < levels.groups(); ++group) {
     std::vector<double> both;
     int lead = 0;  // runs that only the first has, less those that only the second has
@@ -35,7 +35,7 @@ Paired paired(const Levels& levels, std::size_t first, std::size_t second) {
   return out;
 }
 
-std::optional<double> mean_difference(const Paired& pair) {
+std::optional<double> mean_difference(const PairedMethods& pair) {
   if (pair.common.empty()) return std::nullopt;
   return mean(pair.common);
 }

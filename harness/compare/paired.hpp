@@ -12,7 +12,7 @@
 namespace loopbench {
 
 /// One entry per group on which either method has a value; negative: the first is better.
-struct Paired {
+struct PairedMethods {
   /// Mean difference over the group's runs that both have; +-kBeyond where one of them fails on
   /// more runs of the group than the other, which loses the group; 0 for a tie.
   std::vector<double> losses_last;
@@ -26,9 +26,9 @@ struct Paired {
   std::size_t ties = 0;
 };
 
-Paired paired(const Levels& levels, std::size_t first, std::size_t second);
+PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second);
 
 /// Mean over the groups of `common`; none when it is empty.
-std::optional<double> mean_difference(const Paired& pair);
+std::optional<double> mean_difference(const PairedMethods& pair);
 
 }  // namespace loopbench

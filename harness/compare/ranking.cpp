@@ -12,12 +12,12 @@ namespace {
 struct Test {
   std::size_t a = 0;
   std::size_t b = 0;
-  Paired pair;
+  PairedMethods pair;
   SignedRank ranks;
   double p = 1.0;  // corrected
 };
 
-bool has_failure(const Paired& pair) {
+bool has_failure(const PairedMethods& pair) {
   return std::ranges::any_of(pair.losses_last,
                              [](double value) { return std::abs(value) == kBeyond; });
 }

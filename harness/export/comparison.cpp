@@ -23,7 +23,6 @@ std::string title(const Comparison& c) {
 
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", p); }
 
-
 const char* over_name(Over over) {
   return over == Over::groups ? "groups" : over == Over::runs ? "runs" : "sequences";
 }
@@ -83,7 +82,8 @@ Sheet sheet(const Comparison& c) {
 
 std::string csv(const std::vector<Comparison>& comparisons) {
   std::string out =
-      "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,median,"
+      "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,"
+      "median,"
       "with_value,fails,ratio,ratio_low,ratio_high,better,worse,equal,p,rank_biserial,rank_low,"
       "rank_high,letters\n";
   for (const Comparison& c : comparisons) {
