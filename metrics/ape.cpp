@@ -9,11 +9,14 @@
 
 namespace loopbench {
 
+void check_combination(const ApeOptions& options) {
+  if (options.relation != Relation::point_distance_error_ratio) return;
+  throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
+}
+
 std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) {
+  check_combination(options);
   const Relation relation = options.relation;
-  if (relation == Relation::point_distance_error_ratio) {
-    throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
-  }
   if (relation == Relation::usual) return ate(evaluation, {});
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::translation_part;
@@ -52,8 +55,9 @@ std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
   const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     const auto& [stamp, Q] = evaluation.reference[i];
-    const Pose& P = evaluation.estimate[i].world_from_body;
+    const auto& [estimate_stamp, P] = evaluation.estimate[i];
     out.push_back({stamp,
+                   estimate_stamp,
                    P.translation - Q.translation,
                    has_attitude ? log_so3(P.rotation * Q.rotation.conjugate()) : none});
   }

@@ -147,8 +147,8 @@ PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
   if (options.pairs == RpePairs::protocol) return protocol.pairs;
   if (options.pairs == RpePairs::all) return PairRule::all;
   if (options.pairs == RpePairs::consecutive) return PairRule::consecutive;
-  if (is_of_whole_files(protocol.pairs)) return PairRule::tum;
-  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+  check_protocol(options, protocol);
+  return PairRule::tum;
 }
 
 TumMotions random_motions(const Paired& whole,
@@ -164,6 +164,15 @@ TumMotions random_motions(const Paired& whole,
 }
 
 }  // namespace
+
+void check_combination(const RpeOptions& options) {
+  check(Stretch{options.delta, options.unit, options.tolerance.value_or(0.0)});
+}
+
+void check_protocol(const RpeOptions& options, const Protocol& protocol) {
+  if (options.pairs != RpePairs::tum || is_of_whole_files(protocol.pairs)) return;
+  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+}
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
   const Protocol& protocol = evaluation.protocol;

@@ -54,6 +54,12 @@ void fields(RpeOptions& o, Visit visit) {
   visit("relation", o.relation, "what is measured");
 }
 
+/// Throws OptionError when delta and unit do not fit.
+void check_combination(const RpeOptions& options);
+
+/// Throws OptionError for pairs `tum` where the protocol does not pair whole files.
+void check_protocol(const RpeOptions& options, const Protocol& protocol);
+
 /// Of E, in the protocol's form, over the pairs of its rule. Relation `usual`: translation 3d [m]
 /// |trans(E)|, rotation 3d [deg] angle(E), translation x, y, z [m] magnitudes in `frame`. `rpy`:
 /// rotation roll, pitch, yaw [deg] of E, turned into the world for frame world (as rpg's). The

@@ -20,8 +20,12 @@ struct Loaded {
   std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
 };
 
-Judgement failure(const FilePair& pair, const NamedProtocol& protocol, const std::string& why) {
+Judgement failure(const EvalArguments& a,
+                  const FilePair& pair,
+                  const NamedProtocol& protocol,
+                  const std::string& why) {
   Judgement out;
+  out.reference_body = a.reference_body.value_or("");
   out.reference = pair.reference;
   out.estimate = pair.estimate;
   out.protocol = protocol;
@@ -114,7 +118,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       loaded = reader.read(pair.estimate, a.format);
     } catch (const InputError& error) {
       if (is_alone) throw;
-      for (const NamedProtocol& each : rules) out.push_back(failure(pair, each, error.what()));
+      for (const NamedProtocol& each : rules) out.push_back(failure(a, pair, each, error.what()));
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
@@ -130,7 +134,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
       if (is_alone && !why.empty()) throw InputError(why);
       if (!why.empty()) {
-        out.push_back(failure(pair, protocol, why));
+        out.push_back(failure(a, pair, protocol, why));
         continue;
       }
       try {
@@ -139,7 +143,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
         if (is_alone) {
           throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
         }
-        out.push_back(failure(pair, protocol, error.what()));
+        out.push_back(failure(a, pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
       out.back().reference_body = a.reference_body.value_or("");

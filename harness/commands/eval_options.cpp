@@ -97,9 +97,11 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("WORD");
   command.add_flag("--all_pairs", a.all_pairs, "rpe over all pairs");
   command.add_flag("--pairs_from_reference", a.pairs_from_reference, "rpe measured on REF");
-  command.add_flag("--json", a.json, "As JSON, in full precision");
+  command.add_flag("--json", a.json, "As JSON in full precision: a list, one entry per judgement");
   command.add_flag("--csv", a.csv, "As CSV, in full precision")->excludes("--json");
-  command.add_option("--per-pose", a.per_pose, "Write the error of every pose as CSV")
+  command
+      .add_option(
+          "--per-pose", a.per_pose, "Write the error of every pose as CSV; - is standard output")
       ->type_name("FILE");
 }
 

@@ -80,7 +80,7 @@ std::string text(const Judgement& judgement);
 /// whole errors (axis 3d or all), not of single axes or lengths.
 std::string comparison(const std::vector<Judgement>& judgements);
 
-/// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
+/// An array of objects, also for one judgement; doubles in full precision. Keys: reference,
 /// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version,
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
 /// alignment {type, scale, rank, condition}, diagnosis {name: value}, metrics

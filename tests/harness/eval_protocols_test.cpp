@@ -127,7 +127,8 @@ TEST(Eval, WritesTheErrorOfEveryPose) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 636u);
-  EXPECT_EQ(lines[0].find("reference,estimate,protocol,protocol_version,stamp,x_m,"), 0u);
+  EXPECT_EQ(lines[0].find("reference,estimate,protocol,protocol_version,stamp,estimate_stamp,x_m,"),
+            0u);
 }
 
 TEST(Eval, RefusesProtocolsThatCannotBe) {
