@@ -39,7 +39,8 @@ struct Builder {
   std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
   std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
   std::map<std::pair<std::size_t, std::size_t>, CellContest> contests;
-  std::size_t most = 1;                           // records averaged into one cell
+  std::size_t most = 1;  // records averaged into one cell
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> counts;  // see count_errors
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
   std::vector<Missing> missing;
   std::vector<std::string> notes;
@@ -48,6 +49,26 @@ struct Builder {
     if (std::ranges::count(notes, text) == 0) notes.push_back(text);
   }
 };
+
+/// Least and most errors behind the numbers of a column, where they are not the judged poses.
+void count_errors(Builder& table, std::size_t column, const Record& record) {
+  const std::size_t count = record.statistics.count;
+  if (count < 2 || count == static_cast<std::size_t>(record.pairs)) return;
+  auto& [least, most] = table.counts.try_emplace(column, count, count).first->second;
+  least = std::min(least, count);
+  most = std::max(most, count);
+}
+
+/// "rpe 1 s [m]: 396 to 398; ..."; empty: every number is of the judged poses.
+std::string counts_text(const Builder& table) {
+  std::string out;
+  for (const auto& [column, range] : table.counts) {
+    const auto& [least, most] = range;
+    out += (out.empty() ? "" : "; ") + table.columns.names()[column] + ": " + std::to_string(least);
+    if (most != least) out += " to " + std::to_string(most);
+  }
+  return out;
+}
 
 void add(Builder& table, const Record& record, const TableSpec& spec) {
   std::string name = fields_joined(record, spec.rows, ", ");
@@ -82,6 +103,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     cell.status = record.status;
     return;
   }
+  count_errors(table, column, record);
   const double sum = cell.value.value_or(0.0) * static_cast<double>(cell.records);
   ++cell.records;
   table.most = std::max(table.most, cell.records);
@@ -132,6 +154,9 @@ Table finish(const Builder& table, const std::string& title, const TableSpec& sp
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
+  if (const std::string counts = counts_text(table); !counts.empty()) {
+    out.notes.push_back("numbers of other counts than the judged poses (pairs): " + counts);
+  }
   if (table.most > 1) {
     out.notes.insert(out.notes.begin(),
                      "each number is the mean of up to " + std::to_string(table.most) + " cells");

@@ -1,7 +1,6 @@
 #include "metrics/pairs/stretch.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "metrics/angle.hpp"
 #include "metrics/motion.hpp"
@@ -24,12 +23,6 @@ double radians(const Stretch& stretch) {
   if (out <= std::numbers::pi) return out;
   throw OptionError("delta",
                     "delta = " + to_text(stretch.delta) + ": no turn is beyond half a circle");
-}
-
-std::vector<double> steps(std::vector<double> measure) {
-  std::adjacent_difference(measure.begin(), measure.end(), measure.begin());
-  if (!measure.empty()) measure.front() = 0.0;
-  return measure;
 }
 
 std::vector<double> step_lengths(const Trajectory& poses) {
@@ -67,7 +60,7 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
     }
     case DeltaUnit::s:
       if (is_all) return pairs_by_measure(stamps(reference), delta, stretch.tolerance * delta);
-      return consecutive_stretches(steps(stamps(reference)), delta, FirstPose::starts);
+      return consecutive_seconds(stamps(reference), delta, stretch.tolerance * delta);
     case DeltaUnit::m:
       if (is_all) {
         return pairs_by_measure(accumulated_distances(measured), delta, stretch.tolerance * delta);
