@@ -30,9 +30,10 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
     mahalanobis.push_back(std::sqrt(e.dot(edge.information * e)));
   }
   const int ddof = evaluation.protocol.ddof;
-  return {{"translation", "3d", "m", statistics(std::move(metres), ddof)},
-          {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)},
-          {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}};
+  // Zero is no merit: closures taken as exact have no residual, false ones neither.
+  return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
+                       {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)},
+                       {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}});
 }
 
 }  // namespace loopbench

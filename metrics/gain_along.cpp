@@ -40,12 +40,15 @@ Score gain(const std::string& relation,
            const Protocol& protocol,
            std::vector<double> before,
            std::vector<double> after) {
-  if (before.empty()) return {relation, axis, "%", {}, "no pose lies there"};
+  const auto undefined = [&](const char* why) {
+    return directed({relation, axis, "%", {}, why}, Better::higher);
+  };
+  if (before.empty()) return undefined("no pose lies there");
   const std::size_t count = after.size();
   const double b = quoted(statistics(std::move(before), protocol.ddof), protocol.statistic);
   const double a = quoted(statistics(std::move(after), protocol.ddof), protocol.statistic);
-  if (b == 0.0) return {relation, axis, "%", {}, "there was no error before"};
-  Score out = single(relation, axis, "%", 100.0 * (1.0 - a / b));
+  if (b == 0.0) return undefined("there was no error before");
+  Score out = directed(single(relation, axis, "%", 100.0 * (1.0 - a / b)), Better::higher);
   out.statistics.count = count;
   return out;
 }
@@ -94,7 +97,7 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     out.push_back(gain("translation", names[a], rules, before.axes[a], after.axes[a]));
   const std::string why = why_no_attitude(evaluation);
   out.push_back(why.empty() ? gain("angle", "3d", rules, before.radians, after.radians)
-                            : Score{"angle", "3d", "%", {}, why});
+                            : directed({"angle", "3d", "%", {}, why}, Better::higher));
   const std::array thirds{"first_third", "middle_third", "last_third"};
   for (int k = 0; k < 3; ++k) {
     out.push_back(gain(thirds[static_cast<std::size_t>(k)],
@@ -110,7 +113,7 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     worsened += after.metres[i] > before.metres[i];
   }
   const double percent = 100.0 / static_cast<double>(after.metres.size());
-  out.push_back(single("improved", "", "%", percent * improved));
+  out.push_back(directed(single("improved", "", "%", percent * improved), Better::higher));
   out.push_back(single("worsened", "", "%", percent * worsened));
   return out;
 }

@@ -84,9 +84,9 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
   const int ddof = evaluation.protocol.ddof;
   Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};
   if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp), ddof);
-  return {{"polyline", "3d", "m", statistics(std::move(floor.polyline), ddof)},
-          {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic), ddof)},
-          std::move(slerp)};
+  return descriptions({{"polyline", "3d", "m", statistics(std::move(floor.polyline), ddof)},
+                       {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic), ddof)},
+                       std::move(slerp)});
 }
 
 }  // namespace loopbench
