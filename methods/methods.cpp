@@ -17,6 +17,7 @@
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
 #include "methods/smoothers/spline_regression.hpp"
+#include "methods/smoothers/tracked_frames.hpp"
 #include "methods/smoothers/trend_filter.hpp"
 
 namespace loopbench {
@@ -115,6 +116,8 @@ std::vector<MethodEntry> methods() {
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
+      method<TrackedFrames>("tracked_frames",
+                            "the tracked frames, attached to the keyframes around them"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),
       method<BSplineThrough>("b_spline", "B-spline of order k in time through the keyframes"),
       method<Screw>("screw", "one screw motion from keyframe to keyframe"),
