@@ -28,6 +28,7 @@ Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
   return {.planar = 4,
           .spatial = 7,
           .segment = thresholds,
+          .chord_above = std::nullopt,
           .up = manifold::Up::world_z,
           .height_guard = false,
           .frame = manifold::Axes::world,

@@ -1,9 +1,14 @@
 #include "methods/correctors/pose_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "methods/correctors/chain.hpp"
 #include "methods/correctors/gnc_pose_graph.hpp"
+#include "methods/correctors/plausibility.hpp"
 #include "methods/correctors/stiffness.hpp"
+#include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench {
@@ -40,12 +45,58 @@ double usual_chi2(Group group) {
   return group == Group::se3 ? 16.812 : 18.475;
 }
 
+std::size_t dimensions(Group group) {
+  if (group == Group::se2) return 3;
+  return group == Group::se3 ? 6 : 7;
+}
+
+/// Losses that let go of a closure: where they bend is where a true closure's error ends.
+bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
+
+/// Widths from the largest squared error down to `last`, each half of the one before.
+std::vector<double> annealed_widths(const std::vector<double>& squared, double last) {
+  std::vector<double> out;
+  for (double width = *std::ranges::max_element(squared); width > 2.0 * last; width *= 0.5) {
+    out.push_back(width);
+  }
+  return out;
+}
+
+/// Moves `poses` to the better of two minima of the last loss: that reached at once, and that
+/// reached through ever narrower losses, each solved from the solution before. Returns the cost
+/// before.
+template <class Solve>
+double anneal(const Problem& problem,
+              const PoseGraphSettings& settings,
+              std::vector<ScaledPose>& poses,
+              Solve solve) {
+  const std::vector<ScaledPose> start = poses;
+  const std::vector<double> squared = squared_errors(start, problem.closures, settings);
+  const PoseGraphSummary direct = solve(settings);
+  std::vector<ScaledPose> reached = std::exchange(poses, start);
+  PoseGraphSettings rough = settings;
+  rough.max_iterations = std::min(settings.max_iterations, 30);
+  rough.tolerance = std::max(settings.tolerance, 1e-6);
+  rough.loss =
+      Loss::switchable;  // smoother than dcs, and as bounded: fewer wrong minima on the way
+  for (const double width : annealed_widths(squared, settings.loss_width)) {
+    rough.loss_width = width;
+    solve(rough);
+  }
+  if (!(solve(settings).cost < direct.cost)) poses = std::move(reached);
+  return direct.cost_before;
+}
+
 }  // namespace
 
 std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
   if (problem.closures.empty()) return "no loop closure to spread";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, the problem not planar";
+  if (options_.rescale) {
+    if (changes_scale(problem)) return "rescale is for rigid chains, and edges have scales";
+    if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+  }
   if (const auto lost = first_unjoined(problem)) {
     return "the graph is not connected: no edges join keyframe " + std::to_string(*lost) +
            " to keyframe 0";
@@ -60,12 +111,23 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
         "equations would be singular to rounding");
     return correct(with_bounded_stiffness(problem), report);
   }
-  PoseGraphSettings settings{group_of(problem, options_.group),
-                             options_.scale_sigma,
-                             options_.loss,
-                             options_.loss_width,
-                             options_.max_iterations,
-                             options_.tolerance};
+  if (options_.rescale) {
+    const VarianceFactors factors =
+        report.time("variance components", [&] { return variance_factors(problem); });
+    report.count("factor_t", std::sqrt(factors.translation));
+    report.count("factor_r", std::sqrt(factors.rotation));
+    Options stated = options_;
+    stated.rescale = false;
+    return PoseGraphOptimizer(stated).correct(with_factors(problem, factors), report);
+  }
+  const Group group = group_of(problem, options_.group);
+  PoseGraphSettings settings{
+      group,
+      options_.scale_sigma,
+      options_.loss,
+      options_.loss_width.value_or(is_bounded(options_.loss) ? usual_chi2(group) : 1.0),
+      options_.max_iterations,
+      options_.tolerance};
   std::vector<ScaledPose> poses;
   if (options_.gnc == Gnc::off) {
     poses = report.time("initial values",
@@ -100,11 +162,21 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
                  static_cast<double>(
                      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; })));
   }
+  std::optional<double> annealed_from;
+  if (is_bounded(options_.loss) && options_.anneal && options_.gnc == Gnc::off) {
+    annealed_from = report.time("anneal", [&] { return anneal(problem, settings, poses, solve); });
+  }
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
-  if (options_.gnc == Gnc::off) before = summary.cost_before;
+  if (options_.gnc == Gnc::off) before = annealed_from.value_or(summary.cost_before);
   report.count("iterations", iterations);
   report.count("cost_before", before);
   report.count("cost", summary.cost);
+  if (options_.loss == Loss::none) {
+    const auto kept = std::ranges::count_if(weights, [](double weight) { return weight > 0.5; });
+    const std::size_t edges = problem.odometry.size() + static_cast<std::size_t>(kept);
+    const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
+    report_chi2(2.0 * summary.cost, degrees, report);
+  }
   if (!summary.converged) {
     report.notes.push_back("the last solve stopped at max_iterations, not at the tolerance");
   }
