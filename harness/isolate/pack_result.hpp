@@ -18,9 +18,7 @@ void walk(Archive& a, T& count) { a(count.name)(count.value); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Section>
-void walk(Archive& a, T& section) {
-  a(section.kind)(section.begin)(section.end)(section.what);
-}
+void walk(Archive& a, T& section) { a(section.kind)(section.begin)(section.end)(section.what); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Score>
@@ -42,6 +40,7 @@ template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
   a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
+  a(facts.content)(facts.source)(facts.group);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 
