@@ -5,6 +5,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/ate.hpp"
+#include "metrics/printed_motion.hpp"
 #include "metrics/rpy.hpp"
 
 namespace loopbench {
@@ -29,6 +30,7 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
   Rpy turns(relation == Relation::rpy ? n : 0);
   std::vector<double> errors(relation == Relation::rpy ? 0 : n);
   const AngleFormula angle = evaluation.protocol.angle;
+  const std::optional<PrintedPoses> printed = printed_for_evo(evaluation);
   const auto set = [&](std::size_t i) {
     const Pose& Q = reference[i].world_from_body;
     const Pose& P = estimate[i].world_from_body;
@@ -37,7 +39,9 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
     } else if (relation == Relation::point_distance) {
       errors[i] = (P.translation - Q.translation).norm();
     } else {
-      errors[i] = measure(relation, way(P, Q), angle);
+      const Pose E =
+          printed ? pose_of(printed_way(printed->estimate[i], printed->reference[i])) : way(P, Q);
+      errors[i] = measure(relation, E, angle);
     }
   };
   in_blocks(n, [&](std::size_t i, std::size_t end) {

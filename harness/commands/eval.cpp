@@ -90,14 +90,14 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
   const ReferenceBody body = reference_body(a);
-  const bool is_devkit =
+  const bool wants_digits =
       !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
-        return p.rules.form == ErrorForm::kitti;
+        return p.rules.form == ErrorForm::kitti || p.rules.association == Association::evo;
       });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
-  Reader reader{a, is_devkit};
+  Reader reader{a, wants_digits};
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
@@ -126,7 +126,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
     for (const NamedProtocol& protocol : rules) {
       const JudgeOptions options{questions(a, protocol.rules),
                                  !a.per_pose.empty(),
-                                 a.min_coverage,
+                                 a.min_coverage.value_or(0.0),
                                  are_printed ? &printed : nullptr,
                                  {std::max(mended.off_unit, loaded.mended.off_unit),
                                   mended.repeated + loaded.mended.repeated},
@@ -157,7 +157,8 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
 }
 
 int eval(const EvalArguments& a) {
-  const std::vector<Judgement> all = judgements(a);
+  std::vector<Judgement> all = judgements(a);
+  if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   if (a.json) {
     fmt::print("{}", json(all));
@@ -166,7 +167,8 @@ int eval(const EvalArguments& a) {
   } else {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  const bool is_whole = std::ranges::none_of(all, has_no_number);
+  const bool is_whole =
+      std::ranges::all_of(all, [](const Judgement& j) { return status(j) == "ok"; });
   return is_whole ? kExitOk : kExitSomeCellsFailed;
 }
 

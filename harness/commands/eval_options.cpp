@@ -71,11 +71,11 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   command
       .add_option("--min-coverage",
                   a.min_coverage,
-                  "Share of poses and of the reference's time below which numbers are incomplete")
+                  "Share of poses and of the reference's time below which numbers are incomplete "
+                  "(exit 1); by default half of what another estimate covers")
       ->type_name("SHARE")
       ->check(finite_number())
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+      ->check(CLI::Range(0.0, 1.0));
   seconds("--offset,--t_offset", a.offset, "Added to the estimates' stamps");
 }
 

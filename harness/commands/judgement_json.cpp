@@ -74,6 +74,7 @@ Json to_json(const Judgement& j) {
                         {"rank", j.alignment.rank},
                         {"condition", j.alignment.condition}};
     out["diagnosis"] = std::move(diagnosis);
+    out["notes"] = j.notes;
   }
   out["metrics"] = std::move(scores);
   out["undefined"] = std::move(undefined);

@@ -1,7 +1,6 @@
 #include "metrics/pairs/stretch.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "metrics/angle.hpp"
 #include "metrics/motion.hpp"
@@ -20,12 +19,6 @@ std::size_t frames(const Stretch& stretch, std::size_t size) {
 double radians(const Stretch& stretch) {
   check(stretch);
   return stretch.unit == DeltaUnit::deg ? stretch.delta / kDegrees : stretch.delta;
-}
-
-std::vector<double> steps(std::vector<double> measure) {
-  std::adjacent_difference(measure.begin(), measure.end(), measure.begin());
-  if (!measure.empty()) measure.front() = 0.0;
-  return measure;
 }
 
 std::vector<double> step_lengths(const Trajectory& poses) {
@@ -76,7 +69,7 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
     }
     case DeltaUnit::s:
       if (is_all) return pairs_by_measure(stamps(reference), delta, stretch.tolerance * delta);
-      return consecutive_stretches(steps(stamps(reference)), delta, FirstPose::starts);
+      return consecutive_seconds(stamps(reference), delta, stretch.tolerance * delta);
     case DeltaUnit::m:
       if (is_all) {
         return pairs_by_measure(accumulated_distances(measured), delta, stretch.tolerance * delta);

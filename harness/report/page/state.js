@@ -22,8 +22,8 @@
 
   R.comparison = (place) => {
     const k = kinds[place];
-    return k && R.comparisons.find((c) => ["protocol", "times", "metric", "relation", "axis", "unit"]
-      .every((key) => c[key] === k[key])) || null;
+    return k && R.comparisons.find((c) => c.label === k.metric &&
+      ["protocol", "times", "relation", "axis", "unit"].every((key) => c[key] === k[key])) || null;
   };
 
   // The baseline, then by rank those that do not look the same.
