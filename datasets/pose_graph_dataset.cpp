@@ -147,16 +147,17 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
   Sequence sequence;
   auto& inputs = sequence.provenance.inputs;
-  const auto open = [&](const std::string& path) {
-    return path.empty() ? std::filesystem::path() : inputs.emplace_back(root.find(path));
+  const auto open = [&](const std::string& path, const std::string& option) {
+    if (path.empty()) return std::filesystem::path();
+    return inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
-  const std::filesystem::path file = open(o.path);
+  const std::filesystem::path file = open(o.path, "path");
   const PoseGraph graph = read_g2o(file, o.turns);
   std::size_t false_closures = 0;
-  sequence.problem =
-      derive_problem(graph, o, file, open(lists ? o.true_list : ""), &false_closures);
+  const std::filesystem::path list = open(lists ? o.true_list : "", "closures.true_list");
+  sequence.problem = derive_problem(graph, o, file, list, &false_closures);
   if (!o.truth.empty()) {
-    sequence.provenance.reference = open(o.truth);
+    sequence.provenance.reference = open(o.truth, "truth");
     sequence.reference = read_truth(sequence.provenance.reference, stamps_of(graph, o.period), o);
   }
 

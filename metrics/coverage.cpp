@@ -9,7 +9,7 @@ std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions&
     score.statistics.count = found.pairs;
     return score;
   };
-  return {single("share", found.share()), single("span", found.span)};
+  return descriptions({single("share", found.share()), single("span", found.span)});
 }
 
 }  // namespace loopbench

@@ -68,20 +68,20 @@ std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOp
   const auto whole = [](const char* name, std::size_t count) {
     return single(name, "", "1", static_cast<double>(count));
   };
-  return {whole("matched", d.matched),
-          whole("possible", d.possible),
-          single("largest_gap", "", "s", d.largest_gap),
-          whole("repeated", d.repeated),
-          whole("crossing", d.crossing),
-          single("off_unit", "", "1", d.off_unit),
-          single("alignment_rank", "", "1", d.rank),
-          single("alignment_condition", "", "1", d.condition),
-          single("standing", "", "%", 100.0 * d.standing),
-          whole("position_only_reference", d.position_only_reference),
-          whole("position_only_estimate", d.position_only_estimate),
-          whole("losses", d.losses),
-          single("lost", "", "s", d.lost),
-          single("longest_loss", "", "s", d.longest_loss)};
+  return descriptions({whole("matched", d.matched),
+                       whole("possible", d.possible),
+                       single("largest_gap", "", "s", d.largest_gap),
+                       whole("repeated", d.repeated),
+                       whole("crossing", d.crossing),
+                       single("off_unit", "", "1", d.off_unit),
+                       single("alignment_rank", "", "1", d.rank),
+                       single("alignment_condition", "", "1", d.condition),
+                       single("standing", "", "%", 100.0 * d.standing),
+                       whole("position_only_reference", d.position_only_reference),
+                       whole("position_only_estimate", d.position_only_estimate),
+                       whole("losses", d.losses),
+                       single("lost", "", "s", d.lost),
+                       single("longest_loss", "", "s", d.longest_loss)});
 }
 
 }  // namespace loopbench

@@ -33,11 +33,14 @@ Score gain(const std::string& relation,
            const std::string& axis,
            std::vector<double> before,
            std::vector<double> after) {
-  if (before.empty()) return {relation, axis, "%", {}, "no pose lies there"};
+  const auto undefined = [&](const char* why) {
+    return directed({relation, axis, "%", {}, why}, Better::higher);
+  };
+  if (before.empty()) return undefined("no pose lies there");
   const Statistics b = statistics(std::move(before));
   const Statistics a = statistics(std::move(after));
-  if (b.rmse == 0.0) return {relation, axis, "%", {}, "there was no error before"};
-  Score out{relation, axis, "%", {}};
+  if (b.rmse == 0.0) return undefined("there was no error before");
+  Score out = directed({relation, axis, "%", {}}, Better::higher);
   out.statistics.count = a.count;
   for (double Statistics::*number : {&Statistics::rmse,
                                      &Statistics::mean,
@@ -91,7 +94,7 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     out.push_back(gain("translation", names[a], before.axes[a], after.axes[a]));
   const std::string why = why_no_attitude(evaluation);
   out.push_back(why.empty() ? gain("angle", "3d", before.radians, after.radians)
-                            : Score{"angle", "3d", "%", {}, why});
+                            : directed({"angle", "3d", "%", {}, why}, Better::higher));
   const std::array thirds{"first_third", "middle_third", "last_third"};
   for (int k = 0; k < 3; ++k) {
     out.push_back(gain(thirds[static_cast<std::size_t>(k)],
@@ -106,7 +109,7 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     worsened += after.metres[i] > before.metres[i];
   }
   const double percent = 100.0 / static_cast<double>(after.metres.size());
-  out.push_back(single("improved", "", "%", percent * improved));
+  out.push_back(directed(single("improved", "", "%", percent * improved), Better::higher));
   out.push_back(single("worsened", "", "%", percent * worsened));
   return out;
 }

@@ -81,9 +81,9 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
   }
   Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};
   if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp));
-  return {{"polyline", "3d", "m", statistics(std::move(floor.polyline))},
-          {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic))},
-          std::move(slerp)};
+  return descriptions({{"polyline", "3d", "m", statistics(std::move(floor.polyline))},
+                       {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic))},
+                       std::move(slerp)});
 }
 
 }  // namespace loopbench

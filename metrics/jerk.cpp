@@ -79,7 +79,9 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
   if (truth.statistics.rmse > 0.0) {
     ratio = single("ratio", "3d", "1", estimate.statistics.rmse / truth.statistics.rmse);
   }
-  return {std::move(estimate), std::move(truth), std::move(ratio)};
+  return {directed(std::move(estimate), Better::neither),
+          directed(std::move(truth), Better::neither),
+          directed(std::move(ratio), Better::target, 1.0)};
 }
 
 }  // namespace loopbench

@@ -23,6 +23,19 @@ struct Score {
   double target = 0.0;  ///< best value where `better` is target
 };
 
+/// The score with another direction than `lower`.
+inline Score directed(Score score, Better better, double target = 0.0) {
+  score.better = better;
+  score.target = target;
+  return score;
+}
+
+/// The scores as descriptions: no value of them is better than another.
+inline std::vector<Score> descriptions(std::vector<Score> scores) {
+  for (Score& score : scores) score.better = Better::neither;
+  return scores;
+}
+
 /// A number that is no distribution: count 1, std 0, every other statistic the (signed) value.
 /// Throws std::runtime_error when it is not finite.
 Score single(std::string relation, std::string axis, std::string unit, double value);

@@ -43,9 +43,9 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
   }
   const Statistics after = magnitudes(is_sharp ? without_fast(errors, options.window)
                                                : moving_average(errors, options.window));
-  return {{"before", "3d", "m", before},
-          {"after", "3d", "m", after},
-          single("gain", "3d", "%", 100.0 * (1.0 - after.rmse / before.rmse))};
+  return descriptions({{"before", "3d", "m", before},
+                       {"after", "3d", "m", after},
+                       single("gain", "3d", "%", 100.0 * (1.0 - after.rmse / before.rmse))});
 }
 
 }  // namespace loopbench

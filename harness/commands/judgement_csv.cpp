@@ -26,7 +26,7 @@ std::string csv(const std::vector<Judgement>& judgements) {
         fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
     for (const JudgedMetric& metric : j.metrics) {
       const std::string front = head(j) + "," + metric.name + "," + quoted(to_text(metric.options));
-      for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
         if (!why.empty()) {
           out += fmt::format("{},{},{},{},,,,,,,,,{},undefined,{},{}\n",
                              front,

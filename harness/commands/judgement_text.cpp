@@ -75,7 +75,7 @@ std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
     if (!metric.why_undefined.empty()) {
       out.push_back({row, label(metric), "undefined", metric.why_undefined});
     }
-    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (why.empty()) continue;
       const bool is_whole = axis == "3d" || axis == "all";
       const std::string what = label(metric) + " " + relation + (is_whole ? "" : " " + axis);
@@ -122,7 +122,7 @@ std::string text(const Judgement& j) {
   }
   out += fmt::format(" {:>9}\n", "count");
   for (const JudgedMetric& metric : j.metrics) {
-    for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (!why.empty()) continue;
       out += widths.line(label(metric), relation, axis, unit);
       for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
@@ -173,7 +173,7 @@ std::string comparison(const std::vector<Judgement>& judgements) {
     if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
     for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
     for (const JudgedMetric& metric : j.metrics) {
-      for (const auto& [relation, axis, unit, s, why] : metric.scores) {
+      for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
         if (axis != "3d" && axis != "all") continue;
         if (!why.empty()) continue;
         const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);

@@ -53,7 +53,10 @@ void add_profile(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
-  command->add_option("--metric", arguments->accuracy.metric, "What stands for accuracy: its label")
+  command
+      ->add_option("--metric",
+                   arguments->accuracy.metric,
+                   "metric that stands for accuracy: its label or name")
       ->capture_default_str();
   command->add_option("--relation", arguments->accuracy.relation)->capture_default_str();
   command->add_option("--axis", arguments->accuracy.axis)->capture_default_str();

@@ -17,7 +17,7 @@ struct TableArguments {
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
-  double alpha = 0.05;
+  RankingOptions ranking;
   TableFormat format = TableFormat::markdown;
   std::string out;
 };
@@ -62,7 +62,7 @@ int print_table(const TableArguments& arguments) {
   const std::string shown =
       arguments.format == TableFormat::rows
           ? csv(records)
-          : text(pivot(records, arguments.spec, arguments.alpha), arguments.format);
+          : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
   deliver(shown, carrier(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
@@ -91,7 +91,14 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_option("--where",
                       arguments->where,
                       "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated");
-  command->add_option("--alpha", arguments->alpha, "Level at which a best value is marked")
+  command->add_option("--alpha", arguments->ranking.alpha, "Chance of a false mark in a column")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command
+      ->add_option("--relevant",
+                   arguments->ranking.relevant,
+                   "Largest relative difference that counts as a tie [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();

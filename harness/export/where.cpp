@@ -52,8 +52,11 @@ Condition condition(const std::string& part) {
 bool holds(const Condition& condition, const Record& record) {
   const std::string text = field(record, condition.field);
   if (record.metric.empty() && text.empty()) return true;
-  if (condition.pattern) return condition.pattern->is_in(text);
-  return (text == condition.text) == condition.is_wanted;
+  const auto is = [&](const std::string& own) {
+    return condition.pattern ? condition.pattern->is_in(own) : own == condition.text;
+  };
+  const bool is_label = condition.field == "metric" && is(metric_label(record));
+  return (is(text) || is_label) == condition.is_wanted;
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ namespace loopbench {
 
 /// Each rule is `field=text`, `field!=text` or `field~regex` (a Pattern, found anywhere), or
 /// several of them separated by commas outside of brackets; all must hold. Fields are those of
-/// `field` in record.hpp. A cell that left no score passes rules about fields it does not have:
-/// its reason belongs into every table. Throws InputError naming the rule.
+/// `field` in record.hpp; `metric` holds for a metric's name and for its label. A cell that left no
+/// score passes rules about fields it does not have: its reason belongs into every table. Throws
+/// InputError naming the rule.
 std::function<bool(const Record&)> where(const std::vector<std::string>& rules);
 
 /// Drops the records that `where` does not keep.

@@ -41,6 +41,7 @@ Record as_record(const GateCell& cell, const GateScore& score) {
   out.axis = score.axis;
   out.unit = score.unit;
   out.status = score.status;
+  out.better = score.better;
   return out;
 }
 
@@ -61,7 +62,16 @@ std::vector<GateCell> gate_cells(const std::vector<Record>& records,
       cell.status = r.status;
       continue;
     }
-    GateScore score{r.protocol, r.times, r.metric, r.relation, r.axis, r.unit, r.status, 0, {}};
+    GateScore score{r.protocol,
+                    r.times,
+                    metric_label(r),
+                    r.relation,
+                    r.axis,
+                    r.unit,
+                    r.status,
+                    0,
+                    {},
+                    r.better};
     if (r.status == "ok") {
       score.pairs = r.pairs;
       for (const std::string& statistic : statistics) score.values[statistic] = value(r, statistic);

@@ -42,6 +42,7 @@ struct GateScore {
   std::string status = "ok";
   std::int64_t pairs = 0;                ///< pose pairs judged: fewer is a regression
   std::map<std::string, double> values;  ///< by statistic; empty unless the status is ok
+  Better better = Better::lower;
 };
 
 struct GateCell {
@@ -72,7 +73,7 @@ std::string name(const GateCell& cell);
 /// "ate translation 3d, dense, loopbench".
 std::string name(const GateScore& score);
 
-/// What `where` and `better` look at.
+/// What `where` looks at.
 Record as_record(const GateCell& cell, const GateScore& score);
 
 /// The cells of a store's records (without derived ones), with the statistics that `limits` name.

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/better.hpp"
 #include "harness/export/where.hpp"
 #include "harness/gate/consistent_loss.hpp"
 
@@ -150,7 +149,7 @@ class Checker {
       const auto old_value = before.values.find(limit.value);
       const auto new_value = now.values.find(limit.value);
       if (old_value == before.values.end() || new_value == now.values.end()) return;
-      measure(cell, before, limit, better(record), old_value->second, new_value->second);
+      measure(cell, before, limit, now.better, old_value->second, new_value->second);
       return;
     }
   }
@@ -162,9 +161,9 @@ class Checker {
                double before,
                double now) {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
-    const double worse = way == Better::higher    ? before - now
-                         : way == Better::neither ? std::abs(now - before)
-                                                  : now - before;
+    const double worse = way == Better::higher  ? before - now
+                         : way == Better::lower ? now - before
+                                                : std::abs(now - before);
     losses_.add(cell.method, name(score), limit, way, before, now);
     if (std::abs(worse) <= allowed) return;  // also refuses NaN below: not <=
     find(worse < 0.0 ? Finding::Kind::improvement : Finding::Kind::regression,

@@ -17,7 +17,7 @@ void ConsistentLosses::add(const std::string& method,
                            Better way,
                            double before,
                            double now) {
-  if (!limit.alpha || way == Better::neither) return;
+  if (!limit.alpha || way == Better::neither || way == Better::target) return;
   Series& series = series_[{method, score}];
   series.before.push_back(before);
   series.now.push_back(now);

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "harness/export/better.hpp"
 #include "harness/gate/check.hpp"
 
 namespace loopbench {

@@ -26,19 +26,22 @@ double mean(const std::vector<double>& values) {
 struct Chosen {
   std::string protocol;
   std::string times;
+  std::string label;
 };
 
 bool is_score(const Record& r, const Accuracy& accuracy) {
-  return r.status == "ok" && r.metric == accuracy.metric && r.relation == accuracy.relation &&
+  const bool is_metric = r.metric == accuracy.metric || metric_label(r) == accuracy.metric;
+  return r.status == "ok" && is_metric && r.relation == accuracy.relation &&
          r.axis == accuracy.axis;
 }
 
-/// The first protocol, dense where there is dense.
+/// The first protocol, dense where there is dense; a metric by its label rather than by its name.
 Chosen choose(const std::vector<Record>& records, const Accuracy& accuracy) {
   Chosen out;
   for (const Record& r : records) {
     if (!is_score(r, accuracy)) continue;
-    if (out.protocol.empty()) out = {r.protocol, r.times};
+    if (out.protocol.empty()) out = {r.protocol, r.times, metric_label(r)};
+    if (metric_label(r) == accuracy.metric) out.label = accuracy.metric;
     if (r.protocol == out.protocol && r.times == "dense") out.times = r.times;
   }
   return out;
@@ -53,8 +56,10 @@ Listing pareto(const std::vector<CellRecord>& cells,
   std::map<std::int64_t, double> error_of;  // by position
   std::string unit;
   for (const Record& r : records) {
-    if (!is_score(r, accuracy) || r.protocol != chosen.protocol || r.times != chosen.times)
+    if (!is_score(r, accuracy) || r.protocol != chosen.protocol || r.times != chosen.times ||
+        metric_label(r) != chosen.label) {
       continue;
+    }
     error_of[r.cell] = value(r, accuracy.value);
     unit = r.unit;
   }

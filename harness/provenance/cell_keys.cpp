@@ -88,22 +88,30 @@ std::string CellKeys::dataset_in_full(const Cell& cell) const {
 
 std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,
                                              std::vector<InputFile> inputs) const {
-  const Params& options = sweep_.datasets[cell.dataset].dataset.options;
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const Params options =
+      in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
   for (InputFile& input : inputs) {
     std::filesystem::path now = input.path;
-    for (const auto& [name, value] : options) {
-      const auto* text = std::get_if<std::string>(&value);
-      if (text == nullptr || text->empty() || !input.path.ends_with("/" + *text)) continue;
+    const auto named = options.find(input.option);
+    const auto* text = named == options.end() ? nullptr : std::get_if<std::string>(&named->second);
+    if (text != nullptr) {
       for (const std::filesystem::path& folder : root_.folders) {
-        if (std::filesystem::is_regular_file(folder / *text)) {
-          now = folder / *text;
-          break;
-        }
+        if (!std::filesystem::is_regular_file(folder / *text)) continue;
+        now = folder / *text;
+        break;
       }
     }
-    if (std::filesystem::exists(now)) input = hashed_inputs({now}).front();
+    if (std::filesystem::exists(now)) input = hashed_inputs({{now, input.option}}).front();
   }
   return inputs;
+}
+
+std::string CellKeys::sequence_key(const Cell& cell, const std::vector<InputFile>& inputs) {
+  Fields fields;
+  fields.add(build_).add(asked(cell));
+  for (const InputFile& input : inputs) fields.add(input.hash);
+  return fields.hashed();
 }
 
 std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {

@@ -83,16 +83,17 @@ std::string config_of(Database& database) {
   return row.step() ? row.text() : "";
 }
 
-/// Adds what is not said yet. Nothing is left of earlier runs when none of their cells is.
-void say_provenance(Database& database,
-                    const std::map<std::string, std::string>& provenance,
-                    bool anew) {
-  if (anew) database.execute("DELETE FROM provenance");
-  Statement insert = database.prepare(
-      "INSERT INTO provenance VALUES (?, ?) ON CONFLICT (key) DO UPDATE SET value = value || "
-      "char(10) || excluded.value WHERE "
-      "instr(char(10) || value || char(10), char(10) || excluded.value || char(10)) = 0");
-  for (const auto& [key, value] : provenance) insert.bind(key).bind(value).run();
+/// What the cells of this run say they are made by.
+std::string made_key(const std::map<std::string, std::string>& provenance) {
+  Fields fields;
+  for (const auto& [key, value] : provenance) fields.add(key).add(value);
+  return fields.hashed();
+}
+
+void say_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
+  const std::string made = made_key(provenance);
+  Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
+  for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
   renew_texts(database, "provenance");
 }
 
@@ -149,7 +150,7 @@ void Store::create() {
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   say_run(*database_, keys_.sweep());
-  say_provenance(*database_, provenance_, true);
+  renew_texts(*database_, "provenance");
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
   transaction.commit();
@@ -173,7 +174,6 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged) {
     changes();
     say_run(*database_, keys_.sweep());
-    say_provenance(*database_, provenance_, out.there == 0 && out.missing.size() == all.size());
   }
   transaction.commit();
   return out;
@@ -184,8 +184,9 @@ void Store::write(const CellResult& result) {
   if (!writer_) {
     Transaction transaction(*database_);
     changes();
+    say_provenance(*database_, provenance_);
     transaction.commit();
-    writer_ = std::make_unique<Writer>(*database_);
+    writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
   }
   writer_->write(result, keys_);
 }

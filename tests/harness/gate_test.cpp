@@ -122,7 +122,7 @@ TEST(Gate, HoldsTheFirstLimitThatKeepsAScore) {
 
 TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {
   Baseline counted = baseline();
-  for (GateCell& cell : counted.snapshot.cells) cell.scores[0].metric = "coverage";
+  for (GateCell& cell : counted.snapshot.cells) cell.scores[0].better = Better::neither;
   Snapshot now = counted.snapshot;
   rmse(now, 0) *= 0.9;
   EXPECT_EQ(check(counted, now).count(Finding::Kind::regression), 1u);
