@@ -74,16 +74,31 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.keyframes.value,
         "every k poses, or least distance [s] or [m], or how many",
         Above{0.0});
-  visit("odometry.sigma_t", o.odometry.sigma_t, "assumed, per edge [m]", Above{0.0});
-  visit("odometry.sigma_r", o.odometry.sigma_r, "assumed, per edge [rad]", Above{0.0});
+  visit("odometry.sigma_t",
+        o.odometry.sigma_t,
+        "assumed standard deviation of an edge at rest [m]",
+        Above{0.0});
+  visit("odometry.sigma_r",
+        o.odometry.sigma_r,
+        "assumed standard deviation of an edge at rest [rad]",
+        Above{0.0});
+  const Between any{0.0, 1e6};
   visit("odometry.sigma_t_per_m",
         o.odometry.sigma_t_per_m,
-        "assumed, after one metre [m]",
-        Between{0.0, 1e6});
+        "assumed growth with the square root of distance travelled [m/sqrt(m)]",
+        any);
   visit("odometry.sigma_r_per_m",
         o.odometry.sigma_r_per_m,
-        "assumed, after one metre [rad]",
-        Between{0.0, 1e6});
+        "assumed growth with the square root of distance travelled [rad/sqrt(m)]",
+        any);
+  visit("odometry.sigma_t_per_rad",
+        o.odometry.sigma_t_per_rad,
+        "assumed growth with the square root of the rotation angle [m/sqrt(rad)]",
+        any);
+  visit("odometry.sigma_r_per_rad",
+        o.odometry.sigma_r_per_rad,
+        "assumed growth with the square root of the rotation angle [rad/sqrt(rad)]",
+        any);
   visit("closures.source", o.closures, "file: a list; reference: oracle; estimate: another run");
   visit("closures.file", o.closures_file, "list of closures, or estimate of the other run");
   visit("closures.radius", o.closures_radius, "largest distance of a revisit [m]", Above{0.0});

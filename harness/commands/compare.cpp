@@ -123,7 +123,10 @@ void add_compare(CLI::App& app, int& exit_code) {
                                                     {"json", ExportFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
       ->transform(one_of("format", formats));
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }

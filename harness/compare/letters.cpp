@@ -5,17 +5,19 @@
 namespace loopbench {
 namespace {
 
-using Column = std::vector<std::size_t>;  // places in the order, ascending
+using LetterColumn = std::vector<std::size_t>;  // places in the order, ascending
 
-Column without(const Column& column, std::size_t place) {
-  Column out = column;
+LetterColumn without(const LetterColumn& column, std::size_t place) {
+  LetterColumn out = column;
   std::erase(out, place);
   return out;
 }
 
 /// Adds a column that no other contains.
-void absorb(std::vector<Column>& columns, const Column& added) {
-  const auto contains = [&](const Column& other) { return std::ranges::includes(other, added); };
+void absorb(std::vector<LetterColumn>& columns, const LetterColumn& added) {
+  const auto contains = [&](const LetterColumn& other) {
+    return std::ranges::includes(other, added);
+  };
   if (std::ranges::none_of(columns, contains)) columns.push_back(added);
 }
 
@@ -23,7 +25,7 @@ void absorb(std::vector<Column>& columns, const Column& added) {
 
 std::vector<std::string> letters(const Ranking& ranking) {
   const std::size_t k = ranking.order.size();
-  std::vector<Column> columns(1);
+  std::vector<LetterColumn> columns(1);
   for (std::size_t place = 0; place < k; ++place) columns[0].push_back(place);
   std::vector<std::string> out(k);
   for (std::size_t i = 0; i < k; ++i) {
@@ -31,14 +33,14 @@ std::vector<std::string> letters(const Ranking& ranking) {
       const std::size_t a = ranking.order[i];
       const std::size_t b = ranking.order[j];
       if (!ranking.beats[a][b] && !ranking.beats[b][a]) continue;
-      std::vector<Column> kept;
-      std::vector<Column> split;
-      for (Column& column : columns) {
+      std::vector<LetterColumn> kept;
+      std::vector<LetterColumn> split;
+      for (LetterColumn& column : columns) {
         const bool has_both =
             std::ranges::binary_search(column, i) && std::ranges::binary_search(column, j);
         (has_both ? split : kept).push_back(std::move(column));
       }
-      for (const Column& column : split) {
+      for (const LetterColumn& column : split) {
         absorb(kept, without(column, j));
         absorb(kept, without(column, i));
       }

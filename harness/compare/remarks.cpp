@@ -9,7 +9,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string listed(const Lines& names) {
+std::string comma_list(const Lines& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
   return out;
@@ -62,10 +62,10 @@ Lines about_methods(const Comparison& c) {
     }
   }
   if (!c.oracles.empty()) {
-    out.push_back("not ranked, shown the reference (oracle): " + listed(c.oracles));
+    out.push_back("not ranked, shown the reference (oracle): " + comma_list(c.oracles));
   }
   if (!c.oracle_closures.empty()) {
-    out.push_back("closures measured in the reference (oracle): " + listed(c.oracle_closures));
+    out.push_back("closures measured in the reference (oracle): " + comma_list(c.oracle_closures));
   }
   return out;
 }
@@ -81,7 +81,7 @@ Lines about_ratios(const Comparison& c) {
   }
   if (!zero.empty()) {
     out.push_back("no ratio to " + c.options.baseline +
-                  " where an error is zero (or no run is common): " + listed(zero));
+                  " where an error is zero (or no run is common): " + comma_list(zero));
   }
   if (is_short) {
     out.push_back(

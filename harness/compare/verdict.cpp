@@ -16,7 +16,9 @@ std::string joined_names(const std::vector<std::string>& names, const char* last
   return out;
 }
 
-std::string p_text(double p) { return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+std::string p_sentence(double p) {
+  return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+}
 
 const MethodVerdict* find(const Comparison& comparison, const std::string& method) {
   const auto found = std::ranges::find(comparison.methods, method, &MethodVerdict::method);
@@ -61,7 +63,7 @@ std::string distance(const MethodVerdict& method, const CompareOptions& options)
 /// distance() with p, and the runs that it leaves out.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c.options);
-  if (method.p) out += ", " + p_text(*method.p);
+  if (method.p) out += ", " + p_sentence(*method.p);
   if (method.p && !method.beats_baseline) out += ", not proven";
   if (method.fails > 0) {
     out += fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);

@@ -18,7 +18,7 @@ std::vector<std::string> words(const YamlNode& root, const char* key, const std:
     if (item.type != YamlNode::Type::scalar) {
       throw input_error(file, item.line, std::string(key) + ": expected a list of words");
     }
-    out.push_back(to_text(item.scalar));
+    out.push_back(item.text);
   }
   return out;
 }
@@ -54,7 +54,7 @@ LearntSettings read_calibration(const std::string& calibration,
       if (value.type != YamlNode::Type::scalar) {
         throw input_error(path.string(), value.line, name + ": expected a number");
       }
-      out.by_method[method].push_back({name, value.scalar, line});
+      out.by_method[method].push_back({name, value.scalar, line, value.text});
     }
   }
   if (out.by_method.empty()) throw refuse(path.string() + " has no values for " + wanted);

@@ -10,15 +10,15 @@
 namespace loopbench {
 namespace {
 
-struct Contest {
+struct MarkContest {
   std::vector<std::size_t> entries;  // competitors with a value
   std::vector<bool> is_complete;     // of each entry: knows every run
   GroupedValues values;
   std::size_t groups = 0;
 };
 
-Contest contest(const Lane& lane) {
-  Contest out;
+MarkContest mark_contest(const Lane& lane) {
+  MarkContest out;
   std::set<std::string> runs;
   for (std::size_t i = 0; i < lane.competitors.size(); ++i) {
     const ByRun& own = lane.competitors[i];
@@ -54,7 +54,7 @@ const char* mark_name(Mark mark) {
 
 Marks mark_best(const Lane& lane, const RankingOptions& options) {
   Marks out{std::vector<Mark>(lane.competitors.size(), Mark::none), ""};
-  const Contest all = contest(lane);
+  const MarkContest all = mark_contest(lane);
   if (all.entries.size() < 2 || all.groups == 0) return out;
   const Ranking ranking = rank_methods(all.values, options);
   if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {

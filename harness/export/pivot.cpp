@@ -8,6 +8,7 @@
 #include "harness/compare/name_order.hpp"
 #include "harness/compare/observations.hpp"
 #include "harness/export/cell_numbers.hpp"
+#include "harness/export/error_counts.hpp"
 #include "harness/export/notes.hpp"
 
 namespace loopbench {
@@ -41,7 +42,8 @@ struct Builder {
   std::map<Place, std::set<std::string>> lost;               // runs on which a score failed
   std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
   std::map<std::string, std::set<std::string>> lost_by_method;
-  std::map<std::string, std::string> groups;      // of runs
+  std::map<std::string, std::string> groups;  // of runs
+  ErrorCounts counts;
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
   std::set<std::string> oracle_sequences;         // whose closures are measured in the reference
   std::vector<Missing> missing;
@@ -89,6 +91,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) table.lost[{row, column}].insert(run_key(record));
     return;
   }
+  table.counts.add(column, record);
   table.numbers[{row, column}].add(record, value(record, spec.value));
 }
 
@@ -190,6 +193,9 @@ Table finish(const Builder& table,
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
+  if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
+    out.notes.push_back("numbers of other counts than the judged poses (pairs): " + counts);
+  }
   if (!table.oracle_sequences.empty()) {
     std::string names;
     for (const std::string& name : table.oracle_sequences)

@@ -12,6 +12,7 @@
 #include "harness/run/oracle_method.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
+#include "metrics/losses.hpp"
 
 namespace loopbench {
 namespace {
@@ -111,11 +112,12 @@ void judge(CellResult& result,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const std::vector<double> tracked = tracked_stamps(sequence.problem);
   const Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
   fenced(none, [&] {
     Evaluation evaluation =
-        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
                           &at_keyframes,
                           &sequence.problem,

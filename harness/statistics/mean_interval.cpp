@@ -23,7 +23,7 @@ Moments moments(std::span<const double> values) {
 }
 
 /// In [0, count); std::uniform_int_distribution differs between standard libraries.
-std::size_t draw(std::mt19937_64& bits, std::size_t count) {
+std::size_t random_index(std::mt19937_64& bits, std::size_t count) {
   return static_cast<std::size_t>(static_cast<double>(bits() >> 11) * 0x1p-53 *
                                   static_cast<double>(count));
 }
@@ -36,7 +36,7 @@ std::vector<double> studentised(std::span<const double> values,
   std::vector<double> resample(values.size());
   std::vector<double> out(options.resamples);
   for (double& t : out) {
-    for (double& value : resample) value = values[draw(bits, values.size())];
+    for (double& value : resample) value = values[random_index(bits, values.size())];
     const Moments own = moments(resample);
     const bool has_spread = own.error > 1e-9 * all.error;
     t = has_spread ? std::abs(own.mean - all.mean) / own.error

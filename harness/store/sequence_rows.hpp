@@ -27,7 +27,7 @@ struct SequenceRow {
 
 struct SequenceRows {
   std::map<std::string, SequenceRow> by_key;  ///< CellKeys::sequence_key
-  bool complete = false;  ///< none was lost
+  bool complete = false;                      ///< none was lost
 };
 
 /// The tables sequence and input. O(rows).
