@@ -154,8 +154,8 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   const std::filesystem::path file = open(o.path, "path");
   const PoseGraph graph = read_g2o(file, o.turns);
   std::size_t false_closures = 0;
-  const std::filesystem::path list = open(lists ? o.true_list : "", "closures.true_list");
-  sequence.problem = derive_problem(graph, o, file, list, &false_closures);
+  sequence.problem = derive_problem(
+      graph, o, file, open(lists ? o.true_list : "", "closures.true_list"), &false_closures);
   if (!o.truth.empty()) {
     sequence.provenance.reference = open(o.truth, "truth");
     sequence.reference = read_truth(sequence.provenance.reference, stamps_of(graph, o.period), o);

@@ -31,9 +31,9 @@ struct SequenceFacts {
   std::string closures;          ///< where the loop closures came from
   bool oracle_closures = false;  ///< the reference measured or selected them
   SequenceSize size;
-  std::string content;             ///< hash of problem and reference as they were loaded
-  std::string source;              ///< recording or noise, see source_of()
-  std::string group;               ///< not independent runs: the source, or `group:NAME`
+  std::string content;  ///< hash of problem and reference: equal content is one observation
+  std::string source;   ///< recording or noise, see source_of()
+  std::string group;    ///< runs of one group are not independent: the source, or `group:NAME`
   std::vector<std::string> notes;  ///< what a user should know of how it was made
   SequenceTrace trace;             ///< empty when the sweep keeps no traces
 };

@@ -75,9 +75,9 @@ void Sequences::done(const Cell& cell) {
 
 SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
   SequenceFacts out = sequence_facts(sequence, sweep.traces);
-  for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));
   const std::string& group = sweep.datasets[cell.dataset].group;
   if (!group.empty()) out.group = "group:" + group;
+  for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));
   return out;
 }
 
