@@ -18,7 +18,7 @@ std::vector<std::string> words(const YamlNode& root, const char* key, const std:
     if (item.type != YamlNode::Type::scalar) {
       throw input_error(file, item.line, std::string(key) + ": expected a list of words");
     }
-    out.push_back(to_text(item.scalar));
+    out.push_back(item.text);
   }
   return out;
 }

@@ -36,7 +36,7 @@ std::string walk(double scale) {
   std::string out;
   for (int i = 0; i <= 20; ++i) {
     out += std::to_string(i) + " " + std::to_string(scale * std::abs(i - 10)) + " " +
-           std::to_string(0.1 * i) + " 0 0 0 0 1\n";
+           std::to_string(0.1 * i) + (i == 0 ? " 0 0 0 0.6 0.8\n" : " 0 0 0 0 1\n");
   }
   return out;
 }
