@@ -32,6 +32,9 @@ struct DatasetEntry {
   std::function<void(const Params&)> check;  ///< throws OptionError; reads no file
   /// Throws OptionError, InputError. Same settings and files give the same bits.
   std::function<Sequence(const Params&, const DataRoot&)> load;
+  /// Reads what tells quickly whether load() would find its input; null: load() itself is quick.
+  /// Throws as load() does.
+  std::function<void(const Params&, const DataRoot&)> inspect = {};
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. What no
@@ -48,7 +51,8 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
-          }};
+          },
+          {}};
 }
 
 /// Every built-in.

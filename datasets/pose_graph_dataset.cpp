@@ -124,14 +124,16 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
   Sequence sequence;
   auto& inputs = sequence.provenance.inputs;
-  const auto open = [&](const std::string& path) {
-    return path.empty() ? std::filesystem::path() : inputs.emplace_back(root.find(path));
+  const auto open = [&](const std::string& path, const std::string& option) {
+    if (path.empty()) return std::filesystem::path();
+    return inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
-  const std::filesystem::path file = open(o.path);
+  const std::filesystem::path file = open(o.path, "path");
   const PoseGraph graph = read_g2o(file, o.turns);
-  sequence.problem = derive_problem(graph, o, file, open(lists ? o.true_list : ""));
+  sequence.problem =
+      derive_problem(graph, o, file, open(lists ? o.true_list : "", "closures.true_list"));
   if (!o.truth.empty()) {
-    sequence.reference = read_truth(open(o.truth), stamps_of(graph, o.period), o);
+    sequence.reference = read_truth(open(o.truth, "truth"), stamps_of(graph, o.period), o);
   }
 
   const std::filesystem::path path(o.path);

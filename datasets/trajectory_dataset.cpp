@@ -129,26 +129,29 @@ Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
 Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   check_combination(o);
   Sequence sequence;
-  const auto open = [&](const std::string& path) {
-    return sequence.provenance.inputs.emplace_back(root.find(path));
+  const auto open = [&](const std::string& path, const std::string& option) {
+    return sequence.provenance.inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
   ReadOptions how;
   how.period = o.period;
   how.repeats = o.repeats;
-  if (!o.times.empty()) how.times = open(o.times);
-  const auto read = [&](const std::string& path, Format format) {
+  if (!o.times.empty()) how.times = open(o.times, "times");
+  const auto read = [&](const std::string& path, const std::string& option, Format format) {
     if (path.empty()) return Trajectory();
     how.format = format;
-    return read_trajectory(open(path), how);
+    return read_trajectory(open(path, option), how);
   };
 
   TrajectoryInputs in;
-  in.estimate = read(o.estimate, o.format);
-  in.frames = read(o.frames, o.format);
-  in.reference = of_estimate_body(read(o.reference, o.reference_format), o.reference_body);
-  if (o.closures == ClosureSource::estimate) in.other_run = read(o.closures_file, o.format);
+  in.estimate = read(o.estimate, "estimate", o.format);
+  in.frames = read(o.frames, "frames", o.format);
+  in.reference =
+      of_estimate_body(read(o.reference, "reference", o.reference_format), o.reference_body);
+  if (o.closures == ClosureSource::estimate) {
+    in.other_run = read(o.closures_file, "closures.file", o.format);
+  }
   if (o.closures == ClosureSource::file) {
-    in.closures = read_closure_file(open(o.closures_file), o.closures_noise);
+    in.closures = read_closure_file(open(o.closures_file, "closures.file"), o.closures_noise);
   }
 
   sequence.name = o.name.empty() ? default_name(o.estimate) : o.name;

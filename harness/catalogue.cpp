@@ -5,6 +5,7 @@
 #include "datasets/rgbd/rgbd_datasets.hpp"
 #include "harness/plugins.hpp"
 #include "harness/provenance/hash.hpp"
+#include "harness/provenance/libraries.hpp"
 #include "harness/run/loading.hpp"
 #include "harness/suggest.hpp"
 
@@ -22,6 +23,15 @@ const Entry& find(const std::vector<Entry>& entries,
   throw InputError(unknown_name(kind, name, known));
 }
 
+/// Hashes of a loaded plugin's file and of the libraries that it brings.
+std::string version_of(const std::filesystem::path& plugin) {
+  std::string out = hex(hash_of_file(plugin));
+  for (const std::filesystem::path& library : plugin_libraries(plugin)) {
+    out += ", " + library.filename().string() + " " + hex(hash_of_file(library));
+  }
+  return out;
+}
+
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
@@ -37,7 +47,7 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
         throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
                          "' is already in the catalogue");
       }
-      if (version.empty()) version = hex(hash_of_file(plugin));  // after loading: it is a file
+      if (version.empty()) version = version_of(plugin);  // after loading: it is a file
       out.versions.emplace(entry.name, version);
       out.methods.push_back(std::move(entry));
     }

@@ -18,7 +18,8 @@ struct Catalogue {
   std::vector<MethodEntry> methods;
   std::vector<MetricEntry> metrics;
   std::vector<OracleEntry> oracles = {};  ///< those of `methods` that are shown the reference
-  std::map<std::string, std::string> versions = {};  ///< of plugins' methods: their file's hash
+  std::map<std::string, std::string> versions = {};  ///< of plugins' methods: hashes of their file
+                                                     ///< and of the libraries that it brings
 };
 
 /// Built-ins, then each plugin's methods. Throws InputError for a plugin that may not be used or

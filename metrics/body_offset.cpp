@@ -86,7 +86,7 @@ std::vector<Score> body_offset_scores(const Evaluation& evaluation,
   out.push_back(single("turn_explained", "", "%", 100.0 * found->fit.turn_explained));
   out.push_back(single("position_explained", "", "%", 100.0 * found->fit.lever_explained));
   out.push_back(single("stretches", "", "1", static_cast<double>(found->stretches)));
-  return out;
+  return descriptions(std::move(out));
 }
 
 }  // namespace loopbench

@@ -32,7 +32,7 @@ void look_for_losses(const Trajectory& reference,
                      double offset,
                      const DiagnosticsOptions& o,
                      Diagnostics& out) {
-  for (const Loss& loss : losses(reference, estimate, offset, o.loss, o.standing)) {
+  for (const Loss& loss : losses(reference, stamps(estimate), offset, o.loss, o.standing)) {
     const double duration = loss.end - loss.begin;
     ++out.losses;
     out.lost += duration;
@@ -68,20 +68,20 @@ std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOp
   const auto whole = [](const char* name, std::size_t count) {
     return single(name, "", "1", static_cast<double>(count));
   };
-  return {whole("matched", d.matched),
-          whole("possible", d.possible),
-          single("largest_gap", "", "s", d.largest_gap),
-          whole("repeated", d.repeated),
-          whole("crossing", d.crossing),
-          single("off_unit", "", "1", d.off_unit),
-          single("alignment_rank", "", "1", d.rank),
-          single("alignment_condition", "", "1", d.condition),
-          single("standing", "", "%", 100.0 * d.standing),
-          whole("position_only_reference", d.position_only_reference),
-          whole("position_only_estimate", d.position_only_estimate),
-          whole("losses", d.losses),
-          single("lost", "", "s", d.lost),
-          single("longest_loss", "", "s", d.longest_loss)};
+  return descriptions({whole("matched", d.matched),
+                       whole("possible", d.possible),
+                       single("largest_gap", "", "s", d.largest_gap),
+                       whole("repeated", d.repeated),
+                       whole("crossing", d.crossing),
+                       single("off_unit", "", "1", d.off_unit),
+                       single("alignment_rank", "", "1", d.rank),
+                       single("alignment_condition", "", "1", d.condition),
+                       single("standing", "", "%", 100.0 * d.standing),
+                       whole("position_only_reference", d.position_only_reference),
+                       whole("position_only_estimate", d.position_only_estimate),
+                       whole("losses", d.losses),
+                       single("lost", "", "s", d.lost),
+                       single("longest_loss", "", "s", d.longest_loss)});
 }
 
 }  // namespace loopbench

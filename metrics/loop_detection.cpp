@@ -150,20 +150,22 @@ std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionR
       judge_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
   if (d.revisits == 0) throw Undefined(name + ": the reference sees no place again");
   const auto whole = [](const char* what, std::size_t count) {
-    return single(what, "", "1", static_cast<double>(count));
+    return directed(single(what, "", "1", static_cast<double>(count)), Better::neither);
+  };
+  const auto quality = [](const char* what, const std::string& axis, double value) {
+    return directed(single(what, axis, "1", value), Better::higher);
   };
   std::vector<Score> out{whole("revisits", d.revisits),
                          whole("closures", d.accepted),
                          whole("false_poses", d.wrong_pose),
-                         single("precision", "", "1", d.precision),
-                         single("recall", "", "1", d.recall),
-                         single("average_precision", "", "1", d.average_precision),
-                         single("full_precision_recall", "", "1", d.full_precision_recall)};
+                         quality("precision", "", d.precision),
+                         quality("recall", "", d.recall),
+                         quality("average_precision", "", d.average_precision),
+                         quality("full_precision_recall", "", d.full_precision_recall)};
   for (std::size_t k = 0; k < d.precision_at.size(); ++k) {
-    out.push_back(single("precision_at_recall",
-                         fmt::format("{:.1f}", 0.1 * static_cast<double>(k + 1)),
-                         "1",
-                         d.precision_at[k]));
+    out.push_back(quality("precision_at_recall",
+                          fmt::format("{:.1f}", 0.1 * static_cast<double>(k + 1)),
+                          d.precision_at[k]));
   }
   return out;
 }

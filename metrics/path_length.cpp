@@ -8,9 +8,9 @@ std::vector<Score> path_length_ratio(const Evaluation& evaluation, const PathLen
   const double estimate = path_length(evaluation.estimate);
   const double reference = path_length(evaluation.reference);
   if (reference == 0.0) throw Undefined("path_length: the reference stands still");
-  return {single("ratio", "", "1", estimate / reference),
-          single("estimate", "", "m", estimate),
-          single("reference", "", "m", reference)};
+  return {directed(single("ratio", "", "1", estimate / reference), Better::target, 1.0),
+          directed(single("estimate", "", "m", estimate), Better::neither),
+          directed(single("reference", "", "m", reference), Better::neither)};
 }
 
 }  // namespace loopbench

@@ -10,12 +10,18 @@
 
 namespace loopbench {
 
+/// A file that a dataset read.
+struct InputPath {
+  std::filesystem::path path;
+  std::string option = {};  ///< that names it, for example `estimate`; empty: found by the dataset
+};
+
 struct Provenance {
-  std::string sensor;                         ///< "RGB-D", "stereo", "simulated"; empty: unknown
-  std::string closures;                       ///< where the loop closures were taken from
-  bool oracle_closures = false;               ///< the closures were measured in the reference
-  std::string licence;                        ///< of the data; empty: unknown
-  std::vector<std::filesystem::path> inputs;  ///< every file read
+  std::string sensor;                   ///< "RGB-D", "stereo", "simulated"; empty: unknown
+  std::string closures;                 ///< where the loop closures were taken from
+  bool oracle_closures = false;         ///< the closures were measured in the reference
+  std::string licence;                  ///< of the data; empty: unknown
+  std::vector<InputPath> inputs;        ///< every file read
   std::vector<std::string> notes = {};  ///< what a user should know: skipped images, lost tracking
   /// Where the reference's own body was taken to sit, body_from_reference; empty: nobody could say.
   std::optional<Pose> body_from_reference = {};

@@ -82,7 +82,7 @@ int calibrate(const CalibrateArguments& arguments) {
   }
   const std::string text = calibration_yaml(out);
   fmt::print("{}", text);
-  if (!arguments.out.empty()) write_file(arguments.out, text);
+  if (!arguments.out.empty() && !is_dash(arguments.out)) write_file(arguments.out, text);
   return kExitOk;
 }
 

@@ -5,7 +5,6 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/compare/stored_intervals.hpp"
 #include "harness/export/comparison.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/where.hpp"
@@ -24,22 +23,21 @@ struct CompareArguments {
   std::string out;
 };
 
-/// The scores of one metric, by its label or its short name with axis ("error x").
+/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, where
+/// neither is meant, by the metric's name.
 void keep_metric(std::vector<Record>& records, const std::string& metric) {
   std::vector<std::string> known;
-  std::vector<std::string> scores;
-  for (const Record& r : records) {
-    if (r.metric.empty()) continue;
-    for (const std::string& name : {r.metric, field(r, "score")}) {
-      if (std::ranges::count(known, name) == 0) known.push_back(name);
+  for (const char* column : {"label", "score", "metric"}) {
+    const auto is_wanted = [&](const Record& r) { return field(r, column) == metric; };
+    for (const Record& r : records) {
+      if (r.metric.empty() || std::ranges::count(known, field(r, column)) > 0) continue;
+      known.push_back(field(r, column));
     }
+    if (std::ranges::none_of(records, is_wanted)) continue;
+    std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && !is_wanted(r); });
+    return;
   }
-  if (std::ranges::count(known, metric) == 0) {
-    throw InputError("--metric: " + unknown_name("metric", metric, known));
-  }
-  std::erase_if(records, [&](const Record& r) {
-    return !r.metric.empty() && r.metric != metric && field(r, "score") != metric;
-  });
+  throw InputError("--metric: " + unknown_name("metric", metric, known));
 }
 
 std::string text(const std::vector<Comparison>& comparisons, ExportFormat format) {
@@ -58,7 +56,6 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
 
 int print_comparison(CompareArguments arguments) {
   std::vector<Record> records = all_records(arguments.store);
-  const std::vector<Record> whole = records;
   keep_where(records, arguments.where);
   if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
     throw InputError(arguments.store + ": no score is left to compare" +
@@ -71,8 +68,7 @@ int print_comparison(CompareArguments arguments) {
   if (arguments.options.baseline.empty()) {
     throw InputError(arguments.store + ": the sweep has no baseline; --baseline METHOD names one");
   }
-  std::vector<Comparison> comparisons = compare(records, arguments.options);
-  add_intervals_from_traces(comparisons, whole, arguments.store);
+  const std::vector<Comparison> comparisons = compare(records, arguments.options);
   deliver(text(comparisons, arguments.format),
           arguments.format,
           "comparisons",
@@ -92,18 +88,33 @@ void add_compare(CLI::App& app, int& exit_code) {
   command
       ->add_option("--baseline", arguments->options.baseline, "Method that others are set against")
       ->type_name("METHOD");
-  command->add_option("--metric", arguments->metric, "Label of a metric, or a score: ate, error x")
+  command
+      ->add_option(
+          "--metric", arguments->metric, "label or name of a metric, or a score: ate, error x")
       ->capture_default_str();
   command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
       ->capture_default_str();
-  command->add_option("--alpha", arguments->options.alpha, "Level of tests and intervals")
+  command
+      ->add_option("--alpha",
+                   arguments->options.alpha,
+                   "Chance of a false claim; 1 - alpha is the level of intervals")
       ->check(finite_number())
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
-  const std::map<std::string, Over> units{{"runs", Over::runs}, {"sequences", Over::sequences}};
+  const std::map<std::string, Over> units{
+      {"groups", Over::groups}, {"runs", Over::runs}, {"sequences", Over::sequences}};
   command
-      ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
+      ->add_option("--over",
+                   arguments->options.over,
+                   "Independent observations: groups of runs, every run, or sequences")
       ->transform(one_of("observation", units));
+  command
+      ->add_option("--relevant",
+                   arguments->options.relevant,
+                   "Largest relative difference that counts as a tie [-]")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
   command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
                                                     {"terminal", ExportFormat::terminal},
@@ -112,7 +123,10 @@ void add_compare(CLI::App& app, int& exit_code) {
                                                     {"json", ExportFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
       ->transform(one_of("format", formats));
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }

@@ -53,7 +53,10 @@ void add_profile(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
-  command->add_option("--metric", arguments->accuracy.metric, "What stands for accuracy: its label")
+  command
+      ->add_option("--metric",
+                   arguments->accuracy.metric,
+                   "metric that stands for accuracy: its label or name")
       ->capture_default_str();
   command->add_option("--relation", arguments->accuracy.relation)->capture_default_str();
   command->add_option("--axis", arguments->accuracy.axis)->capture_default_str();
@@ -62,7 +65,10 @@ void add_profile(CLI::App& app, int& exit_code) {
   command->add_option("--format", arguments->format)
       ->check(CLI::IsMember({"markdown", "csv"}))
       ->capture_default_str();
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
 }

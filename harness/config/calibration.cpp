@@ -35,7 +35,7 @@ std::map<std::string, std::vector<Setting>> read_calibration(
       if (value.type != YamlNode::Type::scalar) {
         throw input_error(path.string(), value.line, name + ": expected a number");
       }
-      out[method].push_back({name, value.scalar, line});
+      out[method].push_back({name, value.scalar, line, value.text});
     }
   }
   if (out.empty()) throw refuse(path.string() + " has no values for " + wanted);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "harness/export/text.hpp"
 
 namespace loopbench {
@@ -42,12 +44,12 @@ std::string csv(const std::vector<Table>& tables) {
 std::string csv(const std::vector<Record>& records) {
   std::string out =
       "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
-      "times,metric,"
-      "relation,axis,unit,count,rmse,"
+      "times,metric,label,"
+      "relation,axis,unit,better,target,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {
     const Statistics& s = r.statistics;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},",
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
                        quoted(r.sequence),
                        r.repeat,
                        quoted(r.method),
@@ -58,20 +60,24 @@ std::string csv(const std::vector<Record>& records) {
                        quoted(r.protocol_version),
                        r.times,
                        quoted(r.metric),
+                       quoted(metric_label(r)),
                        r.relation,
                        r.axis,
-                       r.unit);
+                       r.unit,
+                       to_text(r.better),
+                       r.better == Better::target ? fmt::format("{}", r.target) : "");
     // An undefined score has no numbers, not zeros.
+    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
     out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",
                                                              s.count,
-                                                             s.rmse,
-                                                             s.mean,
-                                                             s.median,
-                                                             s.std,
-                                                             s.min,
-                                                             s.max,
-                                                             s.sse,
+                                                             number(s.rmse),
+                                                             number(s.mean),
+                                                             number(s.median),
+                                                             number(s.std),
+                                                             number(s.min),
+                                                             number(s.max),
+                                                             number(s.sse),
                                                              r.pairs,
                                                              r.possible);
     out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));

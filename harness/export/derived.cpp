@@ -1,14 +1,18 @@
 #include "harness/export/derived.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
+
+#include "harness/compare/levels.hpp"
 
 namespace loopbench {
 namespace {
 
 auto place(const Record& r) {
-  return std::tie(r.sequence, r.repeat, r.protocol, r.times, r.metric, r.axis);
+  return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
 }
 using RowPlace =
     std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
@@ -17,8 +21,10 @@ bool is_gain_source(const Record& r) {
   return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
 }
 
+/// Not a number where the baseline has no error that could be reduced.
 double gain(double value, double baseline) {
-  return baseline == 0.0 ? 0.0 : 100.0 * (1.0 - value / baseline);
+  if (baseline <= zero_floor(std::max(value, baseline))) return std::nan("");
+  return 100.0 * (1.0 - value / baseline);
 }
 
 /// A score that is one number: every statistic is that number.
@@ -26,6 +32,7 @@ template <class Number>
 std::vector<Record> one_per_cell(const std::vector<Record>& records,
                                  const std::string& metric,
                                  const std::string& unit,
+                                 Better better,
                                  Number number) {
   std::vector<Record> out;
   std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
@@ -34,6 +41,8 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
     if (!seen.emplace(r.cell, r.protocol, r.times).second) continue;
     Record one = r;
     one.metric = metric;
+    one.label.clear();
+    one.better = better;
     one.relation = one.axis = "";
     one.unit = unit;
     const double x = number(r);
@@ -57,6 +66,8 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
     const Statistics& b = *found->second;
     Record g = r;
     g.metric = "gain";
+    g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
+    g.better = Better::higher;
     g.unit = "%";
     for (double Statistics::*number : {&Statistics::rmse,
                                        &Statistics::mean,
@@ -67,18 +78,24 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
                                        &Statistics::sse}) {
       g.statistics.*number = gain(r.statistics.*number, b.*number);
     }
+    if (!std::isfinite(g.statistics.rmse)) {
+      g.status = "declined";
+      g.why = "the baseline " + baseline + " has no error here that could be reduced";
+    }
     out.push_back(std::move(g));
   }
   return out;
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  return one_per_cell(records, "time", "ms", [](const Record& r) { return r.milliseconds; });
+  return one_per_cell(
+      records, "time", "ms", Better::lower, [](const Record& r) { return r.milliseconds; });
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  return one_per_cell(
-      records, "pairs", "", [](const Record& r) { return static_cast<double>(r.pairs); });
+  return one_per_cell(records, "pairs", "", Better::neither, [](const Record& r) {
+    return static_cast<double>(r.pairs);
+  });
 }
 
 }  // namespace loopbench

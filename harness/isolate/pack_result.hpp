@@ -18,30 +18,30 @@ void walk(Archive& a, T& count) { a(count.name)(count.value); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Section>
-void walk(Archive& a, T& section) {
-  a(section.kind)(section.begin)(section.end)(section.what);
-}
+void walk(Archive& a, T& section) { a(section.kind)(section.begin)(section.end)(section.what); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, Score>
 void walk(Archive& a, T& score) {
-  a(score.relation)(score.axis)(score.unit)(score.statistics)(score.why_undefined);
+  a(score.relation)(score.axis)(score.unit)(score.statistics)(score.why_undefined)(score.better)(
+      score.target);
 }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, ScoreResult>
 void walk(Archive& a, T& r) {
-  a(r.protocol)(r.times)(r.metric)(r.score)(r.coverage)(r.status)(r.why);
+  a(r.protocol)(r.times)(r.metric)(r.label)(r.score)(r.coverage)(r.status)(r.why);
 }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, InputFile>
-void walk(Archive& a, T& file) { a(file.path)(file.bytes)(file.hash); }
+void walk(Archive& a, T& file) { a(file.option)(file.path)(file.bytes)(file.hash); }
 
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
   a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
+  a(facts.content)(facts.group);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 

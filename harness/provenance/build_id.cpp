@@ -8,6 +8,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/provenance/hash.hpp"
+#include "harness/provenance/libraries.hpp"
 
 namespace loopbench {
 namespace {
@@ -54,6 +55,9 @@ std::string computed() {
     fields.add(bytes);
   }
   for (const auto& [name, value] : build_facts()) fields.add(name).add(value);
+  for (const std::filesystem::path& library : program_libraries()) {
+    fields.add(library.filename().string());
+  }
   return fields.add(gnu_get_libc_version()).hashed().substr(0, 16);
 }
 

@@ -22,6 +22,12 @@ Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   return out;
 }
 
+/// "NAME, a=1, b=2": every option, defaults included.
+std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
+  const std::string text = to_text(in_full(options, choice.options));
+  return choice.name + (text.empty() ? "" : ", ") + text;
+}
+
 std::string hashed(const Params& params) {
   Fields fields;
   for (const auto& [name, value] : params) fields.add(name).add(to_text(value));
@@ -86,24 +92,54 @@ std::string CellKeys::dataset_in_full(const Cell& cell) const {
   return choice.dataset.name + ": " + to_text(options);
 }
 
+std::string CellKeys::metrics_in_full() const {
+  std::string out;
+  for (const MetricChoice& metric : sweep_.metrics) {
+    const MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
+    out += metric.label + "\t" + named_options(metric.metric, entry.options) + "\n";
+  }
+  return out;
+}
+
+std::string CellKeys::methods_in_full() const {
+  std::string out;
+  for (const MethodChoice& method : sweep_.methods) {
+    std::string stages;
+    for (const Choice& stage : method.stages) {
+      stages += (stages.empty() ? "" : "; + ") +
+                named_options(stage, find_method(catalogue_, stage.name).options);
+    }
+    out += method.label + "\t" + stages + "\n";
+  }
+  return out;
+}
+
 std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,
                                              std::vector<InputFile> inputs) const {
-  const Params& options = sweep_.datasets[cell.dataset].dataset.options;
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const Params options =
+      in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
   for (InputFile& input : inputs) {
     std::filesystem::path now = input.path;
-    for (const auto& [name, value] : options) {
-      const auto* text = std::get_if<std::string>(&value);
-      if (text == nullptr || text->empty() || !input.path.ends_with("/" + *text)) continue;
+    const auto named = options.find(input.option);
+    const auto* text = named == options.end() ? nullptr : std::get_if<std::string>(&named->second);
+    if (text != nullptr) {
       for (const std::filesystem::path& folder : root_.folders) {
-        if (std::filesystem::is_regular_file(folder / *text)) {
-          now = folder / *text;
-          break;
-        }
+        if (!std::filesystem::is_regular_file(folder / *text)) continue;
+        now = folder / *text;
+        break;
       }
     }
-    if (std::filesystem::exists(now)) input = hashed_inputs({now}).front();
+    if (std::filesystem::exists(now)) input = hashed_inputs({{now, input.option}}).front();
   }
   return inputs;
+}
+
+std::string CellKeys::sequence_key(const Cell& cell, const std::vector<InputFile>& inputs) {
+  Fields fields;
+  fields.add(build_).add(asked(cell));
+  for (const InputFile& input : inputs) fields.add(input.hash);
+  return fields.hashed();
 }
 
 std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {

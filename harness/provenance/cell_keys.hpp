@@ -29,11 +29,19 @@ class CellKeys {
   /// The same in words: "simulated: closures.angle=30.0, ...", every option, defaults included.
   std::string dataset_in_full(const Cell& cell) const;
 
+  /// What the labels of metrics and methods stand for: "LABEL\tNAME, every option" a line; the
+  /// stages of a method are joined by "; +".
+  std::string metrics_in_full() const;
+  std::string methods_in_full() const;
+
+  /// Of what is kept about the sequence: of what is asked, the content of its files and the build.
+  std::string sequence_key(const Cell& cell, const std::vector<InputFile>& inputs);
+
   /// `inputs`: the files the sequence was read from; empty when it never finished loading. O(1).
   std::string key(const Cell& cell, const std::vector<InputFile>& inputs);
 
-  /// Files that the sequence was read from another time, as they are now: where an option names
-  /// one it is looked for again, and its content is hashed again. One that is gone is taken to be
+  /// Files that the sequence was read from another time, as they are now: one that an option names
+  /// is looked for again, and the content of each is hashed again. One that is gone is taken to be
   /// what it was. Throws InputError for one that cannot be read.
   std::vector<InputFile> as_they_are(const Cell& cell, std::vector<InputFile> inputs) const;
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "harness/provenance/build.hpp"
+#include "harness/provenance/libraries.hpp"
 #include "harness/run/sequences.hpp"
 
 namespace loopbench {
@@ -56,6 +57,11 @@ std::map<std::string, std::string> provenance(const Source& source,
   out["source"] = source.state;
   out["build"] = build_id();
   out["c library"] = std::string("glibc ") + gnu_get_libc_version();
+  std::string libraries;
+  for (const std::filesystem::path& library : program_libraries()) {
+    libraries += library.filename().string() + "\n";
+  }
+  out["libraries"] = libraries;
   out["cpu"] = cpu_name();
   out["cores"] = std::to_string(std::thread::hardware_concurrency());
   const std::int64_t memory =

@@ -15,8 +15,9 @@ struct Source {
   std::string state = "unknown";  ///< clean | dirty | unknown
 };
 
-/// build_facts(), commit, state, build, C library, CPU, cores, memory, kernel, the seeds of every
-/// seeded dataset and the versions of plugins. None of it depends on when it is asked.
+/// build_facts(), commit, state, build, C library, shared libraries, CPU, cores, memory, kernel,
+/// the seeds of every seeded dataset and the versions of plugins. None of it depends on when it is
+/// asked.
 std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue);

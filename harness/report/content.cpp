@@ -4,7 +4,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/compare/stored_intervals.hpp"
 
 namespace loopbench {
 namespace {
@@ -21,7 +20,7 @@ const Comparison* ReportContent::headline() const {
   for (const Comparison& c : comparisons) {
     if (c.methods.size() < 2) continue;
     const bool is_ate =
-        c.kind.metric.starts_with("ate") && c.kind.relation == "translation" && c.kind.axis == "3d";
+        c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d";
     const int rank = (is_ate ? 2 : 0) + (c.kind.times == "dense" ? 1 : 0);
     if (rank <= best) continue;
     best = rank;
@@ -54,7 +53,6 @@ ReportContent read_report_content(const std::filesystem::path& store) {
     CompareOptions options;
     options.baseline = baseline;
     out.comparisons = compare(scores, options);
-    add_intervals_from_traces(out.comparisons, scores, store);
   }
   return out;
 }

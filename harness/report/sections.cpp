@@ -30,7 +30,7 @@ std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
   if (best.method == c.options.baseline || !best.ratio) return "";
   const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
-  const bool proven = best.p < c.options.alpha;
+  const bool proven = best.beats_baseline;
   std::string out = std::string("<div class=\"key") + (proven ? "" : " unproven") +
                     "\"><span class=\"number\">" + percent(best.ratio->estimate) +
                     " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
@@ -44,9 +44,8 @@ std::string key_figure(const Comparison& c) {
   } else {
     out += "<br>no interval, ";
   }
-  out += fmt::format("{} {}",
-                     c.observations,
-                     plural(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
+  out += unit_text(c);
+  if (best.fails > 0) out += fmt::format(", {} failed", best.fails);
   return out + (proven ? "" : ", not proven") + "</span></div>";
 }
 
@@ -101,7 +100,7 @@ std::string verdicts_html(const ReportContent& content) {
     out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
   }
   out.notes.push_back(
-      "each score is judged by itself: with many scores, some differences are proven by chance");
+      "each score is tested by itself: with many scores, some claims are false by chance");
   return html_text_table(out);
 }
 
@@ -129,31 +128,6 @@ std::string scores_html(const ReportContent& content) {
     part(sequence, "dense");
   }
   return out.empty() ? "<p>No cell has scores.</p>\n" : out;
-}
-
-std::string failures_html(const ReportContent& content) {
-  struct Reason {
-    std::size_t cells = 0;
-    std::set<std::string> sequences;
-  };
-  std::map<std::tuple<std::string, std::string, std::string>, Reason> reasons;
-  for (const CellRecord& cell : content.cells) {
-    if (cell.status == "ok") continue;
-    const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
-    Reason& reason = reasons[{cell.status, cell.method, why}];
-    ++reason.cells;
-    reason.sequences.insert(cell.sequence);
-  }
-  if (reasons.empty()) return "<p>Every cell ran to its end and was judged.</p>\n";
-  Listing out{
-      "cells without their numbers", {"method", "status", "cells", "sequences", "why"}, {}, {}};
-  for (const auto& [key, reason] : reasons) {
-    const auto& [status, method, why] = key;
-    std::string names;
-    for (const std::string& name : reason.sequences) names += (names.empty() ? "" : ", ") + name;
-    out.rows.push_back({method, status, std::to_string(reason.cells), names, why});
-  }
-  return html_text_table(out);
 }
 
 std::string costs_html(const ReportContent& content) {

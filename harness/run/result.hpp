@@ -19,7 +19,7 @@ namespace loopbench {
 enum class Status {
   ok,
   declined,       ///< not for this method, or a number that means nothing here: not an error
-  failed,         ///< the method or a metric threw anything but Undefined
+  failed,         ///< threw anything but Undefined, or gave what is not finite
   incomplete,     ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
   crashed,        ///< its worker process died of a signal
   timeout,        ///< it ran longer than the sweep's limit
@@ -46,7 +46,8 @@ inline bool is_failure(Status status) {
 struct ScoreResult {
   std::size_t protocol = 0;  ///< into Sweep::protocols
   Times times = Times::keyframes;
-  std::string metric;  ///< label
+  std::string metric;  ///< catalogue name
+  std::string label;   ///< in the config
   Score score;
   Coverage coverage;
   Status status = Status::ok;
@@ -74,7 +75,7 @@ struct CellResult {
   Report report;                             ///< of the last timed run
   std::vector<ScoreResult> scores;
   bool oracle_method = false;  ///< it was shown the reference
-  CellTrace trace;  ///< under the first protocol, dense if the sweep judges densely
+  CellTrace trace;             ///< under the first protocol, dense if the sweep judges densely
   std::shared_ptr<const SequenceFacts> facts;  ///< null when its sequence never finished loading
 };
 

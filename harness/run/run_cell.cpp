@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <new>
 
 #include "harness/run/allocations.hpp"
+#include "harness/run/finite_output.hpp"
 #include "harness/run/incomplete.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
+#include "metrics/losses.hpp"
 
 namespace loopbench {
 namespace {
@@ -64,13 +67,20 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return curve;
 }
 
+bool is_finite(const Statistics& s) {
+  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
+         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
+         std::isfinite(s.sse);
+}
+
 /// All scores of one metric, or one row that says why there are none. `row` says what of.
 void score(CellResult& result,
            const MetricChoice& choice,
            ScoreResult row,
            const Evaluation& evaluation,
            const Catalogue& catalogue) {
-  row.metric = choice.label;
+  row.metric = choice.metric.name;
+  row.label = choice.label;
   row.coverage = evaluation.coverage;
   fenced(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
@@ -80,6 +90,10 @@ void score(CellResult& result,
       if (!score.why_undefined.empty()) {
         added.status = Status::declined;
         added.why = score.why_undefined;
+      } else if (!is_finite(score.statistics)) {
+        added.status = Status::failed;
+        added.why = "is not finite";
+        score.statistics = {};
       }
       added.score = std::move(score);
     }
@@ -97,11 +111,12 @@ void judge(CellResult& result,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const std::vector<double> tracked = tracked_stamps(sequence.problem);
   const Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
   fenced(none, [&] {
     Evaluation evaluation =
-        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
                           &at_keyframes,
                           &sequence.problem,
@@ -128,7 +143,8 @@ void judge(CellResult& result,
   });
   if (none.status == Status::ok) return;
   for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
-    none.metric = choice.label;
+    none.metric = choice.metric.name;
+    none.label = choice.label;
     result.scores.push_back(none);
   }
 }
@@ -151,7 +167,7 @@ void judge_without_reference(CellResult& result,
                           evaluation.protocol,
                           nullptr,
                           &sequence.loop_candidates};
-    const ScoreResult row{p, Times::keyframes, "", {}, {}, Status::ok, ""};
+    const ScoreResult row{p, Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
       score(result, choice, row, evaluation, catalogue);
@@ -199,6 +215,7 @@ CellResult run_cell(const Cell& cell,
     }
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
+    require_finite(*curve, sequence, sweep);
     if (sequence.reference.empty()) {
       result.why = "no reference to judge against";
       judge_without_reference(result, sweep, sequence, *curve, catalogue);
@@ -206,7 +223,7 @@ CellResult run_cell(const Cell& cell,
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const Times times : sweep.times) {
-        const ScoreResult row{p, times, "", {}, {}, Status::ok, ""};
+        const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
         judge(result, row, sweep, sequence, *curve, catalogue);
       }
     }

@@ -28,15 +28,15 @@ std::string reference_of_other_body(const Sequence& sequence) {
 
 }  // namespace
 
-std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files) {
+std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
   std::vector<InputFile> out;
-  for (const std::filesystem::path& file : files) {
-    if (!std::filesystem::exists(file)) {
-      out.push_back({file.string(), 0, hex(Hash{})});
+  for (const auto& [path, option] : files) {
+    if (!std::filesystem::exists(path)) {
+      out.push_back({option, path.string(), 0, "missing"});
       continue;
     }
-    const std::string hash = hex(hash_of_file(file));
-    out.push_back({file.string(), std::filesystem::file_size(file), hash});
+    const std::string hash = hex(hash_of_file(path));
+    out.push_back({option, path.string(), std::filesystem::file_size(path), hash});
   }
   return out;
 }

@@ -11,9 +11,10 @@ namespace loopbench {
 
 /// A file that a dataset read.
 struct InputFile {
-  std::string path;  ///< as it was found
+  std::string option;  ///< of the dataset that names it; empty: found by the dataset
+  std::string path;    ///< as it was found
   std::uint64_t bytes = 0;
-  std::string hash;  ///< of its content, see provenance/hash.hpp
+  std::string hash;  ///< of its content, see provenance/hash.hpp; "missing" when it is not there
 };
 
 /// How much a method is given.
@@ -30,6 +31,8 @@ struct SequenceFacts {
   std::string closures;          ///< where the loop closures came from
   bool oracle_closures = false;  ///< they were measured in the reference
   SequenceSize size;
+  std::string content;             ///< hash of problem and reference as they were loaded; or empty
+  std::string group;               ///< runs of one group are not independent; empty: its own
   std::vector<std::string> notes;  ///< what a user should know of how it was made
   SequenceTrace trace;             ///< empty when the sweep keeps no traces
 };
@@ -37,9 +40,9 @@ struct SequenceFacts {
 /// Reads the inputs again to hash them. Throws InputError.
 SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
 
-/// The files with their sizes and hashes; zeros for one that is not there and that its sequence did
-/// without (an image of a recording), so that a later run notices when it has come. Throws
+/// The files with their sizes and hashes; `missing` for one that is not there and that its sequence
+/// did without (an image of a recording), so that a later run notices when it has come. Throws
 /// InputError for one that cannot be read.
-std::vector<InputFile> hashed_inputs(const std::vector<std::filesystem::path>& files);
+std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files);
 
 }  // namespace loopbench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/loading.hpp"
 
 namespace loopbench {
@@ -54,8 +55,11 @@ std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
   if (!slot.sequence) {
     slot.sequence =
         std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
-    slot.facts =
-        std::make_shared<const SequenceFacts>(sequence_facts(*slot.sequence, sweep_.traces));
+    SequenceFacts facts = sequence_facts(*slot.sequence, sweep_.traces);
+    for (std::string& note : evaluation_notes(*slot.sequence, sweep_)) {
+      facts.notes.push_back(std::move(note));
+    }
+    slot.facts = std::make_shared<const SequenceFacts>(std::move(facts));
     tell(sweep_.datasets[cell.dataset].label, slot.facts->notes);
   }
   return slot.sequence;

@@ -26,7 +26,8 @@ CellRow cell_row(Statement& row) {
   c.position = row.integer();
   c.key = row.text();
   c.build = row.text();
-  out.asked = row.text();
+  out.sequence_key = row.text();
+  row.text();  // made
   c.sequence = row.text();
   c.repeat = row.integer();
   c.method = row.text();

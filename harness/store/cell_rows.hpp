@@ -16,7 +16,7 @@ namespace loopbench {
 struct CellRow {
   std::int64_t id = 0;
   bool placed = false;  ///< the config asks for it
-  std::string asked;    ///< its sequence
+  std::string sequence_key;
   std::int64_t failed_scores = 0;
   std::array<std::string, 6> details;  ///< digests of its rows by detail_number()
   std::string digest;

@@ -31,18 +31,19 @@ void remove_cell(Database& database, std::int64_t id) {
   database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
 }
 
-CellWriter::CellWriter(Database& database)
+CellWriter::CellWriter(Database& database, std::string made)
     : database_(database),
+      made_(std::move(made)),
       remove_(database.prepare("SELECT id, digest FROM cell WHERE position = ?")),
       cell_(database.prepare(
-          "INSERT INTO cell (position, key, build, asked, sequence, repeat, method, "
+          "INSERT INTO cell (position, key, build, sequence_key, made, sequence, repeat, method, "
           "dataset_options, "
           "method_options, closures, oracle_closures, oracle, worker, runs, seconds_median, "
           "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
           "status, signal, why, failed_scores) VALUES "
-          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      score_(
-          database.prepare("INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      score_(database.prepare(
+          "INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
@@ -96,12 +97,12 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const bool timed = !result.seconds.empty();
   const auto cpu =
       result.cpu_seconds.empty() ? std::nullopt : std::optional<double>(median(result.cpu_seconds));
-  const auto failed_scores =
-      std::ranges::count(result.scores, Status::failed, &ScoreResult::status);
+  const auto failed_scores = std::ranges::count_if(result.scores, is_failure, &ScoreResult::status);
   cell_.bind(static_cast<std::int64_t>(result.cell.index))
       .bind(keys.key(result.cell, facts.inputs))
       .bind(keys.build())
-      .bind(keys.asked(result.cell))
+      .bind(keys.sequence_key(result.cell, facts.inputs))
+      .bind(made_)
       .bind(dataset.label)
       .bind(std::int64_t{result.cell.repeat})
       .bind(method.label)
@@ -136,9 +137,12 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
         .bind(protocol.version)
         .bind(to_text(row.times))
         .bind(row.metric)
+        .bind(row.label)
         .bind(row.score.relation)
         .bind(row.score.axis)
         .bind(row.score.unit)
+        .bind(to_text(row.score.better))
+        .bind(row.score.target)
         .bind(static_cast<std::int64_t>(s.count))
         .bind(s.rmse)
         .bind(s.mean)
@@ -157,39 +161,44 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
 }
 
 void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts) {
-  const std::string& asked = keys.asked(cell);
-  if (facts_.contains(asked)) return;
-  database_.prepare("DELETE FROM input WHERE asked = ?").bind(asked).run();
-  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?)");
+  const std::string sequence_key = keys.sequence_key(cell, facts.inputs);
+  if (facts_.contains(sequence_key)) return;
+  database_.prepare("DELETE FROM input WHERE sequence_key = ?").bind(sequence_key).run();
+  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?)");
   std::int64_t number = 0;
   for (const InputFile& file : facts.inputs) {
-    input.bind(asked)
+    input.bind(sequence_key)
         .bind(number++)
+        .bind(file.option)
         .bind(file.path)
         .bind(static_cast<std::int64_t>(file.bytes))
         .bind(file.hash)
         .run();
   }
   const SequenceSize& size = facts.size;
-  Statement there = database_.prepare("SELECT digest FROM sequence WHERE asked = ?");
-  if (there.bind(asked).step()) digests_.remove("sequence", there.text());
+  Statement there = database_.prepare("SELECT digest FROM sequence WHERE sequence_key = ?");
+  if (there.bind(sequence_key).step()) digests_.remove("sequence", there.text());
   there.reset();
   database_
       .prepare(
-          "INSERT OR REPLACE INTO sequence (asked, options, keyframes, odometry, closures, frames, "
-          "reference) VALUES (?,?,?,?,?,?,?)")
-      .bind(asked)
+          "INSERT OR REPLACE INTO sequence (sequence_key, asked, options, keyframes, odometry, "
+          "closures, frames, "
+          "reference, content, group_name) VALUES (?,?,?,?,?,?,?,?,?,?)")
+      .bind(sequence_key)
+      .bind(keys.asked(cell))
       .bind(keys.dataset_in_full(cell))
       .bind(size.keyframes)
       .bind(size.odometry)
       .bind(size.closures)
       .bind(size.frames)
       .bind(size.reference)
+      .bind(facts.content)
+      .bind(facts.group)
       .run();
   const SequenceTrace& trace = facts.trace;
   if (!trace.keyframes.empty()) {
     database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?)")
-        .bind(asked)
+        .bind(sequence_key)
         .bind(trace.origin.stamp)
         .bind(trace.origin.x)
         .bind(trace.origin.y)
@@ -199,8 +208,8 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .bind_blob(bytes_of(trace.closures))
         .run();
   }
-  digests_.add_sequence(asked);
-  facts_.insert(asked);
+  digests_.add_sequence(sequence_key);
+  facts_.insert(sequence_key);
 }
 
 }  // namespace loopbench

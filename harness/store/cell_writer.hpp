@@ -14,7 +14,8 @@ namespace loopbench {
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {
  public:
-  explicit CellWriter(Database& database);
+  /// `made`: the rows of the table provenance that say by what these cells are made.
+  CellWriter(Database& database, std::string made);
 
   /// One transaction: everything about the cell, and about its sequence when it is new; what was
   /// at the cell's place goes. Throws InputError; then nothing of the cell is written.
@@ -27,6 +28,7 @@ class CellWriter {
   void write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts);
 
   Database& database_;
+  std::string made_;
   Statement remove_;
   Statement cell_;
   Statement score_;
@@ -36,7 +38,7 @@ class CellWriter {
   Statement section_;
   Statement trace_;
   DigestWriter digests_;
-  std::set<std::string> facts_;  ///< sequences whose facts are written, by `asked`
+  std::set<std::string> facts_;  ///< sequences whose facts are written, by their keys
 };
 
 /// Removes the cell with that id from every table; not from the sum of digests.

@@ -19,13 +19,13 @@ void check_sequence_traces(Database& database, SequenceRows& sequences) {
     const std::string digest = digest_of_columns(row, 1, row.columns());
     found[row.text()] = digest;
   }
-  for (auto& [asked, sequence] : sequences.by_asked) {
-    if (found[asked] != sequence.trace_digest) sequence.whole = false;
+  for (auto& [sequence_key, sequence] : sequences.by_key) {
+    if (found[sequence_key] != sequence.trace_digest) sequence.whole = false;
   }
 }
 
 bool all_whole(const SequenceRows& sequences) {
-  return std::ranges::all_of(sequences.by_asked,
+  return std::ranges::all_of(sequences.by_key,
                              [](const auto& entry) { return entry.second.whole; });
 }
 
@@ -42,8 +42,8 @@ Sound look(Database& database, bool traces) {
   }
   const bool lost = !out.sequences.complete || !all_whole(out.sequences);
   for (CellRow& cell : out.cells.cells) {
-    const auto sequence = out.sequences.by_asked.find(cell.asked);
-    if (sequence != out.sequences.by_asked.end()) {
+    const auto sequence = out.sequences.by_key.find(cell.sequence_key);
+    if (sequence != out.sequences.by_key.end()) {
       if (!sequence->second.whole) cell.whole = false;
       continue;
     }
@@ -68,10 +68,12 @@ void remove(Database& database, const Sound& found) {
     database.execute(std::string("DELETE FROM ") + table +
                      " WHERE cell NOT IN (SELECT id FROM cell)");
   }
-  for (const auto& [asked, sequence] : found.sequences.by_asked) {
+  for (const auto& [sequence_key, sequence] : found.sequences.by_key) {
     if (sequence.whole) continue;
     for (const char* table : {"input", "sequence", "sequence_trace"}) {
-      database.prepare(std::string("DELETE FROM ") + table + " WHERE asked = ?").bind(asked).run();
+      database.prepare(std::string("DELETE FROM ") + table + " WHERE sequence_key = ?")
+          .bind(sequence_key)
+          .run();
     }
   }
   renew_sum(database, "cell");

@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 
 #include "datasets/core/error.hpp"
 #include "harness/run/result.hpp"
@@ -28,7 +27,8 @@ struct MergedCell {
 };
 
 constexpr const char* kCellColumns =
-    "key, build, asked, sequence, repeat, method, dataset_options, method_options, closures, "
+    "key, build, sequence_key, made, sequence, repeat, method, dataset_options, method_options, "
+    "closures, "
     "oracle_closures, oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
     "cpu_seconds_median, peak_memory, added_memory, allocations, status, signal, why, "
     "failed_scores, score_digest, phase_digest, count_digest, note_digest, section_digest, "
@@ -37,8 +37,8 @@ constexpr const char* kCellColumns =
 /// The tables that belong to a cell, and their columns but `cell`.
 constexpr std::pair<const char*, const char*> kDetails[] = {
     {"score",
-     "protocol, protocol_version, times, metric, relation, axis, unit, count, rmse, mean, median, "
-     "std, min, max, sse, pairs, possible, span, status, why"},
+     "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target, "
+     "count, rmse, mean, median, std, min, max, sse, pairs, possible, span, status, why"},
     {"phase", "name, seconds"},
     {"count", "name, value"},
     {"note", "text"},
@@ -76,7 +76,7 @@ class Merge {
     for (const char* table : {"cell", "sequence"}) renew_sum(database_, table);
     for (const char* table : {"run", "provenance"}) renew_texts(database_, table);
     transaction.commit();
-    return {by_key_.size(), twice_};
+    return {known_.size(), twice_};
   }
 
  private:
@@ -106,7 +106,8 @@ class Merge {
       throw InputError(store_ + ": was made by build " + cell.build + ", the stores before it by " +
                        build_ + "; --mixed-builds merges them all the same");
     }
-    if (const auto same = by_key_.find(cell.key); same != by_key_.end()) {
+    const Identity identity{cell.key, cell.sequence, cell.repeat, cell.method};
+    if (const auto same = known_.find(identity); same != known_.end()) {
       ++twice_;
       if (!same->second.failed || cell.failed) return;
       remove_cell(database_, same->second.id);
@@ -130,7 +131,7 @@ class Merge {
       positions_.insert(cell.position);
     }
     cell.id = copy(cell);
-    by_key_.emplace(cell.key, cell);
+    known_.emplace(identity, cell);
   }
 
   std::int64_t copy(const MergedCell& cell) {
@@ -162,39 +163,42 @@ class Merge {
 
   void add_sequences() {
     Statement other = database_.prepare(
-        "SELECT s.path FROM source.input s JOIN main.input m ON s.asked = m.asked AND "
-        "s.number = m.number WHERE s.hash <> m.hash LIMIT 1");
+        "SELECT s.path FROM source.input s JOIN source.sequence t USING (sequence_key) JOIN "
+        "main.sequence n ON n.asked = t.asked JOIN main.input m ON m.sequence_key = n.sequence_key "
+        "AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN (SELECT sequence_key "
+        "FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
     if (other.step()) {
       throw InputError(store_ + ": read another " + other.text() + " than the stores before it");
     }
     other.reset();
     // Whole from one store, for their digests; one with a trace rather than one without.
     for (const char* table : {"input", "sequence"}) {
-      database_.execute("DELETE FROM main." + std::string(table) +
-                        " WHERE asked IN (SELECT m.asked FROM main.sequence m JOIN "
-                        "source.sequence s ON s.asked = m.asked WHERE m.trace_digest = '' AND "
-                        "s.trace_digest <> '')");
+      database_.execute(
+          "DELETE FROM main." + std::string(table) +
+          " WHERE sequence_key IN (SELECT m.sequence_key FROM main.sequence m JOIN "
+          "source.sequence s ON s.sequence_key = m.sequence_key WHERE m.trace_digest = '' AND "
+          "s.trace_digest <> '')");
     }
     for (const char* table : {"input", "sequence_trace", "sequence"}) {
       const std::string name = table;
       database_.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
-                        " WHERE asked IN (SELECT asked FROM main.cell) AND asked NOT IN (SELECT "
-                        "asked FROM main.sequence)");
+                        " WHERE sequence_key IN (SELECT sequence_key FROM main.cell) AND "
+                        "sequence_key NOT IN (SELECT "
+                        "sequence_key FROM main.sequence)");
     }
   }
 
   /// What differs is told one below the other; the baseline is the first store's.
   void add_texts() {
-    const std::string add =
-        " WHERE key <> 'exported' ON CONFLICT (key) DO UPDATE SET value = value || char(10) "
-        "|| excluded.value WHERE excluded.key <> 'baseline' AND "
-        "instr(char(10) || value || char(10), "
-        "char(10) || excluded.value || char(10)) = 0";
-    for (const char* table : {"run", "provenance"}) {
-      const std::string name = table;
-      database_.execute("INSERT INTO main." + name + " SELECT key, value FROM source." + name +
-                        add);
-    }
+    database_.execute(
+        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key <> 'exported' ON "
+        "CONFLICT "
+        "(key) DO UPDATE SET value = value || char(10) || excluded.value WHERE excluded.key <> "
+        "'baseline' AND instr(char(10) || value || char(10), char(10) || excluded.value || "
+        "char(10)) = 0");
+    database_.execute(
+        "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE made IN "
+        "(SELECT made FROM main.cell)");
   }
 
   Database database_;
@@ -202,7 +206,9 @@ class Merge {
   bool mixed_builds_;
   std::string store_;  ///< being added
   std::string build_;  ///< of the first cell
-  std::unordered_map<std::string, MergedCell> by_key_;
+  /// Key and labels as they were: two labels may ask for the same.
+  using Identity = std::tuple<std::string, std::string, std::int64_t, std::string>;
+  std::map<Identity, MergedCell> known_;
   std::set<std::tuple<std::string, std::int64_t, std::string>> labels_;
   std::set<std::int64_t> positions_;
   std::size_t twice_ = 0;

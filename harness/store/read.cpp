@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/sequence_rows.hpp"
+#include "harness/store/whole_failures.hpp"
 
 namespace loopbench {
 namespace {
 
-std::map<std::string, std::string> read_pairs(const std::filesystem::path& file,
-                                              const std::string& table) {
-  Database database = open_store(file);
-  require_whole_texts(database, table, store_file(file));
-  Statement rows = database.prepare("SELECT key, value FROM " + table + " NOT INDEXED");
-  std::map<std::string, std::string> out;
-  while (rows.step()) {
-    std::string key = rows.text();
-    out.emplace(std::move(key), rows.text());
+/// Adds the lines of `more` that `text` does not have.
+void add_lines(std::string& text, const std::string& more) {
+  std::istringstream lines(more);
+  for (std::string line; std::getline(lines, line);) {
+    if (("\n" + text + "\n").find("\n" + line + "\n") != std::string::npos) continue;
+    if (!text.empty() && !text.ends_with('\n')) text += "\n";
+    text += line;
   }
-  return out;
 }
 
 /// "LABEL" or "LABEL (repeat N)".
@@ -53,9 +52,12 @@ void add_score(const CellRecord& cell, Statement& row, std::vector<Record>& out)
   r.protocol_version = row.text();
   r.times = row.text();
   r.metric = row.text();
+  r.label = row.text();
   r.relation = row.text();
   r.axis = row.text();
   r.unit = row.text();
+  r.better = from_text<Better>(row.text()).value_or(Better::neither);
+  r.target = row.real();
   r.statistics.count = static_cast<std::size_t>(row.integer());
   for (double* number : {&r.statistics.rmse,
                          &r.statistics.mean,
@@ -87,10 +89,10 @@ void for_sequences(const std::filesystem::path& file, Add add) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const std::size_t i : in_order(rows)) {
     const CellRow& cell = rows.cells[i];
-    const auto found = sequences.by_asked.find(cell.asked);
-    if (found == sequences.by_asked.end()) continue;
+    const auto found = sequences.by_key.find(cell.sequence_key);
+    if (found == sequences.by_key.end()) continue;
     const std::string label = sequence_label(cell.record);
-    if (seen.emplace(label, cell.asked).second) add(label, found->second);
+    if (seen.emplace(label, cell.sequence_key).second) add(label, found->second);
   }
 }
 
@@ -104,12 +106,21 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     if (rows.cells[cell].placed) add_score(rows.cells[cell].record, row, scores[cell]);
   });
   require_whole(rows, store_file(file));
+  const SequenceRows sequences = read_sequence_rows(database);
+  require_whole(sequences, store_file(file));
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
+    const auto sequence = sequences.by_key.find(rows.cells[cell].sequence_key);
     // A declined or failed cell has no score.
-    if (scores[cell].empty()) out.push_back(record_of(rows.cells[cell].record));
+    if (scores[cell].empty()) scores[cell].push_back(record_of(rows.cells[cell].record));
+    for (Record& r : scores[cell]) {
+      if (sequence == sequences.by_key.end()) break;
+      r.content = sequence->second.content;
+      r.group = sequence->second.group;
+    }
     std::ranges::move(scores[cell], std::back_inserter(out));
   }
+  name_failed_scores(out);
   return out;
 }
 
@@ -134,8 +145,8 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   std::vector<CellRecord> out;
   for (const std::size_t cell : in_order(rows)) {
     out.push_back(std::move(record(cell)));
-    const auto found = sequences.by_asked.find(rows.cells[cell].asked);
-    if (found == sequences.by_asked.end()) continue;
+    const auto found = sequences.by_key.find(rows.cells[cell].sequence_key);
+    if (found == sequences.by_key.end()) continue;
     out.back().keyframes = found->second.keyframes;
     out.back().closure_count = found->second.closures;
   }
@@ -143,11 +154,33 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
 }
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
-  return read_pairs(file, "run");
+  Database database = open_store(file);
+  require_whole_texts(database, "run", store_file(file));
+  Statement rows = database.prepare("SELECT key, value FROM run NOT INDEXED");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    std::string key = rows.text();
+    out.emplace(std::move(key), rows.text());
+  }
+  return out;
 }
 
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {
-  return read_pairs(file, "provenance");
+  Database database = open_store(file);
+  require_whole_texts(database, "provenance", store_file(file));
+  Statement rows = database.prepare(
+      "SELECT key, value FROM provenance NOT INDEXED JOIN (SELECT made, min(position) AS first "
+      "FROM cell NOT INDEXED WHERE position IS NOT NULL GROUP BY made) USING (made) ORDER BY "
+      "first");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    const std::string key = rows.text();
+    const std::string value = rows.text();
+    if (const auto [place, is_new] = out.emplace(key, value); !is_new) {
+      add_lines(place->second, value);
+    }
+  }
+  return out;
 }
 
 std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file) {

@@ -12,7 +12,8 @@
 
 namespace loopbench {
 
-/// All records in the order of the sweep, whatever the order they were written in. `file` may be
+/// All records in the order of the sweep, whatever the order they were written in. A metric that
+/// failed or was declined as a whole has a record for every score it gives elsewhere. `file` may be
 /// the folder that holds results.sqlite. Throws InputError when it is not a store.
 std::vector<Record> read_records(const std::filesystem::path& file);
 
@@ -22,7 +23,8 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file);
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);
 
-/// The `provenance` table: commit, compiler, machine and so on.
+/// By what the cells that the config asks for were made: commit, compiler, machine and so on. What
+/// differs between cells stands on lines of its own, in the order of the sweep.
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file);
 
 /// The files each sequence was read from, by "LABEL" or "LABEL (repeat N)".

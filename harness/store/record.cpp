@@ -7,7 +7,7 @@ namespace loopbench {
 namespace {
 
 std::string short_score(const Record& record) {
-  std::string out = record.metric;
+  std::string out = metric_label(record);
   if (record.relation != "translation" && record.relation != "rotation") {
     out += " " + record.relation;
   }
@@ -18,6 +18,10 @@ std::string short_score(const Record& record) {
 
 }  // namespace
 
+const std::string& metric_label(const Record& record) {
+  return record.label.empty() ? record.metric : record.label;
+}
+
 std::string field(const Record& record, const std::string& name) {
   if (name == "sequence") return record.sequence;
   if (name == "repeat") return std::to_string(record.repeat);
@@ -27,6 +31,7 @@ std::string field(const Record& record, const std::string& name) {
   if (name == "protocol_version") return record.protocol_version;
   if (name == "times") return record.times;
   if (name == "metric") return record.metric;
+  if (name == "label") return metric_label(record);
   if (name == "relation") return record.relation;
   if (name == "axis") return record.axis;
   if (name == "unit") return record.unit;
@@ -42,6 +47,7 @@ std::string field(const Record& record, const std::string& name) {
                                  "protocol_version",
                                  "times",
                                  "metric",
+                                 "label",
                                  "relation",
                                  "axis",
                                  "unit",

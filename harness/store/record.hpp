@@ -24,9 +24,9 @@ struct Record {
   double milliseconds = 0.0;  ///< median wall time of the method's verb
   std::string protocol;       ///< label; empty when it does not apply, so the next two
   std::string protocol_version;
-  std::string times;  ///< keyframes | dense
-  std::string metric;
-  std::string label;  ///< of the metric in the config; empty: the metric's name
+  std::string times;   ///< keyframes | dense
+  std::string metric;  ///< catalogue name; or gain, pairs, time
+  std::string label;   ///< of the metric in the config; empty: the metric's name
   std::string relation;
   std::string axis;
   std::string unit;
@@ -73,10 +73,13 @@ struct CellRecord {
   std::vector<std::string> notes;
 };
 
+/// What tables call the record's metric: its label in the config, or its name.
+const std::string& metric_label(const Record& record);
+
 /// The text of a record's named column: sequence, repeat, method, closures, protocol,
-/// protocol_version, times, metric, relation, axis, unit, status, or `score`: metric, relation and
-/// axis without the usual ones (translation; rotation, which its unit tells; 3d). Throws InputError
-/// with a suggestion for another name.
+/// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: label,
+/// relation and axis without the usual ones (translation; rotation, which its unit tells; 3d).
+/// Throws InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
 /// The number of a record's named statistic: rmse, mean, median, std, min, max, sse, count.

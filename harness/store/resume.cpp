@@ -1,7 +1,7 @@
 #include "harness/store/resume.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <unordered_map>
 
 #include "harness/store/write_digests.hpp"
@@ -39,20 +39,37 @@ Rows rows_of(const CellRows& cells) {
   return out;
 }
 
+using Inputs = std::vector<InputFile>;
+
+bool same_content(const Inputs& a, const Inputs& b) {
+  return std::ranges::equal(a, b, {}, &InputFile::hash, &InputFile::hash);
+}
+
+/// The inputs of a cell's sequence as they are now. A store may know several contents of what is
+/// asked for, each with its own list of files: the one that is still true, or else any list.
+Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, const Cell& cell) {
+  Inputs now;
+  for (const SequenceRow* sequence : known) {
+    now = keys.as_they_are(cell, sequence->inputs);
+    if (same_content(now, sequence->inputs)) break;
+  }
+  return now;
+}
+
 /// The key of every cell, with the inputs as they are now.
 std::vector<std::string> keys_now(const SequenceRows& sequences,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
-  std::map<std::string, std::vector<InputFile>> inputs;
-  for (const auto& [asked, row] : sequences.by_asked) inputs.emplace(asked, row.inputs);
-  std::set<std::string> fresh;
+  std::map<std::string, std::vector<const SequenceRow*>> known;
+  for (const auto& [key, row] : sequences.by_key) known[row.asked].push_back(&row);
+  std::map<std::string, Inputs> inputs;
   std::vector<std::string> out;
   out.reserve(all.size());
   for (const Cell& cell : all) {
     const std::string& asked = keys.asked(cell);
-    std::vector<InputFile>& files = inputs[asked];
-    if (fresh.insert(asked).second) files = keys.as_they_are(cell, std::move(files));
-    out.push_back(keys.key(cell, files));
+    const auto [place, is_new] = inputs.try_emplace(asked);
+    if (is_new) place->second = inputs_now(known[asked], keys, cell);
+    out.push_back(keys.key(cell, place->second));
   }
   return out;
 }

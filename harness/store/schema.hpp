@@ -3,29 +3,35 @@
 namespace loopbench {
 
 /// Raised when a table or column changes its meaning; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 5;
+inline constexpr int kSchemaVersion = 6;
 
 /// Creates the tables of a store. Readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
   CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);  -- what was asked for last
-  CREATE TABLE provenance (            -- by what it was made; a value with several lines was not
-    key TEXT PRIMARY KEY,              -- the same for all cells, or is a list
-    value TEXT NOT NULL);
+  CREATE TABLE provenance (            -- by what cells were made
+    made TEXT NOT NULL,                -- hash of all pairs of key and value that go together
+    key TEXT NOT NULL,
+    value TEXT NOT NULL,               -- may be a list, one item a line
+    PRIMARY KEY (made, key)) WITHOUT ROWID;
   CREATE TABLE input (                 -- every file that a sequence was read from
-    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options
+    sequence_key TEXT NOT NULL,
     number INTEGER NOT NULL,           -- order of reading
+    option TEXT NOT NULL,              -- dataset option that names it; '': found by the dataset
     path TEXT NOT NULL,
     bytes INTEGER NOT NULL,
-    hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128)
-    PRIMARY KEY (asked, number)) WITHOUT ROWID;
+    hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128), or `missing`
+    PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- what it is, and how much of it a method is given
-    asked TEXT PRIMARY KEY,
+    sequence_key TEXT PRIMARY KEY,     -- hash of asked, of the content of its inputs and the build
+    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options
     options TEXT NOT NULL,             -- dataset: all of its options, defaults included
     keyframes INTEGER NOT NULL,
     odometry INTEGER NOT NULL,         -- edges
     closures INTEGER NOT NULL,
     frames INTEGER NOT NULL,           -- tracked between keyframes
     reference INTEGER NOT NULL,        -- poses the judge has
+    content TEXT NOT NULL,             -- hash of problem and reference as loaded; '': not known
+    group_name TEXT NOT NULL,          -- runs of one group are not independent; '': its own
     input_digest TEXT NOT NULL DEFAULT '',   -- of its rows in input
     trace_digest TEXT NOT NULL DEFAULT '',   -- of its row in sequence_trace
     digest TEXT NOT NULL DEFAULT ''          -- of this row
@@ -35,7 +41,8 @@ inline constexpr const char* kSchema = R"sql(
     position INTEGER,                  -- in the sweep; NULL: the config asks for it no more
     key TEXT NOT NULL,                 -- hash of input bytes, options, protocols, method and build
     build TEXT NOT NULL,               -- of the program that made it
-    asked TEXT NOT NULL,               -- its sequence in the tables of sequences
+    sequence_key TEXT NOT NULL,        -- its sequence in the tables of sequences
+    made TEXT NOT NULL,                -- its rows in provenance
     sequence TEXT NOT NULL,            -- label of the dataset entry
     repeat INTEGER NOT NULL,           -- instance of a seeded dataset, from 0
     method TEXT NOT NULL,              -- label of the method entry
@@ -57,7 +64,7 @@ inline constexpr const char* kSchema = R"sql(
                                        -- out_of_memory
     signal TEXT NOT NULL,              -- SIGSEGV and the like, when one ended it
     why TEXT NOT NULL,
-    failed_scores INTEGER NOT NULL,    -- rows of score with status failed
+    failed_scores INTEGER NOT NULL,    -- rows of score that failed in any way
     score_digest TEXT NOT NULL DEFAULT '',   -- of its rows in score, and so on; '': it has none
     phase_digest TEXT NOT NULL DEFAULT '',
     count_digest TEXT NOT NULL DEFAULT '',
@@ -70,10 +77,13 @@ inline constexpr const char* kSchema = R"sql(
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- of the original tool that was followed
     times TEXT NOT NULL,               -- keyframes | dense
-    metric TEXT NOT NULL,
+    metric TEXT NOT NULL,              -- catalogue name
+    label TEXT NOT NULL,               -- in the config; the name unless it says otherwise
     relation TEXT NOT NULL,
     axis TEXT NOT NULL,
     unit TEXT NOT NULL,                -- of every statistic but count and sse (its square)
+    better TEXT NOT NULL,              -- lower | higher | target | neither
+    target REAL NOT NULL,              -- best value where better is target
     count INTEGER NOT NULL,
     rmse REAL NOT NULL, mean REAL NOT NULL, median REAL NOT NULL, std REAL NOT NULL,
     min REAL NOT NULL, max REAL NOT NULL, sse REAL NOT NULL,
@@ -96,7 +106,7 @@ inline constexpr const char* kSchema = R"sql(
     times TEXT NOT NULL,               -- keyframes | dense
     samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
   CREATE TABLE sequence_trace (
-    asked TEXT PRIMARY KEY,
+    sequence_key TEXT PRIMARY KEY,
     origin_stamp REAL NOT NULL,        -- stamps count from here [s]
     origin_x REAL NOT NULL,            -- positions in the reference's world count from here [m]
     origin_y REAL NOT NULL,

@@ -10,17 +10,20 @@ SequenceRows read_sequence_rows(Database& database) {
   SequenceRows out;
   std::map<std::string, std::string> input_digests;
   SumOfDigests sum;
-  Statement rows = database.prepare("SELECT * FROM sequence ORDER BY asked");
+  Statement rows = database.prepare("SELECT * FROM sequence ORDER BY sequence_key");
   while (rows.step()) {
-    const std::string asked = rows.text();
-    SequenceRow& s = out.by_asked[asked];
+    const std::string sequence_key = rows.text();
+    SequenceRow& s = out.by_key[sequence_key];
+    s.asked = rows.text();
     s.options = rows.text();
     s.keyframes = rows.integer();
     rows.integer();  // odometry
     s.closures = rows.integer();
     rows.integer();  // frames
     rows.integer();  // reference
-    input_digests[asked] = rows.text();
+    s.content = rows.text();
+    s.group = rows.text();
+    input_digests[sequence_key] = rows.text();
     s.trace_digest = rows.text();
     s.digest = rows.text();
     s.whole = digest_of_columns(rows, 0, rows.columns() - 1) == s.digest;
@@ -29,26 +32,27 @@ SequenceRows read_sequence_rows(Database& database) {
   out.complete = sum.text() == written_digest(database, "sequence");
 
   std::map<std::string, RowsDigest> inputs;
-  Statement files = database.prepare("SELECT * FROM input ORDER BY asked, number");
+  Statement files = database.prepare("SELECT * FROM input ORDER BY sequence_key, number");
   while (files.step()) {
-    const auto found = out.by_asked.find(files.text());
-    if (found == out.by_asked.end()) continue;
+    const auto found = out.by_key.find(files.text());
+    if (found == out.by_key.end()) continue;
     inputs[found->first].add(files, 1, files.columns());
     files.integer();  // number
     InputFile& file = found->second.inputs.emplace_back();
+    file.option = files.text();
     file.path = files.text();
     file.bytes = static_cast<std::uint64_t>(files.integer());
     file.hash = files.text();
   }
-  for (auto& [asked, row] : out.by_asked) {
-    if (inputs[asked].text() != input_digests[asked]) row.whole = false;
+  for (auto& [sequence_key, row] : out.by_key) {
+    if (inputs[sequence_key].text() != input_digests[sequence_key]) row.whole = false;
   }
   return out;
 }
 
 void require_whole(const SequenceRows& rows, const std::filesystem::path& file) {
   if (!rows.complete) refuse_damaged(file, "what it knows of its sequences is");
-  for (const auto& [asked, row] : rows.by_asked) {
+  for (const auto& [sequence_key, row] : rows.by_key) {
     if (!row.whole) refuse_damaged(file, "what it knows of sequence " + row.options + " is");
   }
 }

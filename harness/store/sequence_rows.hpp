@@ -13,9 +13,12 @@
 namespace loopbench {
 
 struct SequenceRow {
+  std::string asked;    ///< CellKeys::asked
   std::string options;  ///< "DATASET: every option, defaults included"
   std::int64_t keyframes = 0;
   std::int64_t closures = 0;
+  std::string content;
+  std::string group;
   std::vector<InputFile> inputs;
   std::string trace_digest;
   std::string digest;
@@ -23,8 +26,8 @@ struct SequenceRow {
 };
 
 struct SequenceRows {
-  std::map<std::string, SequenceRow> by_asked;
-  bool complete = false;  ///< none was lost
+  std::map<std::string, SequenceRow> by_key;  ///< CellKeys::sequence_key
+  bool complete = false;                      ///< none was lost
 };
 
 /// The tables sequence and input. O(rows).

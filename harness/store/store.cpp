@@ -60,7 +60,8 @@ bool is_empty(Database& database) {
   return count.step() && count.integer() == 0;
 }
 
-void say_run(Database& database, const Sweep& sweep) {
+void say_run(Database& database, const CellKeys& keys) {
+  const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
   const auto say = [&](const std::string& key, const std::string& text) {
     insert.bind(key).bind(text).run();
@@ -74,25 +75,33 @@ void say_run(Database& database, const Sweep& sweep) {
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
   say("protocol", rules);
+  say("metrics", keys.metrics_in_full());
+  say("methods", keys.methods_in_full());
   say("baseline", sweep.baseline);
   renew_texts(database, "run");
 }
 
-std::string config_of(Database& database) {
-  Statement row = database.prepare("SELECT value FROM run WHERE key = 'config'");
-  return row.step() ? row.text() : "";
+/// Whether the store says of its run what it would say now: a default may have changed in the code.
+bool says_the_same(Database& database, const CellKeys& keys) {
+  const auto is = [&](const std::string& key, const std::string& text) {
+    Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
+    return row.bind(key).step() && row.text() == text;
+  };
+  return is("config", keys.sweep().text) && is("metrics", keys.metrics_in_full()) &&
+         is("methods", keys.methods_in_full());
 }
 
-/// Adds what is not said yet. Nothing is left of earlier runs when none of their cells is.
-void say_provenance(Database& database,
-                    const std::map<std::string, std::string>& provenance,
-                    bool anew) {
-  if (anew) database.execute("DELETE FROM provenance");
-  Statement insert = database.prepare(
-      "INSERT INTO provenance VALUES (?, ?) ON CONFLICT (key) DO UPDATE SET value = value || "
-      "char(10) || excluded.value WHERE "
-      "instr(char(10) || value || char(10), char(10) || excluded.value || char(10)) = 0");
-  for (const auto& [key, value] : provenance) insert.bind(key).bind(value).run();
+/// What the cells of this run say they are made by.
+std::string made_key(const std::map<std::string, std::string>& provenance) {
+  Fields fields;
+  for (const auto& [key, value] : provenance) fields.add(key).add(value);
+  return fields.hashed();
+}
+
+void say_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
+  const std::string made = made_key(provenance);
+  Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
+  for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
   renew_texts(database, "provenance");
 }
 
@@ -148,8 +157,8 @@ void Store::create() {
   Transaction transaction(*database_);
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  say_run(*database_, keys_.sweep());
-  say_provenance(*database_, provenance_, true);
+  say_run(*database_, keys_);
+  renew_texts(*database_, "provenance");
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
   transaction.commit();
@@ -164,7 +173,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Transaction transaction(*database_);
   const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
-  out.unchanged = out.unchanged && config_of(*database_) == keys_.sweep().text;
+  out.unchanged = out.unchanged && says_the_same(*database_, keys_);
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
@@ -172,8 +181,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    say_run(*database_, keys_.sweep());
-    say_provenance(*database_, provenance_, out.there == 0 && out.missing.size() == all.size());
+    say_run(*database_, keys_);
   }
   transaction.commit();
   return out;
@@ -184,8 +192,9 @@ void Store::write(const CellResult& result) {
   if (!writer_) {
     Transaction transaction(*database_);
     changes();
+    say_provenance(*database_, provenance_);
     transaction.commit();
-    writer_ = std::make_unique<Writer>(*database_);
+    writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
   }
   writer_->write(result, keys_);
 }

@@ -71,16 +71,16 @@ std::vector<Section> Traces::sections(std::int64_t position) {
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   const CellRow* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  const auto sequence = sequences_.by_asked.find(cell->asked);
-  if (sequence == sequences_.by_asked.end()) return std::nullopt;
+  const auto sequence = sequences_.by_key.find(cell->sequence_key);
+  if (sequence == sequences_.by_key.end()) return std::nullopt;
   if (sequence->second.trace_digest.empty()) return std::nullopt;
-  Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE asked = ?");
-  if (!found.bind(cell->asked).step() ||
+  Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?");
+  if (!found.bind(cell->sequence_key).step() ||
       digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
     refuse_damaged(file_, "the trace of sequence " + cell->record.sequence + " is");
   }
   SequenceTrace out;
-  found.text();  // asked
+  found.text();  // sequence_key
   for (double* number : {&out.origin.stamp, &out.origin.x, &out.origin.y, &out.origin.z}) {
     *number = found.real();
   }

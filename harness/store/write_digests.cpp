@@ -17,12 +17,12 @@ DigestWriter::DigestWriter(Database& database)
                                     "trace_digest = ? WHERE id = ?")),
       cell_(database.prepare("SELECT * FROM cell WHERE id = ?")),
       set_cell_(database.prepare("UPDATE cell SET digest = ? WHERE id = ?")),
-      inputs_(database.prepare("SELECT * FROM input WHERE asked = ? ORDER BY number")),
-      sequence_trace_(database.prepare("SELECT * FROM sequence_trace WHERE asked = ?")),
+      inputs_(database.prepare("SELECT * FROM input WHERE sequence_key = ? ORDER BY number")),
+      sequence_trace_(database.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?")),
       set_sequence_details_(database.prepare(
-          "UPDATE sequence SET input_digest = ?, trace_digest = ? WHERE asked = ?")),
-      sequence_(database.prepare("SELECT * FROM sequence WHERE asked = ?")),
-      set_sequence_(database.prepare("UPDATE sequence SET digest = ? WHERE asked = ?")),
+          "UPDATE sequence SET input_digest = ?, trace_digest = ? WHERE sequence_key = ?")),
+      sequence_(database.prepare("SELECT * FROM sequence WHERE sequence_key = ?")),
+      set_sequence_(database.prepare("UPDATE sequence SET digest = ? WHERE sequence_key = ?")),
       sum_(database.prepare("SELECT value FROM digest WHERE name = ?")),
       set_sum_(database.prepare("INSERT OR REPLACE INTO digest VALUES (?,?)")) {
   for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
@@ -60,12 +60,12 @@ void DigestWriter::add_cell(std::int64_t id) {
 
 void DigestWriter::renew_cell(std::int64_t id) { renew(cell_, set_cell_, id); }
 
-void DigestWriter::add_sequence(const std::string& asked) {
-  set_sequence_details_.bind(digest_of(inputs_, asked))
-      .bind(digest_of(sequence_trace_, asked))
-      .bind(asked)
+void DigestWriter::add_sequence(const std::string& sequence_key) {
+  set_sequence_details_.bind(digest_of(inputs_, sequence_key))
+      .bind(digest_of(sequence_trace_, sequence_key))
+      .bind(sequence_key)
       .run();
-  change_sum("sequence", renew(sequence_, set_sequence_, asked), &SumOfDigests::add);
+  change_sum("sequence", renew(sequence_, set_sequence_, sequence_key), &SumOfDigests::add);
 }
 
 void DigestWriter::remove(const std::string& table, const std::string& digest) {
@@ -90,7 +90,7 @@ std::string sum_of_digests(Database& database, const std::string& table) {
 }
 
 std::string digest_of_texts(Database& database, const std::string& table) {
-  Statement rows = database.prepare("SELECT * FROM " + table + " NOT INDEXED ORDER BY key");
+  Statement rows = database.prepare("SELECT * FROM " + table + " NOT INDEXED ORDER BY 1, 2");
   RowsDigest digest;
   while (rows.step()) digest.add(rows, 0, rows.columns());
   return digest.text();

@@ -21,7 +21,7 @@ class DigestWriter {
   void renew_cell(std::int64_t id);
 
   /// Of that sequence's row, inputs and trace; into the sum of sequences too.
-  void add_sequence(const std::string& asked);
+  void add_sequence(const std::string& sequence_key);
 
   /// Takes a row about to go out of the sum of its table, cell or sequence.
   void remove(const std::string& table, const std::string& digest);

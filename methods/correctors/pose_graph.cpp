@@ -4,8 +4,9 @@
 
 #include "methods/correctors/annealed_loss.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/consistency.hpp"
+#include "methods/correctors/gnc_pose_graph.hpp"
 #include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/stiffness.hpp"
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 
@@ -48,18 +49,6 @@ std::size_t dimensions(Group group) {
   return group == Group::se3 ? 6 : 7;
 }
 
-/// 1 for those that agree with one another, or nothing where that cannot be told.
-std::optional<std::vector<double>> agreeing(const Problem& problem) {
-  const Consistency rules;
-  if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return std::nullopt;
-  if (!chain_fault(problem).empty() || changes_scale(problem)) return std::nullopt;
-  const ConsistentClosures found = consistent_closures(problem, rules);
-  if (found.kept.size() < 2) return std::nullopt;
-  std::vector<double> out(problem.closures.size(), 0.0);
-  for (const std::size_t k : found.kept) out[k] = 1.0;
-  return out;
-}
-
 }  // namespace
 
 std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
@@ -78,6 +67,12 @@ std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) 
 }
 
 Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) const {
+  if (is_stiff(problem)) {
+    report.notes.push_back(
+        "closure information above 1e6 times the odometry's is reduced to that: the normal "
+        "equations would be singular to rounding");
+    return correct(with_bounded_stiffness(problem), report);
+  }
   if (options_.rescale) {
     Options stated = options_;
     stated.rescale = false;
@@ -91,8 +86,11 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
       options_.loss_width.value_or(is_bounded(options_.loss) ? usual_chi2(group) : 1.0),
       options_.max_iterations,
       options_.tolerance};
-  std::vector<ScaledPose> poses = report.time(
-      "initial values", [&] { return initial(problem, options_.start, options_.scale_sigma); });
+  std::vector<ScaledPose> poses;
+  if (options_.gnc == Gnc::off) {
+    poses = report.time("initial values",
+                        [&] { return initial(problem, options_.start, options_.scale_sigma); });
+  }
   std::vector<double> weights(problem.closures.size(), 1.0);
   int iterations = 0;
   const auto solve = [&](const PoseGraphSettings& how) {
@@ -103,32 +101,20 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   };
   double before = 0.0;
   if (options_.gnc != Gnc::off) {
-    // On the way only the weights are wanted, and they are forgiving.
-    PoseGraphSettings rough = settings;
-    rough.max_iterations = std::min(settings.max_iterations, 30);
-    rough.tolerance = std::max(settings.tolerance, 1e-6);
-    const double c2 = options_.inlier_chi2.value_or(usual_chi2(settings.group));
-    const auto squared = [&] { return squared_errors(poses, problem.closures, settings); };
-    std::vector<ScaledPose> start = poses;
-    std::optional<double> mu;
-    if (options_.gnc_start == GncStart::consistent) {
-      if (const auto first = report.time("check", [&] { return agreeing(problem); })) {
-        weights = *first;
-        // Past the convex stages, whose purpose is to find a start like this one.
-        mu = options_.gnc == Gnc::tls ? 1.0 : 10.0;
-      }
-    }
-    const GncResult gnc = report.time("graduate", [&] {
-      before = solve(rough).cost_before;
-      if (mu) start = poses;
-      return graduate(options_.gnc, c2, squared(), mu, [&](const std::vector<double>& tried) {
-        weights = tried;
-        poses = start;  // false closures wind poses up; from there a minimum may not be found again
-        solve(rough);
-        return squared();
-      });
-    });
-    weights = gnc.weights;
+    const auto values = [&](const Problem& of) {
+      return initial(of, options_.start, options_.scale_sigma);
+    };
+    GncSolution gnc = solve_gnc({problem,
+                                 settings,
+                                 options_.gnc,
+                                 options_.inlier_chi2.value_or(usual_chi2(settings.group)),
+                                 options_.gnc_start == GncStart::consistent,
+                                 values},
+                                report);
+    poses = std::move(gnc.poses);
+    weights = std::move(gnc.weights);
+    iterations = gnc.iterations;
+    before = gnc.cost_before;
     report.count("gnc_rounds", gnc.rounds);
     report.count("closures_kept",
                  static_cast<double>(

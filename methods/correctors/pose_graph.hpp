@@ -18,9 +18,11 @@ namespace loopbench {
 /// non-convexity
 /// (`gnc`), which lets go of closures that stay above `inlier_chi2`; or only closures that agree
 /// (Checked). Odometry is trusted. GNC starts from all closures, or where odometry is a whole chain
-/// from the largest set that agrees (`gnc_start: consistent`): a closure's own information says
-/// nothing of how far odometry may have drifted in between, so that starting from all it drops true
-/// closures wherever drift is large; the check does know. All closures are judged either way.
+/// from the largest set that agrees (`gnc_start: consistent`, see gnc_pose_graph.hpp), `start`
+/// being computed from these closures only: a closure's own information says nothing of how far
+/// odometry may have drifted in between, so that starting from all it drops true closures wherever
+/// drift is large; the check does know. All closures are judged either way. Closures that are
+/// stated as all but exact are solved at a bound (stiffness.hpp).
 ///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,

@@ -102,6 +102,20 @@ TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
   EXPECT_DOUBLE_EQ(whole.scale, 8.0);
 }
 
+TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {
+  // The second pose's unit of length is two of the first's, so its 0.1 is 0.2 there.
+  Edge exact{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(1e-16, 1e-16)};
+  exact.scale = 2.0;
+  Edge noisy{1, 2, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
+  Matrix6 covariance = compose(exact, noisy).information.inverse();
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.2, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(5, 5)), 0.2, 1e-9);
+  // The lever of the first edge's rotation is the second edge in the first one's unit: 2.
+  std::swap(exact.information, noisy.information);
+  covariance = compose(exact, noisy).information.inverse();
+  EXPECT_NEAR(covariance(1, 1), 0.01 + 0.04 * 4.0, 1e-9);
+}
+
 TEST(ComposeEdges, RefuseAnInformationWithoutInverse) {
   Edge blind;
   blind.to = 1;

@@ -143,7 +143,7 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   const std::string expected = store_text(file_);
   for (const char* table : {"cell", "score", "section", "sequence", "trace", "sequence_trace"}) {
     put(sound);
-    const std::string key = std::string(table).starts_with("sequence") ? "asked" : "rowid";
+    const std::string key = std::string(table).starts_with("sequence") ? "sequence_key" : "rowid";
     change(std::string("DELETE FROM ") + table + " WHERE " + key + " = (SELECT max(" + key +
            ") FROM " + table + ")");
     EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos) << table;
@@ -151,7 +151,7 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
     EXPECT_EQ(store_text(file_), expected) << table;
   }
   put(sound);
-  change("UPDATE sequence SET asked = 'f' || asked");
+  change("UPDATE sequence SET sequence_key = 'f' || sequence_key");
   EXPECT_EQ(run(kUsual).cells.size(), 4u) << "none of its cells has a sequence any more";
   EXPECT_EQ(store_text(file_), expected);
   EXPECT_EQ(read_dataset_options(file_).size(), 2u);

@@ -48,7 +48,8 @@ class OfASweep : public testing::Test {
                       "  - {method: shift, label: swept, sweep: {by: [1, 2]}}\n"
                       "  - {method: shift, label: broken, fail: true}\n"
                       "  - {method: shift, label: unwilling, decline: true}\n"
-                      "metrics: [ate]\nbaseline: straight\nrepeats: 3\n");
+                      "metrics: [ate, {metric: ate, power: 2, label: undefined}]\n"
+                      "baseline: straight\nrepeats: 3\n");
     const Catalogue catalogue = tiny::catalogue();
     const Sweep sweep = read_sweep(config, catalogue);
     const DataRoot root{{folder_->path()}};
@@ -99,6 +100,8 @@ TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
                            "told to fail",
                            "told to decline",
+                           "scores without a number",
+                           "told to be undefined",
                            "verdict for every score",
                            "Protocol of every number",
                            "align=",

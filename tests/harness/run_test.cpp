@@ -61,7 +61,7 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   EXPECT_EQ(count("declined"), 9);
   const auto fails = std::ranges::find(records, std::string("fails"), &Record::method);
   EXPECT_EQ(fails->why, "told to fail");
-  const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::metric);
+  const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::label);
   EXPECT_EQ(undefined->why, "told to be undefined");
 }
 
@@ -94,7 +94,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   int incomplete = 0;
   for (const Record& r : records) {
     const bool is_short = r.sequence.find("0.3") != std::string::npos;
-    if (r.method != "straight" || r.metric != "ate") continue;
+    if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, is_short ? "incomplete" : "ok") << r.sequence;
     EXPECT_GT(r.statistics.rmse, 0.0);  // kept all the same
     if (!is_short) continue;
@@ -103,7 +103,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   }
   EXPECT_EQ(incomplete, 3);
   for (const Record& r : records) {  // what the metric could not do at all stays failed
-    if (r.metric == "undefined") {
+    if (r.label == "undefined") {
       EXPECT_EQ(r.status, "failed");
     }
   }
@@ -119,7 +119,7 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   sweep_.min_coverage = 0.9;
   sweep_.times = {Times::keyframes, Times::dense};
   for (const Record& r : run(1)) {
-    if (r.method != "straight" || r.metric != "ate") continue;
+    if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, r.times == "dense" ? "ok" : "incomplete");
   }
 }
@@ -146,7 +146,7 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
                               single("translation", "3d", "m", -2.0)};
   };
   for (const Record& r : run(1)) {
-    if (r.method != "straight" || r.metric != "ate") continue;
+    if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, r.relation == "rotation" ? "declined" : "ok");
     EXPECT_EQ(r.why, r.relation == "rotation" ? "positions only" : "");
     EXPECT_EQ(r.statistics.rmse, r.relation == "rotation" ? 0.0 : -2.0);

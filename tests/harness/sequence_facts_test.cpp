@@ -13,13 +13,15 @@ namespace {
 TEST(HashedInputs, OneThatASequenceDidWithoutIsKnownWhenItComes) {
   const TemporaryFolder folder;
   const auto image = folder.path() / "depth/0002.png";
-  const InputFile missing = hashed_inputs({image}).front();
+  const InputFile missing = hashed_inputs({{image}}).front();
   EXPECT_EQ(missing.path, image.string());
   EXPECT_EQ(missing.bytes, 0u);
-  EXPECT_EQ(missing.hash, std::string(32, '0'));
+  EXPECT_EQ(missing.hash, "missing");
   std::filesystem::create_directories(image.parent_path());
+  { std::ofstream empty(image); }
+  EXPECT_NE(hashed_inputs({{image}}).front().hash, missing.hash);
   std::ofstream(image) << "pixels";
-  const InputFile come = hashed_inputs({image}).front();
+  const InputFile come = hashed_inputs({{image}}).front();
   EXPECT_EQ(come.bytes, 6u);
   EXPECT_NE(come.hash, missing.hash);
 }

@@ -31,6 +31,28 @@ TEST_F(StoreTest, AChangedOptionRunsExactlyTheCellsItTouches) {
   EXPECT_EQ(read_cells(file_)[1].method_options, "shift: by=1");
 }
 
+TEST_F(StoreTest, AScoreKeepsItsMetricsNameItsLabelAndItsDirection) {
+  known_.metrics[0].score = [](const Evaluation&, const Params&) {
+    return std::vector<Score>{single("translation", "3d", "m", 1.0),
+                              directed(single("share", "", "%", 2.0), Better::higher),
+                              directed(single("ratio", "", "1", 3.0), Better::target, 1.0),
+                              directed(single("pairs", "", "1", 4.0), Better::neither)};
+  };
+  std::string text = kUsual;
+  text.replace(text.find("metrics: [ate]"), 14, "metrics: [{metric: ate, label: gain}]");
+  run(text);
+  const std::vector<Record> records = read_records(file_);
+  ASSERT_EQ(records.size(), 16u);
+  const std::vector<Better> expected{
+      Better::lower, Better::higher, Better::target, Better::neither};
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(records[i].metric, "ate");
+    EXPECT_EQ(records[i].label, "gain");
+    EXPECT_EQ(records[i].better, expected[i % 4]);
+    EXPECT_EQ(records[i].target, i % 4 == 2 ? 1.0 : 0.0);
+  }
+}
+
 TEST_F(StoreTest, AChangedDatasetRunsItsCells) {
   run(kUsual);
   std::string text = kUsual;
@@ -182,7 +204,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
   run(kUsual);
   Database(file_, Database::Mode::read).execute("PRAGMA user_version = 2");
-  expect_refused("schema 2, expected 5");
+  expect_refused("schema 2, expected 6");
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {

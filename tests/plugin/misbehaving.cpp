@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "companion.hpp"
 #include "methods/plugin.hpp"
 
 using namespace loopbench;
@@ -35,7 +36,7 @@ struct Loops {
   }
 };
 struct Exits {
-  void operator()() const { std::exit(0); }
+  void operator()() const { std::exit(exit_code_of_success()); }
 };
 struct Floods {
   void operator()() const {

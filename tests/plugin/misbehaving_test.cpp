@@ -1,6 +1,8 @@
 /// A plugin that aborts, loops, exits and floods memory, through the command line.
 #include <gtest/gtest.h>
 
+#include "harness/catalogue.hpp"
+#include "harness/provenance/libraries.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 
@@ -27,6 +29,14 @@ TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
   const CommandResult again = loopbench_command(line, folder);
   EXPECT_EQ(again.exit_code, 1) << "failures are kept as failures";
   EXPECT_NE(again.out.find("(6 of them before), 4 failed"), std::string::npos) << again.out;
+}
+
+TEST(Misbehaving, ItsVersionCoversTheLibrariesThatItBrings) {
+  const Catalogue known = catalogue({LOOPBENCH_MISBEHAVING});
+  const std::vector<std::filesystem::path> brought = plugin_libraries(LOOPBENCH_MISBEHAVING);
+  ASSERT_EQ(brought.size(), 1u);
+  EXPECT_EQ(brought[0].filename(), "libcompanion.so");
+  EXPECT_NE(known.versions.at("aborts").find(", libcompanion.so "), std::string::npos);
 }
 
 }  // namespace

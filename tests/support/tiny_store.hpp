@@ -27,7 +27,7 @@ inline Sequence load_file(const FileOptions& options, const DataRoot& root) {
   tiny::LineOptions line;
   std::ifstream(file) >> line.bias;
   Sequence out = tiny::load_line(line, root);
-  out.provenance.inputs = {file};
+  out.provenance.inputs = {{file, "path"}};
   return out;
 }
 

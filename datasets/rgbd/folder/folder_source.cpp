@@ -82,10 +82,10 @@ class FolderSource final : public RgbdSource {
   Provenance provenance() const override {
     Provenance out;
     out.sensor = "RGB-D";
-    out.inputs = recording_.lists;
+    for (const fs::path& list : recording_.lists) out.inputs.push_back({list});
     for (const ImagePair& pair : recording_.frames) {
-      out.inputs.push_back(pair.grey);
-      out.inputs.push_back(pair.depth);
+      out.inputs.push_back({pair.grey});
+      out.inputs.push_back({pair.depth});
     }
     out.notes = recording_.notes;
     return out;

@@ -1,0 +1,87 @@
+#include <set>
+#include <tuple>
+
+#include "harness/report/html.hpp"
+#include "harness/report/sections.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string listed(const std::set<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+using Reason = std::tuple<std::string, std::string, std::string>;  // status, method, why
+
+struct Affected {
+  std::set<std::int64_t> cells;
+  std::set<std::string> sequences;
+  std::set<std::string> scores;
+};
+
+/// Cells that have no scores, or scores of too little.
+Listing of_cells(const ReportContent& content) {
+  std::map<Reason, Affected> reasons;
+  for (const CellRecord& cell : content.cells) {
+    if (cell.status == "ok" && cell.why.empty()) continue;
+    const std::string status = cell.status == "ok" ? "not judged" : cell.status;
+    const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
+    Affected& affected = reasons[{status, cell.method, why}];
+    affected.cells.insert(cell.position);
+    affected.sequences.insert(cell.sequence);
+  }
+  Listing out{
+      "cells without their numbers", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  for (const auto& [reason, affected] : reasons) {
+    const auto& [status, method, why] = reason;
+    out.rows.push_back(
+        {method, status, std::to_string(affected.cells.size()), listed(affected.sequences), why});
+  }
+  return out;
+}
+
+/// Scores that are missing from cells that ran to their end.
+Listing of_scores(const ReportContent& content) {
+  std::set<std::int64_t> ended;
+  for (const CellRecord& cell : content.cells) {
+    if (cell.status == "ok" || cell.status == "incomplete") ended.insert(cell.position);
+  }
+  std::map<Reason, Affected> reasons;
+  for (const Record& r : content.records) {
+    if (r.metric.empty() || r.status == "ok" || r.status == "incomplete") continue;
+    if (!ended.contains(r.cell)) continue;
+    Affected& affected = reasons[{r.status, r.method, r.why}];
+    affected.cells.insert(r.cell);
+    affected.sequences.insert(r.sequence);
+    affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
+  }
+  Listing out{"scores without a number",
+              {"method", "status", "scores", "cells", "sequences", "why"},
+              {},
+              {}};
+  for (const auto& [reason, affected] : reasons) {
+    const auto& [status, method, why] = reason;
+    out.rows.push_back({method,
+                        status,
+                        listed(affected.scores),
+                        std::to_string(affected.cells.size()),
+                        listed(affected.sequences),
+                        why});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string failures_html(const ReportContent& content) {
+  std::string out;
+  for (const Listing& listing : {of_cells(content), of_scores(content)}) {
+    if (!listing.rows.empty()) out += html_text_table(listing);
+  }
+  if (!out.empty()) return out;
+  return "<p>Every cell ran to its end and every score has its number.</p>\n";
+}
+
+}  // namespace loopbench

@@ -1,0 +1,122 @@
+/// Each score states the direction in which it improves.
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "judged_cell.hpp"
+#include "metrics/metric.hpp"
+#include "support.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::JudgedCell;
+
+/// Along a circle and back to its start, in steps of 5 cm; `stray` bends it upwards.
+Trajectory circle(double stray) {
+  Trajectory out;
+  for (int i = 0; i <= 400; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 200.0;
+    const double t = 0.05 * i;
+    const double up = 0.3 * std::sin(7.0 * angle) + stray * std::sin(0.4 * t * t);
+    out.push_back({t,
+                   {exp_so3(Vector3(0.2 * std::sin(3.0 * angle), 0.1 * std::sin(angle), angle)),
+                    Vector3(10.0 * std::cos(angle), 10.0 * std::sin(angle), up)}});
+  }
+  return out;
+}
+
+/// Every tenth pose.
+Trajectory thinned(const Trajectory& poses) {
+  Trajectory out;
+  for (std::size_t i = 0; i < poses.size(); i += 10) out.push_back(poses[i]);
+  return out;
+}
+
+/// The directions of all scores of a metric on an ordinary cell, by "relation axis".
+std::map<std::string, std::pair<Better, double>> directions(const std::string& metric) {
+  const Problem problem = test::drifting(
+      thinned(circle(0.0)), twist({0.01, 0.0, 0.02}, {0.0, 0.001, 0.01}), {{0, 20}, {5, 25}});
+  const std::vector<LoopCandidate> candidates{{0, 20, 1.0, true}, {5, 25, 0.5, true}};
+  JudgedCell cell(circle(0.0),
+                  problem,
+                  std::make_unique<Polyline>(thinned(circle(0.3))),
+                  Times::dense,
+                  {.align = Align::none});
+  cell.evaluation.context.loop_candidates = &candidates;
+  std::map<std::string, std::pair<Better, double>> out;
+  for (const MetricEntry& entry : metrics()) {
+    if (entry.name != metric) continue;
+    const Params options = metric == "segments" ? Params{{"lengths", std::string("5")}} : Params{};
+    for (const Score& score : entry.score(cell.evaluation, options)) {
+      out[score.relation + " " + score.axis] = {score.better, score.target};
+    }
+  }
+  return out;
+}
+
+/// Whether every score of the metric has that direction, and there is one.
+void expect_all(const std::string& metric, Better better) {
+  const auto found = directions(metric);
+  EXPECT_FALSE(found.empty()) << metric;
+  for (const auto& [score, direction] : found) {
+    EXPECT_EQ(direction.first, better) << metric << " " << score;
+  }
+}
+
+TEST(Direction, ErrorsAreBetterLower) {
+  for (const char* metric :
+       {"ate", "axis_error", "ape", "rpe", "segments", "along_cross", "jumps"}) {
+    expect_all(metric, Better::lower);
+  }
+}
+
+TEST(Direction, DescriptionsHaveNone) {
+  for (const char* metric : {"closure_residual",
+                             "local_shape",
+                             "interpolation_floor",
+                             "smoothing_headroom",
+                             "coverage",
+                             "body_offset",
+                             "diagnostics"}) {
+    expect_all(metric, Better::neither);
+  }
+}
+
+TEST(Direction, OfAGainIsHigherAndOfWhatWorsenedLower) {
+  auto found = directions("gain_along");
+  EXPECT_EQ(found.at("worsened ").first, Better::lower);
+  found.erase("worsened ");
+  for (const auto& [score, direction] : found) EXPECT_EQ(direction.first, Better::higher) << score;
+  EXPECT_EQ(found.size(), 9u);
+}
+
+TEST(Direction, OfARatioIsOne) {
+  for (const char* metric : {"path_length", "jerk"}) {
+    for (const auto& [score, direction] : directions(metric)) {
+      const bool is_ratio = score.starts_with("ratio");
+      EXPECT_EQ(direction.first, is_ratio ? Better::target : Better::neither) << score;
+      EXPECT_EQ(direction.second, is_ratio ? 1.0 : 0.0) << score;
+    }
+  }
+}
+
+TEST(Direction, OfTheGraphsCostIsLowerButItsPartsAreTradedForEachOther) {
+  const auto found = directions("graph_cost");
+  EXPECT_EQ(found.at("chi2 all").first, Better::lower);
+  EXPECT_EQ(found.at("chi2 odometry").first, Better::neither);
+  EXPECT_EQ(found.at("chi2 closures").first, Better::neither);
+}
+
+TEST(Direction, OfPrecisionAndRecallIsHigherAndOfCountsNone) {
+  const std::set<std::string> counts{"revisits ", "closures ", "false_poses "};
+  const auto found = directions("loop_detection");
+  EXPECT_EQ(found.size(), 17u);
+  for (const auto& [score, direction] : found) {
+    EXPECT_EQ(direction.first, counts.contains(score) ? Better::neither : Better::higher) << score;
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
