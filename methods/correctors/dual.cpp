@@ -65,15 +65,9 @@ void start_chordal(const Problem& problem,
 }  // namespace
 
 Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {
-  std::optional<Problem> rescaled;
-  if (options.rescale) {
-    const VarianceFactors factors =
-        report.time("variance components", [&] { return variance_factors(stated); });
-    report.count("factor_t", std::sqrt(factors.translation));
-    report.count("factor_r", std::sqrt(factors.rotation));
-    rescaled = with_factors(stated, factors);
-  }
-  const Problem& problem = rescaled ? *rescaled : stated;
+  std::optional<Problem> scaled;
+  if (options.rescale) scaled = rescaled(stated, report);
+  const Problem& problem = scaled ? *scaled : stated;
   const ChainBelief belief = stated_belief(problem);
   const std::size_t degrees = freedom(problem);
   LoopedChain first(problem, belief);

@@ -1,9 +1,8 @@
 #include "methods/correctors/pose_graph.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
+#include "methods/correctors/annealed_loss.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/gnc_pose_graph.hpp"
 #include "methods/correctors/plausibility.hpp"
@@ -50,43 +49,6 @@ std::size_t dimensions(Group group) {
   return group == Group::se3 ? 6 : 7;
 }
 
-/// Losses that let go of a closure: where they bend is where a true closure's error ends.
-bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
-
-/// Widths from the largest squared error down to `last`, each half of the one before.
-std::vector<double> annealed_widths(const std::vector<double>& squared, double last) {
-  std::vector<double> out;
-  for (double width = *std::ranges::max_element(squared); width > 2.0 * last; width *= 0.5) {
-    out.push_back(width);
-  }
-  return out;
-}
-
-/// Moves `poses` to the better of two minima of the last loss: that reached at once, and that
-/// reached through ever narrower losses, each solved from the solution before. Returns the cost
-/// before.
-template <class Solve>
-double anneal(const Problem& problem,
-              const PoseGraphSettings& settings,
-              std::vector<ScaledPose>& poses,
-              Solve solve) {
-  const std::vector<ScaledPose> start = poses;
-  const std::vector<double> squared = squared_errors(start, problem.closures, settings);
-  const PoseGraphSummary direct = solve(settings);
-  std::vector<ScaledPose> reached = std::exchange(poses, start);
-  PoseGraphSettings rough = settings;
-  rough.max_iterations = std::min(settings.max_iterations, 30);
-  rough.tolerance = std::max(settings.tolerance, 1e-6);
-  rough.loss =
-      Loss::switchable;  // smoother than dcs, and as bounded: fewer wrong minima on the way
-  for (const double width : annealed_widths(squared, settings.loss_width)) {
-    rough.loss_width = width;
-    solve(rough);
-  }
-  if (!(solve(settings).cost < direct.cost)) poses = std::move(reached);
-  return direct.cost_before;
-}
-
 }  // namespace
 
 std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
@@ -112,13 +74,9 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     return correct(with_bounded_stiffness(problem), report);
   }
   if (options_.rescale) {
-    const VarianceFactors factors =
-        report.time("variance components", [&] { return variance_factors(problem); });
-    report.count("factor_t", std::sqrt(factors.translation));
-    report.count("factor_r", std::sqrt(factors.rotation));
     Options stated = options_;
     stated.rescale = false;
-    return PoseGraphOptimizer(stated).correct(with_factors(problem, factors), report);
+    return PoseGraphOptimizer(stated).correct(rescaled(problem, report), report);
   }
   const Group group = group_of(problem, options_.group);
   PoseGraphSettings settings{
@@ -164,7 +122,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   }
   std::optional<double> annealed_from;
   if (is_bounded(options_.loss) && options_.anneal && options_.gnc == Gnc::off) {
-    annealed_from = report.time("anneal", [&] { return anneal(problem, settings, poses, solve); });
+    annealed_from =
+        report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
   if (options_.gnc == Gnc::off) before = annealed_from.value_or(summary.cost_before);

@@ -139,4 +139,12 @@ VarianceFactors variance_factors(const Problem& problem) {
   return {factor_of(at[0]), factor_of(at[1])};
 }
 
+Problem rescaled(const Problem& problem, Report& report) {
+  const VarianceFactors factors =
+      report.time("variance components", [&] { return variance_factors(problem); });
+  report.count("factor_t", std::sqrt(factors.translation));
+  report.count("factor_r", std::sqrt(factors.rotation));
+  return with_factors(problem, factors);
+}
+
 }  // namespace loopbench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "datasets/core/problem.hpp"
+#include "methods/report.hpp"
 
 namespace loopbench {
 
@@ -26,5 +27,8 @@ VarianceFactors variance_factors(const Problem& problem);
 
 /// The problem with D S D in place of S. O(edges).
 Problem with_factors(Problem problem, const VarianceFactors& factors);
+
+/// The problem with the estimated factors; counts `factor_t` and `factor_r` on standard deviations.
+Problem rescaled(const Problem& problem, Report& report);
 
 }  // namespace loopbench

@@ -81,7 +81,8 @@ std::optional<std::string> Dm::declines(const Problem& problem) const {
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
   Densified dense = with_quasi_keyframes(problem, options_.gap);
-  if (dense.nodes.size() < 2 || !options_.chord_above) return smooth(problem, std::move(dense), report);
+  if (dense.nodes.size() < 2 || !options_.chord_above)
+    return smooth(problem, std::move(dense), report);
   const double longest = *options_.chord_above * median_interval(problem.keyframes);
   const auto apart = stretches(dense.nodes.size(), [&](std::size_t i) {
     return dense.nodes[i + 1].stamp - dense.nodes[i].stamp > longest;
