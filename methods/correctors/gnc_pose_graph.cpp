@@ -11,6 +11,9 @@
 namespace loopbench {
 namespace {
 
+/// Rough solutions of one minimum differ by less: the first of them is kept. [-]
+constexpr double kLower = 0.999;
+
 /// Closures whose weights are one half at most are rejected.
 std::size_t kept(const std::vector<double>& weights) {
   return static_cast<std::size_t>(
@@ -90,8 +93,10 @@ class GncRuns {
     out.weights = result.weights;
     out.rounds = result.rounds;
     const double cost = cost_of(out.poses);
+    // From a rough solution a fine solver stops early: its first step hardly lowers the cost.
+    out.poses = std::move(start.poses);
     const int iterations = best_.iterations + out.iterations;
-    if (cost < least_) {
+    if (cost < kLower * least_) {
       best_ = std::move(out);
       least_ = cost;
     }
@@ -127,7 +132,8 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
     if (2 * kept(runs.best().weights) < closures || consistent.empty()) {
       runs.from_all(of.initial(of.problem));
     }
-    if (consistent.empty() && of.consistent) runs.from_all(tree_values(of.problem));
+    const bool rejects = kept(runs.best().weights) < closures;
+    if (consistent.empty() && of.consistent && rejects) runs.from_all(tree_values(of.problem));
     return runs.best();
   });
   if (2 * kept(out.weights) < closures) {
