@@ -32,11 +32,15 @@ struct DatasetEntry {
   std::function<void(const Params&)> check;  ///< throws OptionError; reads no file
   /// Throws OptionError, InputError. Same settings and files give the same bits.
   std::function<Sequence(const Params&, const DataRoot&)> load;
+  /// Reads what tells quickly whether load() would find its input; null: load() itself is quick.
+  /// Throws as load() does.
+  std::function<void(const Params&, const DataRoot&)> inspect = {};
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. What no
-/// field can refuse alone is refused by `void check_combination(const Options&)`, where there is
-/// one.
+/// field can refuse alone is refused by `void check_combination(const Options&)`, or by
+/// `void check_combination(const Options&, const Params& given)`, which also receives the options
+/// that a config states, where there is one.
 template <class Options, class Load>
 DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
@@ -44,11 +48,16 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           describe(Options{}),
           [](const Params& given) {
             const Options options = with(Options{}, given);
-            if constexpr (requires { check_combination(options); }) check_combination(options);
+            if constexpr (requires { check_combination(options, given); }) {
+              check_combination(options, given);
+            } else if constexpr (requires { check_combination(options); }) {
+              check_combination(options);
+            }
           },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
-          }};
+          },
+          {}};
 }
 
 /// Every built-in.

@@ -52,6 +52,7 @@ struct TrajectoryOptions {
   Reach reach;
   FalseClosures false_closures;
   std::int64_t seed = 1;
+  std::string stream;  ///< shared noise; empty: noise of its own
   std::string sensor;
   std::string licence;
 };
@@ -73,16 +74,31 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.keyframes.value,
         "every k poses, or least distance [s] or [m], or how many",
         Above{0.0});
-  visit("odometry.sigma_t", o.odometry.sigma_t, "assumed, per edge [m]", Above{0.0});
-  visit("odometry.sigma_r", o.odometry.sigma_r, "assumed, per edge [rad]", Above{0.0});
+  visit("odometry.sigma_t",
+        o.odometry.sigma_t,
+        "assumed standard deviation of an edge at rest [m]",
+        Above{0.0});
+  visit("odometry.sigma_r",
+        o.odometry.sigma_r,
+        "assumed standard deviation of an edge at rest [rad]",
+        Above{0.0});
+  const Between any{0.0, 1e6};
   visit("odometry.sigma_t_per_m",
         o.odometry.sigma_t_per_m,
-        "assumed, after one metre [m]",
-        Between{0.0, 1e6});
+        "assumed growth with the square root of distance travelled [m/sqrt(m)]",
+        any);
   visit("odometry.sigma_r_per_m",
         o.odometry.sigma_r_per_m,
-        "assumed, after one metre [rad]",
-        Between{0.0, 1e6});
+        "assumed growth with the square root of distance travelled [rad/sqrt(m)]",
+        any);
+  visit("odometry.sigma_t_per_rad",
+        o.odometry.sigma_t_per_rad,
+        "assumed growth with the square root of the rotation angle [m/sqrt(rad)]",
+        any);
+  visit("odometry.sigma_r_per_rad",
+        o.odometry.sigma_r_per_rad,
+        "assumed growth with the square root of the rotation angle [rad/sqrt(rad)]",
+        any);
   visit("closures.source", o.closures, "file: a list; reference: oracle; estimate: another run");
   visit("closures.file", o.closures_file, "list of closures, or estimate of the other run");
   visit("closures.radius", o.closures_radius, "largest distance of a revisit [m]", Above{0.0});
@@ -101,13 +117,15 @@ void fields(TrajectoryOptions& o, Visit visit) {
         "longest gap interpolated in reference or other run [s]",
         Between{0.0, 1e9});
   false_closure_fields(o.false_closures, visit);
-  visit("seed", o.seed, "of the noise on closures from the reference");
+  visit("seed", o.seed, "seed of the noise on closures from the reference");
+  noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "free text for the results");
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
-/// Files that are needed are named, and fit what else is asked. Throws OptionError.
-void check_combination(const TrajectoryOptions& options);
+/// Files that are needed are named, and no option is `given` that another one disables. Throws
+/// OptionError that names both.
+void check_combination(const TrajectoryOptions& options, const Params& given);
 
 /// The files' content, read.
 struct TrajectoryInputs {
@@ -122,8 +140,11 @@ struct TrajectoryInputs {
 /// reference carry seeded noise; those from another run are that run's measurement as it is. A run
 /// of another scale (path lengths differ by a quarter or more: monocular) is refused, or with
 /// closures.scale local gives closures of Sim(3) (with_local_scale); closures.radius is in its
-/// unit. Throws OptionError, InputError. O(n log n).
-Problem derive_problem(const TrajectoryInputs& inputs, const TrajectoryOptions& options);
+/// unit. `false_closures`, if any, receives how many were added. Throws OptionError, InputError.
+/// O(n log n).
+Problem derive_problem(const TrajectoryInputs& inputs,
+                       const TrajectoryOptions& options,
+                       std::size_t* false_closures = nullptr);
 
 /// Throws OptionError, InputError.
 Sequence load_trajectory(const TrajectoryOptions& options, const DataRoot& root);

@@ -17,6 +17,7 @@
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
 #include "methods/smoothers/spline_regression.hpp"
+#include "methods/smoothers/tracked_frames.hpp"
 #include "methods/smoothers/trend_filter.hpp"
 
 namespace loopbench {
@@ -27,6 +28,7 @@ Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
   return {.planar = 4,
           .spatial = 7,
           .segment = thresholds,
+          .chord_above = std::nullopt,
           .up = manifold::Up::world_z,
           .height_guard = false,
           .frame = manifold::Axes::world,
@@ -103,18 +105,23 @@ std::vector<MethodEntry> methods() {
           "pose_graph_dcs", "pose_graph with dynamic covariance scaling", {.loss = Loss::dcs}),
       method<PoseGraphOptimizer>("pose_graph_gnc_tls",
                                  "pose_graph, graduated to truncated least squares",
-                                 {.gnc = Gnc::tls}),
-      method<PoseGraphOptimizer>(
-          "pose_graph_gnc_gm", "pose_graph, graduated to Geman-McClure", {.gnc = Gnc::gm}),
+                                 {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::tls}),
+      method<PoseGraphOptimizer>("pose_graph_gnc_gm",
+                                 "pose_graph, graduated to Geman-McClure",
+                                 {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::gm}),
       method<Checked<TwoPass>>("two_pass_pcm",
                                "two_pass on the largest set of closures that agree"),
       method<Checked<Dual>>("dual_pcm", "dual on the largest set of closures that agree"),
+      method<Checked<MotionDrift>>("motion_drift_pcm",
+                                   "motion_drift on the largest set of closures that agree"),
       method<Checked<PoseGraphOptimizer>>("pose_graph_pcm",
                                           "pose_graph on the largest set of closures that agree",
                                           {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
 
       // Smoothers: keyframes in, a curve out.
       method<PolylineSmoother>("polyline", "straight lines and great arcs between keyframes"),
+      method<TrackedFrames>("tracked_frames",
+                            "the tracked frames, attached to the keyframes around them"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),
       method<BSplineThrough>("b_spline", "B-spline of order k in time through the keyframes"),
       method<Screw>("screw", "one screw motion from keyframe to keyframe"),

@@ -30,8 +30,8 @@ std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOpt
   return out;
 }
 
-Score magnitudes(const std::string& axis, std::vector<double> metres) {
-  if (!metres.empty()) return {"translation", axis, "m", statistics(std::move(metres))};
+Score magnitudes(const std::string& axis, std::vector<double> metres, int ddof) {
+  if (!metres.empty()) return {"translation", axis, "m", statistics(std::move(metres), ddof)};
   return {"translation", axis, "m", {}, "the reference only moves along `up`"};
 }
 
@@ -56,10 +56,11 @@ std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOpt
     cross.push_back(std::abs(e.dot(N)));
     vertical.push_back(std::abs(e.dot(T.cross(N))));
   }
-  return {magnitudes("along", std::move(along)),
-          magnitudes("off_track", std::move(off_track)),
-          magnitudes("cross", std::move(cross)),
-          magnitudes("vertical", std::move(vertical))};
+  const int ddof = evaluation.protocol.ddof;
+  return {magnitudes("along", std::move(along), ddof),
+          magnitudes("off_track", std::move(off_track), ddof),
+          magnitudes("cross", std::move(cross), ddof),
+          magnitudes("vertical", std::move(vertical), ddof)};
 }
 
 }  // namespace loopbench

@@ -5,15 +5,19 @@
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/ate.hpp"
+#include "metrics/printed_motion.hpp"
 #include "metrics/rpy.hpp"
 
 namespace loopbench {
 
+void check_combination(const ApeOptions& options) {
+  if (options.relation != Relation::point_distance_error_ratio) return;
+  throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
+}
+
 std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) {
+  check_combination(options);
   const Relation relation = options.relation;
-  if (relation == Relation::point_distance_error_ratio) {
-    throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
-  }
   if (relation == Relation::usual) return ate(evaluation, {});
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::translation_part;
@@ -26,6 +30,7 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
   Rpy turns(relation == Relation::rpy ? n : 0);
   std::vector<double> errors(relation == Relation::rpy ? 0 : n);
   const AngleFormula angle = evaluation.protocol.angle;
+  const std::optional<PrintedPoses> printed = printed_for_evo(evaluation);
   const auto set = [&](std::size_t i) {
     const Pose& Q = reference[i].world_from_body;
     const Pose& P = estimate[i].world_from_body;
@@ -34,7 +39,9 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
     } else if (relation == Relation::point_distance) {
       errors[i] = (P.translation - Q.translation).norm();
     } else {
-      errors[i] = measure(relation, way(P, Q), angle);
+      const Pose E =
+          printed ? pose_of(printed_way(printed->estimate[i], printed->reference[i])) : way(P, Q);
+      errors[i] = measure(relation, E, angle);
     }
   };
   in_blocks(n, [&](std::size_t i, std::size_t end) {
@@ -52,8 +59,9 @@ std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
   const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     const auto& [stamp, Q] = evaluation.reference[i];
-    const Pose& P = evaluation.estimate[i].world_from_body;
+    const auto& [estimate_stamp, P] = evaluation.estimate[i];
     out.push_back({stamp,
+                   estimate_stamp,
                    P.translation - Q.translation,
                    has_attitude ? log_so3(P.rotation * Q.rotation.conjugate()) : none});
   }

@@ -96,7 +96,7 @@ Paired interpolate_reference(const Trajectory& reference,
     } else {
       if (after == 0) continue;
       const auto& [t0, pose0] = reference[after - 1];
-      if (t1 - t0 > max_gap) continue;
+      if (t1 - t0 > max_gap + kStampRounding) continue;
       out.reference.push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
     }
     out.estimate.push_back(pose);

@@ -9,6 +9,10 @@
 
 namespace loopbench {
 
+/// What a gap between stamps may exceed its limit by: printed stamps are rounded to microseconds,
+/// and differences of large ones to 2e-7 s [s].
+constexpr double kStampRounding = 1e-6;
+
 struct IndexPair {
   std::size_t reference = 0;
   std::size_t estimate = 0;
@@ -60,7 +64,8 @@ struct Paired {
 };
 
 /// `interpolate`: the reference on its straight lines and great arcs at estimate stamp + offset,
-/// unless that lies outside the reference or between two poses more than max_gap apart; a stamp
+/// unless that lies outside the reference or between two poses more than max_gap (and a microsecond
+/// for the rounding of stamps) apart; a stamp
 /// the reference holds needs no neighbour. O(n + m).
 Paired interpolate_reference(const Trajectory& reference,
                              const Trajectory& estimate,

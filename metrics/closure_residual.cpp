@@ -29,10 +29,11 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
     degrees.push_back(kDegrees * log_so3(E.rotation).norm());
     mahalanobis.push_back(std::sqrt(e.dot(edge.information * e)));
   }
+  const int ddof = evaluation.protocol.ddof;
   // Zero is no merit: closures taken as exact have no residual, false ones neither.
-  return descriptions({{"translation", "3d", "m", statistics(std::move(metres))},
-                       {"rotation", "3d", "deg", statistics(std::move(degrees))},
-                       {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis))}});
+  return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
+                       {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)},
+                       {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}});
 }
 
 }  // namespace loopbench

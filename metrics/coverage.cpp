@@ -9,7 +9,9 @@ std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions&
     score.statistics.count = found.pairs;
     return score;
   };
-  return descriptions({single("share", found.share()), single("span", found.span)});
+  return descriptions({single("share", found.share()),
+                       single("span", found.span),
+                       loopbench::single("bridged", "", "s", found.bridged)});
 }
 
 }  // namespace loopbench

@@ -32,7 +32,7 @@ void look_for_losses(const Trajectory& reference,
                      double offset,
                      const DiagnosticsOptions& o,
                      Diagnostics& out) {
-  for (const Loss& loss : losses(reference, estimate, offset, o.loss, o.standing)) {
+  for (const Loss& loss : losses(reference, stamps(estimate), offset, o.loss, o.standing)) {
     const double duration = loss.end - loss.begin;
     ++out.losses;
     out.lost += duration;

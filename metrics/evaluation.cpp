@@ -5,7 +5,6 @@
 
 #include "datasets/core/params.hpp"
 #include "metrics/losses.hpp"
-#include "metrics/median.hpp"
 #include "metrics/position_only.hpp"
 #include "metrics/projection.hpp"
 
@@ -16,25 +15,28 @@ std::string span_text(double first, double last) {
   return to_text(first) + " .. " + to_text(last) + " s";
 }
 
-/// Pauses of the pairs that are no rhythm of theirs, while the reference went on [s].
-double time_lost(const Trajectory& reference, const Trajectory& pairs) {
-  constexpr double kPause = 2.0;      // [s], that of DiagnosticsOptions
-  constexpr double kStanding = 0.05;  // [m/s], likewise
-  constexpr double kRhythms = 10.0;   // keyframes may lie seconds apart all along
+constexpr double kPause = 2.0;  // [s], that of DiagnosticsOptions
+
+double seconds_in(const std::vector<Loss>& gaps) {
   double sum = 0.0;
-  std::vector<Loss> lost = losses(reference, pairs, 0.0, kPause, kStanding);
-  if (lost.empty()) return sum;
-  std::vector<double> steps;
-  steps.reserve(pairs.size());
-  for (std::size_t i = 1; i < pairs.size(); ++i) {
-    steps.push_back(pairs[i].stamp - pairs[i - 1].stamp);
-  }
-  const double longest = kRhythms * median(steps);
-  for (const Loss& loss : lost) {
-    if (loss.end - loss.begin > longest) sum += loss.end - loss.begin;
-  }
+  for (const Loss& gap : gaps) sum += gap.end - gap.begin;
   return sum;
 }
+
+/// Goes through ascending stamps: is this one inside a gap?
+class InsideGap {
+ public:
+  explicit InsideGap(const std::vector<Loss>& gaps) : gaps_(gaps) {}
+
+  bool operator()(double stamp) {
+    while (next_ < gaps_.size() && gaps_[next_].end <= stamp) ++next_;
+    return next_ < gaps_.size() && gaps_[next_].begin < stamp;
+  }
+
+ private:
+  const std::vector<Loss>& gaps_;
+  std::size_t next_ = 0;
+};
 
 void require_attitudes(const Paired& paired, Align align) {
   if (align != Align::origin && align != Align::posyaw_origin) return;
@@ -62,7 +64,7 @@ Evaluation judge(Paired paired,
   out.coverage.possible = possible;
   const double whole = reference.back().stamp - reference.front().stamp;
   const double judged = paired.reference.back().stamp - paired.reference.front().stamp -
-                        time_lost(reference, paired.reference);
+                        seconds_in(tracking_gaps(reference, stamps(paired.reference), 0.0, kPause));
   out.coverage.span = whole > 0.0 ? judged / whole : 1.0;
   out.estimate = moved(out.alignment, std::move(paired.estimate));
   out.reference = std::move(paired.reference);
@@ -102,16 +104,26 @@ Evaluation evaluate(const Trajectory& reference,
                     const Curve& estimate,
                     const std::vector<double>& keyframe_stamps,
                     Times times,
-                    const Protocol& protocol) {
+                    const Protocol& protocol,
+                    const std::vector<double>& tracked) {
   if (times == Times::keyframes) {
     return evaluate(reference, estimate.sample(keyframe_stamps), protocol);
   }
   if (reference.empty()) throw std::runtime_error("the reference has no poses");
+  const double limit = protocol.max_estimate_gap;
+  const std::vector<Loss> gaps = tracking_gaps(reference,
+                                               tracked.empty() ? keyframe_stamps : tracked,
+                                               protocol.offset,
+                                               limit > 0.0 ? limit : kPause);
+  InsideGap is_bridged(gaps);
+  std::size_t possible = 0;
   Paired paired;
   std::vector<double> wanted;  // the reference's stamps on the estimate's clock
   for (const StampedPose& pose : reference) {
     const double stamp = pose.stamp - protocol.offset;
     if (stamp < estimate.start() || stamp > estimate.end()) continue;
+    ++possible;
+    if (limit > 0.0 && is_bridged(pose.stamp)) continue;
     wanted.push_back(stamp);
     paired.reference.push_back(pose);
   }
@@ -123,7 +135,8 @@ Evaluation evaluate(const Trajectory& reference,
   }
   paired.estimate = estimate.sample(wanted);
   Trajectory whole = is_of_whole_files(protocol.pairs) ? paired.estimate : Trajectory();
-  Evaluation out = judge(std::move(paired), wanted.size(), reference, protocol);
+  Evaluation out = judge(std::move(paired), possible, reference, protocol);
+  out.coverage.bridged = seconds_in(gaps);
   if (is_of_whole_files(protocol.pairs)) out.whole = {reference, std::move(whole)};
   return out;
 }

@@ -1,6 +1,7 @@
 /// An estimate laid beside its reference: paired, aligned, with what was lost on the way.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "datasets/core/curve.hpp"
@@ -18,10 +19,16 @@ struct Coverage {
   /// First to last judged reference stamp, less the losses in between (pauses above 2 s and ten
   /// times the usual step while the reference went on), over the reference's duration, 0..1.
   double span = 0.0;
+  /// Dense: time in tracking gaps (losses.hpp) that the curve bridges without a measurement [s]. It
+  /// is judged only where the protocol's max_estimate_gap is 0.
+  double bridged = 0.0;
 
   double share() const {
     return possible == 0 ? 0.0 : static_cast<double>(pairs) / static_cast<double>(possible);
   }
+
+  /// The smaller of both shares, by which coverage is judged.
+  double least() const { return std::min(share(), span); }
 };
 
 /// reference[i] and estimate[i] belong together and share reference[i].stamp as their time; the
@@ -48,12 +55,15 @@ Evaluation evaluate(const Trajectory& reference,
                     const Protocol& protocol);
 
 /// The same for a curve, at its keyframes or densely at the reference's times: there association
-/// is not used, the curve is asked at every reference stamp (minus offset) inside its span.
+/// is not used, the curve is asked at every reference stamp (minus offset) inside its span, except
+/// in tracking gaps longer than max_estimate_gap: between `tracked` stamps (empty: the keyframes')
+/// while the reference moved. Such stamps count as possible, not as pairs.
 Evaluation evaluate(const Trajectory& reference,
                     const Curve& estimate,
                     const std::vector<double>& keyframe_stamps,
                     Times times,
-                    const Protocol& protocol);
+                    const Protocol& protocol,
+                    const std::vector<double>& tracked = {});
 
 /// Why numbers that use attitudes mean nothing here (position_only.hpp), or empty when they do.
 /// O(n).

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "datasets/core/polyline.hpp"
+#include "metrics/losses.hpp"
 #include "metrics/pair_search.hpp"
 
 namespace loopbench {
@@ -29,28 +30,26 @@ Errors errors(const Evaluation& evaluation) {
   return out;
 }
 
+double quoted(const Statistics& s, Statistic which) {
+  if (which == Statistic::mean) return s.mean;
+  return which == Statistic::median ? s.median : s.rmse;
+}
+
 Score gain(const std::string& relation,
            const std::string& axis,
+           const Protocol& protocol,
            std::vector<double> before,
            std::vector<double> after) {
   const auto undefined = [&](const char* why) {
     return directed({relation, axis, "%", {}, why}, Better::higher);
   };
   if (before.empty()) return undefined("no pose lies there");
-  const Statistics b = statistics(std::move(before));
-  const Statistics a = statistics(std::move(after));
-  if (b.rmse == 0.0) return undefined("there was no error before");
-  Score out = directed({relation, axis, "%", {}}, Better::higher);
-  out.statistics.count = a.count;
-  for (double Statistics::*number : {&Statistics::rmse,
-                                     &Statistics::mean,
-                                     &Statistics::median,
-                                     &Statistics::std,
-                                     &Statistics::min,
-                                     &Statistics::max,
-                                     &Statistics::sse}) {
-    out.statistics.*number = b.*number == 0.0 ? 0.0 : 100.0 * (1.0 - a.*number / b.*number);
-  }
+  const std::size_t count = after.size();
+  const double b = quoted(statistics(std::move(before), protocol.ddof), protocol.statistic);
+  const double a = quoted(statistics(std::move(after), protocol.ddof), protocol.statistic);
+  if (b == 0.0) return undefined("there was no error before");
+  Score out = directed(single(relation, axis, "%", 100.0 * (1.0 - a / b)), Better::higher);
+  out.statistics.count = count;
   return out;
 }
 
@@ -68,11 +67,14 @@ std::vector<double> third(const std::vector<double>& errors,
 }
 
 Evaluation judged_before(const Context& context) {
-  const Trajectory& keyframes =
-      needed(context.problem, "gain_along", "keyframes before correction").keyframes;
+  const Problem& problem = needed(context.problem, "gain_along", "keyframes before correction");
   const Trajectory& reference = needed(context.reference, "gain_along", "the whole reference");
-  return evaluate(
-      reference, Polyline(keyframes), stamps(keyframes), context.times, context.protocol);
+  return evaluate(reference,
+                  Polyline(problem.keyframes),
+                  stamps(problem.keyframes),
+                  context.times,
+                  context.protocol,
+                  tracked_stamps(problem));
 }
 
 }  // namespace
@@ -88,17 +90,19 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
   const Errors after = errors(evaluation);
   const std::vector<double> way = accumulated_distances(evaluation.reference);
 
-  std::vector<Score> out{gain("translation", "3d", before.metres, after.metres)};
+  const Protocol& rules = evaluation.protocol;
+  std::vector<Score> out{gain("translation", "3d", rules, before.metres, after.metres)};
   const std::array names{"x", "y", "z"};
   for (std::size_t a = 0; a < 3; ++a)
-    out.push_back(gain("translation", names[a], before.axes[a], after.axes[a]));
+    out.push_back(gain("translation", names[a], rules, before.axes[a], after.axes[a]));
   const std::string why = why_no_attitude(evaluation);
-  out.push_back(why.empty() ? gain("angle", "3d", before.radians, after.radians)
+  out.push_back(why.empty() ? gain("angle", "3d", rules, before.radians, after.radians)
                             : directed({"angle", "3d", "%", {}, why}, Better::higher));
   const std::array thirds{"first_third", "middle_third", "last_third"};
   for (int k = 0; k < 3; ++k) {
     out.push_back(gain(thirds[static_cast<std::size_t>(k)],
                        "3d",
+                       rules,
                        third(before.metres, way, k),
                        third(after.metres, way, k)));
   }

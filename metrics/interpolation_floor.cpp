@@ -4,6 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "metrics/angle.hpp"
+#include "metrics/association.hpp"
 #include "metrics/natural_cubic.hpp"
 
 namespace loopbench {
@@ -20,7 +21,8 @@ std::vector<Trajectory> stretches(const Trajectory& reference,
     const bool is_inside = after < reference.size() && (after > 0 || reference[0].stamp == stamp);
     if (is_inside && reference[after].stamp == stamp) {
       out.back().push_back(reference[after]);
-    } else if (is_inside && reference[after].stamp - reference[after - 1].stamp <= max_gap) {
+    } else if (is_inside &&
+               reference[after].stamp - reference[after - 1].stamp <= max_gap + kStampRounding) {
       const auto& [t0, pose0] = reference[after - 1];
       const auto& [t1, pose1] = reference[after];
       out.back().push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
@@ -79,10 +81,11 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
   if (!floor.has_between) {
     throw Undefined("interpolation_floor: the reference has no pose between keyframes");
   }
+  const int ddof = evaluation.protocol.ddof;
   Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};
-  if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp));
-  return descriptions({{"polyline", "3d", "m", statistics(std::move(floor.polyline))},
-                       {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic))},
+  if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp), ddof);
+  return descriptions({{"polyline", "3d", "m", statistics(std::move(floor.polyline), ddof)},
+                       {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic), ddof)},
                        std::move(slerp)});
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "datasets/core/polyline.hpp"
+#include "metrics/association.hpp"
 #include "metrics/divided_differences.hpp"
 
 namespace loopbench {
@@ -62,7 +63,7 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
     // Gaps that begin before the stretch ends; the last of them is the only one that can reach it.
     while (looked + 1 < reference.size() && reference[looked].stamp < theirs[i + 3].stamp) {
       const double gap = reference[looked + 1].stamp - reference[looked].stamp;
-      if (gap > options.max_gap) gap_until = reference[looked + 1].stamp;
+      if (gap > options.max_gap + kStampRounding) gap_until = reference[looked + 1].stamp;
       ++looked;
     }
     if (gap_until > theirs[i].stamp) continue;
@@ -73,8 +74,9 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
     throw Undefined("jerk: curve and reference share no four samples at " + to_text(options.rate) +
                     " a second without a gap");
   }
-  Score estimate{"estimate", "3d", "m/s^3", statistics(std::move(estimate_jerk))};
-  Score truth{"reference", "3d", "m/s^3", statistics(std::move(reference_jerk))};
+  const int ddof = evaluation.protocol.ddof;
+  Score estimate{"estimate", "3d", "m/s^3", statistics(std::move(estimate_jerk), ddof)};
+  Score truth{"reference", "3d", "m/s^3", statistics(std::move(reference_jerk), ddof)};
   Score ratio{"ratio", "3d", "1", {}, "the reference has no jerk to compare with"};
   if (truth.statistics.rmse > 0.0) {
     ratio = single("ratio", "3d", "1", estimate.statistics.rmse / truth.statistics.rmse);

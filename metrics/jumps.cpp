@@ -71,9 +71,10 @@ std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& optio
     velocity.push_back(scale * (right.velocity - left.velocity).norm());
     acceleration.push_back(scale * (right.acceleration - left.acceleration).norm());
   }
-  return {{"position", "3d", "m", statistics(std::move(position))},
-          {"velocity", "3d", "m/s", statistics(std::move(velocity))},
-          {"acceleration", "3d", "m/s^2", statistics(std::move(acceleration))}};
+  const int ddof = evaluation.protocol.ddof;
+  return {{"position", "3d", "m", statistics(std::move(position), ddof)},
+          {"velocity", "3d", "m/s", statistics(std::move(velocity), ddof)},
+          {"acceleration", "3d", "m/s^2", statistics(std::move(acceleration), ddof)}};
 }
 
 }  // namespace loopbench

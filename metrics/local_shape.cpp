@@ -21,9 +21,10 @@ std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOpt
     metres.push_back(E.translation.norm());
     degrees.push_back(kDegrees * log_so3(E.rotation).norm());
   }
+  const int ddof = evaluation.protocol.ddof;
   // Measured from the uncorrected keyframes, not from the reference.
-  return descriptions({{"translation", "3d", "m", statistics(std::move(metres))},
-                       {"rotation", "3d", "deg", statistics(std::move(degrees))}});
+  return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
+                       {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)}});
 }
 
 }  // namespace loopbench

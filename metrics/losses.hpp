@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "datasets/core/trajectory.hpp"
+#include "datasets/core/problem.hpp"
 
 namespace loopbench {
 
@@ -13,13 +13,23 @@ struct Loss {
   double end = 0.0;
 };
 
-/// Pauses of the estimate longer than `longest_pause` [s] during which the reference, which has
+/// Pauses between the estimate's stamps longer than `longest_pause` [s] during which the reference, which has
 /// poses there, moved away from where it was faster than `standing` [m/s] on average. Standing
 /// still makes no keyframes, and a hole in the reference is no fault of the estimate. O(n + m).
 std::vector<Loss> losses(const Trajectory& reference,
-                         const Trajectory& estimate,
+                         const std::vector<double>& estimate,
                          double offset,
                          double longest_pause,
                          double standing);
+
+/// Those of the losses longer than `longest_pause` [s] that are also ten times the median interval
+/// between the stamps: keyframes may lie seconds apart throughout. O(n + m).
+std::vector<Loss> tracking_gaps(const Trajectory& reference,
+                                const std::vector<double>& estimate,
+                                double offset,
+                                double longest_pause);
+
+/// Stamps at which the problem has a pose: its keyframes and the frames between them, ascending.
+std::vector<double> tracked_stamps(const Problem& problem);
 
 }  // namespace loopbench

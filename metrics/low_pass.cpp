@@ -4,10 +4,10 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "metrics/association.hpp"
+
 namespace loopbench {
 namespace {
-
-constexpr double kStampRounding = 1e-6;  // [s]: a grid of 10 ms is not exact at stamps of 1e9 s
 
 /// Centred means of values[begin..end), which has no hole, as differences of running sums: both
 /// ends of the window only move forward, even where it shrinks.

@@ -45,22 +45,36 @@ struct MetricEntry {
   std::string summary;
   std::vector<OptionInfo> options;
   std::function<void(const Params&)> check;  ///< throws OptionError; judges nothing
+  /// Throws OptionError where the options do not fit the protocol; null: they fit any.
+  std::function<void(const Params&, const Protocol&)> check_protocol = {};
   /// Throws OptionError on bad options, Undefined when the sequence has nothing to measure,
   /// std::runtime_error when the estimate cannot be measured.
   std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
   bool needs_reference = true;  ///< false: judges from the context alone, also without a reference
 };
 
-/// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry.
+/// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry. What no field
+/// can reject alone is rejected by `void check_combination(const Options&)`, what does not fit a
+/// protocol by `void check_protocol(const Options&, const Protocol&)`, where there are these.
 template <class Options, class Function>
 MetricEntry metric(std::string name, std::string summary, Function score) {
-  return {std::move(name),
-          std::move(summary),
-          describe(Options{}),
-          [](const Params& given) { with(Options{}, given); },
-          [score](const Evaluation& evaluation, const Params& given) {
-            return score(evaluation, with(Options{}, given));
-          }};
+  MetricEntry out;
+  out.name = std::move(name);
+  out.summary = std::move(summary);
+  out.options = describe(Options{});
+  out.check = [](const Params& given) {
+    const Options options = with(Options{}, given);
+    if constexpr (requires { check_combination(options); }) check_combination(options);
+  };
+  if constexpr (requires(Options o, Protocol p) { check_protocol(o, p); }) {
+    out.check_protocol = [](const Params& given, const Protocol& protocol) {
+      check_protocol(with(Options{}, given), protocol);
+    };
+  }
+  out.score = [score](const Evaluation& evaluation, const Params& given) {
+    return score(evaluation, with(Options{}, given));
+  };
+  return out;
 }
 
 /// The same for a metric that looks at the problem and the estimate only.

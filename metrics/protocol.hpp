@@ -161,6 +161,7 @@ struct Protocol {
   Association association = Association::nearest;
   double max_diff = 0.02;
   double max_gap = 0.1;
+  double max_estimate_gap = 2.0;
   double offset = 0.0;
   Align align = Align::se3;
   int align_first = 0;
@@ -169,6 +170,7 @@ struct Protocol {
   int max_pairs = 10'000;
   PairsFrom pairs_from = PairsFrom::reference;
   double tolerance = 0.1;
+  int min_pairs = 10;
   ErrorForm form = ErrorForm::evo;
   AngleFormula angle = AngleFormula::rotation_vector;
   SegmentRule segments{};
@@ -181,6 +183,10 @@ void fields(Protocol& o, Visit visit) {
   visit("association", o.association, "how keyframes and reference are paired in time");
   visit("max_diff", o.max_diff, "largest time difference of a pair [s]", Between{0.0});
   visit("max_gap", o.max_gap, "largest reference gap to interpolate over [s]", Above{0.0});
+  visit("max_estimate_gap",
+        o.max_estimate_gap,
+        "longest tracking gap that is judged densely, 0 for any [s]",
+        Between{0.0});
   visit("offset", o.offset, "added to the estimate's stamps [s]");
   visit("align", o.align, "what moves the estimate onto the reference");
   visit("align_first", o.align_first, "pairs the alignment sees, 0 for all", Between{0.0});
@@ -189,6 +195,7 @@ void fields(Protocol& o, Visit visit) {
   visit("max_pairs", o.max_pairs, "of tum's pairs, more are drawn from; 0 for all", Between{0.0});
   visit("pairs_from", o.pairs_from, "whose path or turning measures a stretch");
   visit("tolerance", o.tolerance, "how far a stretch may miss, as part of it [-]", Between{0.0});
+  visit("min_pairs", o.min_pairs, "fewest pairs that give a relative error", Between{1.0});
   visit("form", o.form, "the relative error of two motions");
   visit("angle", o.angle, "how the angle of a relative error is taken");
   visit("segments.lengths", o.segments.lengths, "of sub-trajectories: metres, or % of the path");

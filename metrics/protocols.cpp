@@ -7,8 +7,15 @@
 namespace loopbench {
 namespace {
 
-Protocol evo() {
+/// What the other tools share: any number of pairs gives a relative error.
+Protocol tool() {
   Protocol p;
+  p.min_pairs = 1;
+  return p;
+}
+
+Protocol evo() {
+  Protocol p = tool();
   p.association = Association::evo;
   p.max_diff = 0.01;
   p.align = Align::none;
@@ -18,7 +25,7 @@ Protocol evo() {
 }
 
 Protocol tum() {
-  Protocol p;
+  Protocol p = tool();
   p.association = Association::tum;
   p.pairs = PairRule::tum;
   p.pairs_from = PairsFrom::estimate;
@@ -28,7 +35,7 @@ Protocol tum() {
 }
 
 Protocol rpg() {
-  Protocol p;
+  Protocol p = tool();
   p.association = Association::tum;
   p.align = Align::sim3;
   p.angle = AngleFormula::trace;
@@ -45,7 +52,7 @@ Protocol rpg_fixed() {
 }
 
 Protocol kitti() {
-  Protocol p;
+  Protocol p = tool();
   p.association = Association::index;
   p.align = Align::none;
   p.form = ErrorForm::kitti;
@@ -66,7 +73,7 @@ Protocol kitti_double() {
 }
 
 Protocol ov_eval() {
-  Protocol p;
+  Protocol p = tool();
   p.association = Association::ov_eval;
   p.align = Align::posyaw;
   p.segments = {.lengths = "8 16 24 32 40 48", .tolerance = "0.5"};
@@ -75,7 +82,7 @@ Protocol ov_eval() {
 }
 
 Protocol eth3d() {
-  Protocol p;
+  Protocol p = tool();
   p.association = Association::interpolate;
   p.max_gap = 1.0 / 75.0;
   p.form = ErrorForm::tum;
@@ -103,7 +110,7 @@ void check_used(const Protocol& rules, const Params& changes) {
 std::vector<ProtocolEntry> protocols() {
   return {
       {"loopbench",
-       "2",
+       "3",
        "ours, for new work: one-to-one nearest stamps in order, SE(3), pairs of the reference",
        Protocol{}},
       {"evo",

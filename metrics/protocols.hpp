@@ -20,7 +20,7 @@ std::vector<ProtocolEntry> protocols();
 /// A protocol as it is used: where it comes from and what was changed.
 struct NamedProtocol {
   std::string name = "loopbench";
-  std::string version = "2";
+  std::string version = "3";
   Params changes;  ///< those that differ from the named one
   Protocol rules;
 

@@ -6,6 +6,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/angle.hpp"
 #include "metrics/pairs/tum_motions.hpp"
+#include "metrics/printed_motion.hpp"
 #include "metrics/rpy.hpp"
 
 namespace loopbench {
@@ -18,6 +19,19 @@ struct Motions {
   const std::vector<FromTo>& pairs;
   const Protocol& protocol;
   std::string why_no_attitude;  ///< set for positions without attitude: what uses it means nothing
+  std::optional<PrintedPoses> printed{};  ///< beside both, where their digits count
+
+  Pose error(std::size_t i, std::size_t j) const {
+    if (printed) {
+      const auto& [Q, P] = *printed;
+      return pose_of(printed_way(printed_way(Q[i], Q[j]), printed_way(P[i], P[j])));
+    }
+    return motion_error(protocol.form,
+                        reference[i].world_from_body,
+                        reference[j].world_from_body,
+                        estimate[i].world_from_body,
+                        estimate[j].world_from_body);
+  }
 
   /// visit(k, E, Q_i, Q_j, P_i, P_j), in blocks on several threads: it may write to slot k only.
   template <class Visit>
@@ -29,7 +43,7 @@ struct Motions {
         const Pose& Q_j = reference[j].world_from_body;
         const Pose& P_i = estimate[i].world_from_body;
         const Pose& P_j = estimate[j].world_from_body;
-        visit(k, motion_error(protocol.form, Q_i, Q_j, P_i, P_j), Q_i, Q_j, P_i, P_j);
+        visit(k, error(i, j), Q_i, Q_j, P_i, P_j);
       }
     });
   }
@@ -107,20 +121,33 @@ std::vector<double> distances(const Motions& motions, Relation relation) {
   return out;
 }
 
-/// Who is to blame when no two poses are that far apart.
+/// Who is to blame when too few poses are that far apart.
 enum class Measured { reference, estimate };
+
+void require_pairs(std::size_t pairs,
+                   std::size_t poses,
+                   double min_pairs,
+                   const RpeOptions& options,
+                   Measured measured) {
+  if (pairs > 0 && static_cast<double>(pairs) >= min_pairs) return;
+  const std::string stretch = to_text(options.delta) + " " + to_text(options.unit);
+  const std::string found = std::to_string(pairs) + (pairs == 1 ? " pair " : " pairs ");
+  const std::string why =
+      pairs == 0
+          ? "rpe: none of " + std::to_string(poses) + " poses is " + stretch + " before another"
+          : "rpe: found " + found + stretch + " apart among " + std::to_string(poses) +
+                " poses, fewer than min_pairs = " +
+                std::to_string(std::llround(std::ceil(min_pairs)));
+  if (measured == Measured::reference) throw Undefined(why);
+  throw std::runtime_error(why);
+}
 
 std::vector<Score> scores(const Motions& motions,
                           std::size_t poses,
                           const RpeOptions& options,
                           Measured measured) {
-  if (motions.pairs.empty()) {
-    const std::string why = "rpe: none of " + std::to_string(poses) + " poses is " +
-                            to_text(options.delta) + " " + to_text(options.unit) +
-                            " before another";
-    if (measured == Measured::reference) throw Undefined(why);
-    throw std::runtime_error(why);
-  }
+  const double min_pairs = options.min_pairs.value_or(motions.protocol.min_pairs);
+  require_pairs(motions.pairs.size(), poses, min_pairs, options, measured);
   const Relation relation = options.relation;
   if (relation == Relation::usual) return usual(motions, options.frame);
   const std::string& why = motions.why_no_attitude;
@@ -131,6 +158,7 @@ std::vector<Score> scores(const Motions& motions,
   std::vector<double> errors;
   if (is_distance) {
     errors = distances(motions, relation);
+    require_pairs(errors.size(), poses, min_pairs, options, Measured::reference);
   } else {
     errors.resize(motions.pairs.size());
     motions.each([&](std::size_t k, const Pose& E, const auto&...) {
@@ -147,8 +175,8 @@ PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
   if (options.pairs == RpePairs::protocol) return protocol.pairs;
   if (options.pairs == RpePairs::all) return PairRule::all;
   if (options.pairs == RpePairs::consecutive) return PairRule::consecutive;
-  if (is_of_whole_files(protocol.pairs)) return PairRule::tum;
-  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+  check_protocol(options, protocol);
+  return PairRule::tum;
 }
 
 TumMotions random_motions(const Paired& whole,
@@ -164,6 +192,15 @@ TumMotions random_motions(const Paired& whole,
 }
 
 }  // namespace
+
+void check_combination(const RpeOptions& options) {
+  check(Stretch{options.delta, options.unit, options.tolerance.value_or(0.0)});
+}
+
+void check_protocol(const RpeOptions& options, const Protocol& protocol) {
+  if (options.pairs != RpePairs::tum || is_of_whole_files(protocol.pairs)) return;
+  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+}
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
   const Protocol& protocol = evaluation.protocol;
@@ -193,11 +230,15 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
                     is_of_reference ? evaluation.reference : evaluation.estimate,
                     rule,
                     stretch);
-  return scores(
-      {evaluation.reference, evaluation.estimate, pairs, protocol, why_no_attitude(evaluation)},
-      evaluation.estimate.size(),
-      options,
-      is_in_time || is_of_reference ? Measured::reference : Measured::estimate);
+  return scores({evaluation.reference,
+                 evaluation.estimate,
+                 pairs,
+                 protocol,
+                 why_no_attitude(evaluation),
+                 printed_for_evo(evaluation)},
+                evaluation.estimate.size(),
+                options,
+                is_in_time || is_of_reference ? Measured::reference : Measured::estimate);
 }
 
 }  // namespace loopbench

@@ -20,11 +20,11 @@ Series error_series(const Evaluation& evaluation) {
   return out;
 }
 
-Statistics magnitudes(const std::vector<Vector3>& vectors) {
+Statistics magnitudes(const std::vector<Vector3>& vectors, int ddof) {
   std::vector<double> out;
   out.reserve(vectors.size());
   for (const Vector3& vector : vectors) out.push_back(vector.norm());
-  return statistics(std::move(out));
+  return statistics(std::move(out), ddof);
 }
 
 }  // namespace
@@ -35,14 +35,16 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
   if (errors.times.size() < 2) {
     throw Undefined("smoothing_headroom: needs two poses at different times");
   }
+  const int ddof = evaluation.protocol.ddof;
   const bool is_sharp = options.filter == Filter::sharp;
   if (is_sharp) errors = resampled(errors, std::bit_ceil(2 * errors.times.size()));
-  const Statistics before = magnitudes(errors.values);
+  const Statistics before = magnitudes(errors.values, ddof);
   if (before.rmse == 0.0) {
     throw Undefined("smoothing_headroom: there is no error to take away");
   }
-  const Statistics after = magnitudes(is_sharp ? without_fast(errors, options.window)
-                                               : moving_average(errors, options.window));
+  const Statistics after = magnitudes(
+      is_sharp ? without_fast(errors, options.window) : moving_average(errors, options.window),
+      ddof);
   return descriptions({{"before", "3d", "m", before},
                        {"after", "3d", "m", after},
                        single("gain", "3d", "%", 100.0 * (1.0 - after.rmse / before.rmse))});

@@ -23,11 +23,15 @@ struct Stretch {
   explicit Stretch(const Edge& edge)
       : step(edge.from_from_to), scale(edge.scale), covariance(inverse(edge.information)) {}
 
+  /// The edge's lengths, those of its covariance too, are turned into the unit of the first pose.
   void append(const Edge& edge) {
-    const Matrix6 carry = adjoint(edge.from_from_to.inverse());
-    covariance = carry * covariance * carry.transpose() + inverse(edge.information);
-    step =
-        normalized(step * Pose{edge.from_from_to.rotation, scale * edge.from_from_to.translation});
+    const Pose next{edge.from_from_to.rotation, scale * edge.from_from_to.translation};
+    const Matrix6 carry = adjoint(next.inverse());
+    Matrix6 added = inverse(edge.information);
+    added.topRows<3>() *= scale;
+    added.leftCols<3>() *= scale;
+    covariance = carry * covariance * carry.transpose() + added;
+    step = normalized(step * next);
     scale *= edge.scale;
   }
 

@@ -10,7 +10,8 @@ namespace loopbench {
 
 /// a: i -> j, b: j -> k gives i -> k. Covariances add after a's is carried to k by the adjoint:
 ///   S_ik = Ad(b^-1) S_ij Ad(b^-1)^T + S_jk,
-/// first order in the noise. Scales multiply, and b's length unit is turned into a's.
+/// first order in the noise. Scales multiply, and the lengths of b and of S_jk are turned from the
+/// unit of j into that of i.
 /// Throws std::invalid_argument when an information is not positive definite.
 Edge compose(const Edge& a, const Edge& b);
 

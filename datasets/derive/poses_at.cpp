@@ -7,6 +7,11 @@
 #include "datasets/core/knot_span.hpp"
 
 namespace loopbench {
+namespace {
+
+constexpr double kStampRounding = 1e-6;  // [s]; printed stamps, and differences of large ones
+
+}  // namespace
 
 std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, double max_diff) {
   const auto after = std::lower_bound(
@@ -36,7 +41,7 @@ std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
     if (run.size() > 1 && time >= knots.front() && time <= knots.back()) {
       const std::size_t i = span.find(time);
       const double gap = knots[i + 1] - knots[i];
-      if (gap <= reach.max_gap) {
+      if (gap <= reach.max_gap + kStampRounding) {
         out[k] = interpolate(
             run[i].world_from_body, run[i + 1].world_from_body, (time - knots[i]) / gap);
         continue;

@@ -19,7 +19,7 @@ Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root, const Front
 }
 
 std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
-  return {
+  std::vector<DatasetEntry> out{
       dataset<RenderedRoomOptions>("rendered_room",
                                    "images of a room that does not exist, tracked",
                                    [hooks](const RenderedRoomOptions& options, const DataRoot&) {
@@ -31,6 +31,13 @@ std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
                              return load_rgbd(options, root, hooks);
                            }),
   };
+  // Tracking takes minutes: the lists of images and the intrinsics tell enough.
+  out[0].inspect = [](const Params&, const DataRoot&) {};
+  out[1].inspect = [](const Params& given, const DataRoot& root) {
+    const RgbdOptions options = with(RgbdOptions{}, given);
+    open_rgbd_folder(root.find(options.path), options.folder);
+  };
+  return out;
 }
 
 }  // namespace loopbench

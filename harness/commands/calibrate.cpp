@@ -64,6 +64,8 @@ int calibrate(const CalibrateArguments& arguments) {
   for (const Cell& cell : wanted) {
     loaded.push_back(sequences.get(cell));
     labels.push_back(sweep.datasets[cell.dataset].label);
+    const std::string& source = sequences.facts(cell)->source;
+    if (std::ranges::count(out.sources, source) == 0) out.sources.push_back(source);
   }
   out.sequences = residuals_of(loaded, labels, out.every);
   if (out.sequences.empty()) {
@@ -82,7 +84,7 @@ int calibrate(const CalibrateArguments& arguments) {
   }
   const std::string text = calibration_yaml(out);
   fmt::print("{}", text);
-  if (!arguments.out.empty()) write_file(arguments.out, text);
+  if (!arguments.out.empty() && !is_dash(arguments.out)) write_file(arguments.out, text);
   return kExitOk;
 }
 

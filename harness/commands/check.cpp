@@ -20,6 +20,7 @@ struct CheckArguments {
   std::string markdown;
   bool update = false;
   bool part = false;
+  bool allow_dirty = false;
   std::optional<double> time;  ///< relative limit on times to write with an update
 };
 
@@ -35,9 +36,17 @@ int update(const CheckArguments& arguments) {
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
   baseline.made_by = made_by(arguments.store);
+  if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
+    throw InputError(arguments.store +
+                     ": was computed by a build with uncommitted changes, which nobody can build "
+                     "again; commit, build and run, or accept it with --allow-dirty");
+  }
   refuse_to_overwrite({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
-  fmt::print("{}: {} cells written\n", arguments.baseline, baseline.snapshot.cells.size());
+  fmt::print(is_dash(arguments.baseline) ? stderr : stdout,
+             "{}: {} cells written\n",
+             arguments.baseline,
+             baseline.snapshot.cells.size());
   return kExitOk;
 }
 
@@ -45,6 +54,12 @@ int check_store(const CheckArguments& arguments) {
   if (arguments.update) return update(arguments);
   if (arguments.time) throw InputError("--time: is a limit to write, so it goes with --update");
   const Baseline baseline = read_baseline(arguments.baseline);
+  if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
+    throw InputError(arguments.baseline +
+                     ": made_by.source: was written from a build with uncommitted changes (dirty), "
+                     "expected clean; write it anew with --update, or accept it with "
+                     "--allow-dirty");
+  }
   const Snapshot now = snapshot(arguments.store, baseline.limits);
   GateReport report;
   try {
@@ -58,7 +73,8 @@ int check_store(const CheckArguments& arguments) {
   }
   if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));
-  fmt::print("{}", text);
+  const bool is_taken = is_dash(arguments.junit) || is_dash(arguments.markdown);
+  fmt::print(is_taken ? stderr : stdout, "{}", text);
   return report.passes() ? kExitOk : kExitRegression;
 }
 
@@ -80,6 +96,9 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_flag("--part",
                     arguments->part,
                     "Only a part of the sweep was run: cells not there are not missed");
+  command->add_flag("--allow-dirty",
+                    arguments->allow_dirty,
+                    "Accept a baseline from a build with uncommitted changes");
   command
       ->add_option("--time",
                    arguments->time,

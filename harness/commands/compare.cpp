@@ -5,7 +5,6 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/compare/stored_intervals.hpp"
 #include "harness/export/comparison.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/where.hpp"
@@ -57,7 +56,6 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
 
 int print_comparison(CompareArguments arguments) {
   std::vector<Record> records = all_records(arguments.store);
-  const std::vector<Record> whole = records;
   keep_where(records, arguments.where);
   if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
     throw InputError(arguments.store + ": no score is left to compare" +
@@ -70,8 +68,7 @@ int print_comparison(CompareArguments arguments) {
   if (arguments.options.baseline.empty()) {
     throw InputError(arguments.store + ": the sweep has no baseline; --baseline METHOD names one");
   }
-  std::vector<Comparison> comparisons = compare(records, arguments.options);
-  add_intervals_from_traces(comparisons, whole, arguments.store);
+  const std::vector<Comparison> comparisons = compare(records, arguments.options);
   deliver(text(comparisons, arguments.format),
           arguments.format,
           "comparisons",
@@ -97,14 +94,27 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
       ->capture_default_str();
-  command->add_option("--alpha", arguments->options.alpha, "Level of tests and intervals")
+  command
+      ->add_option("--alpha",
+                   arguments->options.alpha,
+                   "Chance of a false claim; 1 - alpha is the level of intervals")
       ->check(finite_number())
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
-  const std::map<std::string, Over> units{{"runs", Over::runs}, {"sequences", Over::sequences}};
+  const std::map<std::string, Over> units{
+      {"groups", Over::groups}, {"runs", Over::runs}, {"sequences", Over::sequences}};
   command
-      ->add_option("--over", arguments->options.over, "Observations: every run, or sequence means")
+      ->add_option("--over",
+                   arguments->options.over,
+                   "Independent observations: groups of runs, every run, or sequences")
       ->transform(one_of("observation", units));
+  command
+      ->add_option("--relevant",
+                   arguments->options.relevant,
+                   "Largest relative difference that counts as a tie [-]")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
   command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
                                                     {"terminal", ExportFormat::terminal},
@@ -113,7 +123,10 @@ void add_compare(CLI::App& app, int& exit_code) {
                                                     {"json", ExportFormat::json}};
   command->add_option("--format", arguments->format, "How to print")
       ->transform(one_of("format", formats));
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }

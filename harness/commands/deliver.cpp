@@ -15,7 +15,8 @@ void deliver(const std::string& text,
              const std::string& key,
              const std::filesystem::path& store,
              const std::string& file) {
-  const bool is_read_by_a_person = file.empty() && isatty(STDOUT_FILENO) == 1;
+  const bool is_printed = file.empty() || is_dash(file);
+  const bool is_read_by_a_person = is_printed && isatty(STDOUT_FILENO) == 1;
   std::string out = text;
   const Origin origin = read_origin(store);
   if (format == ExportFormat::json) {
@@ -27,7 +28,7 @@ void deliver(const std::string& text,
   } else if (format == ExportFormat::latex && !is_read_by_a_person) {
     out += origin_lines(origin, "% ");
   }
-  if (file.empty()) {
+  if (is_printed) {
     fmt::print("{}", out);
   } else {
     refuse_to_overwrite({store_file(store)}, file);
@@ -35,7 +36,8 @@ void deliver(const std::string& text,
   }
   if (format != ExportFormat::csv) return;
   // Nothing lies beside a pipe.
-  if (std::filesystem::is_regular_file(file)) return write_file(origin_file(file), json(origin));
+  if (!is_printed && std::filesystem::is_regular_file(file))
+    return write_file(origin_file(file), json(origin));
   fmt::print(stderr,
              "loopbench: {}\nloopbench: with -o FILE all that made it is written beside\n",
              made_by(origin.provenance));

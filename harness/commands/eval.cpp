@@ -20,8 +20,12 @@ struct Loaded {
   std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
 };
 
-Judgement failure(const FilePair& pair, const NamedProtocol& protocol, const std::string& why) {
+Judgement failure(const EvalArguments& a,
+                  const FilePair& pair,
+                  const NamedProtocol& protocol,
+                  const std::string& why) {
   Judgement out;
+  out.reference_body = a.reference_body.value_or("");
   out.reference = pair.reference;
   out.estimate = pair.estimate;
   out.protocol = protocol;
@@ -86,14 +90,14 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
   const ReferenceBody body = reference_body(a);
-  const bool is_devkit =
+  const bool wants_digits =
       !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
-        return p.rules.form == ErrorForm::kitti;
+        return p.rules.form == ErrorForm::kitti || p.rules.association == Association::evo;
       });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
-  Reader reader{a, is_devkit};
+  Reader reader{a, wants_digits};
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
@@ -114,7 +118,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       loaded = reader.read(pair.estimate, a.format);
     } catch (const InputError& error) {
       if (is_alone) throw;
-      for (const NamedProtocol& each : rules) out.push_back(failure(pair, each, error.what()));
+      for (const NamedProtocol& each : rules) out.push_back(failure(a, pair, each, error.what()));
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
@@ -122,7 +126,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
     for (const NamedProtocol& protocol : rules) {
       const JudgeOptions options{questions(a, protocol.rules),
                                  !a.per_pose.empty(),
-                                 a.min_coverage,
+                                 a.min_coverage.value_or(0.0),
                                  are_printed ? &printed : nullptr,
                                  {std::max(mended.off_unit, loaded.mended.off_unit),
                                   mended.repeated + loaded.mended.repeated},
@@ -130,7 +134,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
       const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
       if (is_alone && !why.empty()) throw InputError(why);
       if (!why.empty()) {
-        out.push_back(failure(pair, protocol, why));
+        out.push_back(failure(a, pair, protocol, why));
         continue;
       }
       try {
@@ -139,7 +143,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
         if (is_alone) {
           throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
         }
-        out.push_back(failure(pair, protocol, error.what()));
+        out.push_back(failure(a, pair, protocol, error.what()));
       }
       out.back().reference = pair.reference;
       out.back().reference_body = a.reference_body.value_or("");
@@ -153,7 +157,8 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
 }
 
 int eval(const EvalArguments& a) {
-  const std::vector<Judgement> all = judgements(a);
+  std::vector<Judgement> all = judgements(a);
+  if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   if (a.json) {
     fmt::print("{}", json(all));
@@ -162,7 +167,8 @@ int eval(const EvalArguments& a) {
   } else {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  const bool is_whole = std::ranges::none_of(all, has_no_number);
+  const bool is_whole =
+      std::ranges::all_of(all, [](const Judgement& j) { return status(j) == "ok"; });
   return is_whole ? kExitOk : kExitSomeCellsFailed;
 }
 

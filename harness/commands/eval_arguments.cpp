@@ -6,6 +6,7 @@
 #include <map>
 
 #include "harness/config/protocol_choice.hpp"
+#include "harness/config/source_text.hpp"
 #include "metrics/pairs/stretch.hpp"
 
 namespace loopbench {
@@ -54,16 +55,22 @@ std::string scaled(const std::string& align) {
 
 Params changes(const EvalArguments& a, const Protocol& base) {
   Params out;
+  const std::vector<OptionInfo> fields = describe(base);
   for (const std::string& setting : a.settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
       throw InputError("--set: '" + setting + "' is not FIELD=VALUE, for example ddof=1");
     }
-    const Param value = typed(setting.substr(equals + 1));
+    const std::string name = setting.substr(0, equals);
+    const std::string text = setting.substr(equals + 1);
+    Param value = typed(text);
+    for (const OptionInfo& field : fields) {
+      if (field.name == name) value = value_for(field, value, text);
+    }
     if (const double* real = std::get_if<double>(&value); real && !std::isfinite(*real)) {
       throw InputError("--set: " + setting + ": expected a finite number");
     }
-    out[setting.substr(0, equals)] = value;
+    out[name] = value;
   }
   if (!a.association.empty()) out["association"] = a.association;
   if (!a.align.empty()) out["align"] = a.align;

@@ -36,7 +36,7 @@ struct EvalArguments {
   std::optional<double> max_diff;
   std::optional<double> max_gap;
   std::optional<double> offset;
-  double min_coverage = 0.0;
+  std::optional<double> min_coverage;  ///< none: half of what another estimate covers
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;

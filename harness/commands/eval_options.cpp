@@ -71,11 +71,11 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   command
       .add_option("--min-coverage",
                   a.min_coverage,
-                  "Share of poses and of the reference's time below which numbers are incomplete")
+                  "Share of poses and of the reference's time below which numbers are incomplete "
+                  "(exit 1); by default half of what another estimate covers")
       ->type_name("SHARE")
       ->check(finite_number())
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+      ->check(CLI::Range(0.0, 1.0));
   seconds("--offset,--t_offset", a.offset, "Added to the estimates' stamps");
 }
 
@@ -97,9 +97,11 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("WORD");
   command.add_flag("--all_pairs", a.all_pairs, "rpe over all pairs");
   command.add_flag("--pairs_from_reference", a.pairs_from_reference, "rpe measured on REF");
-  command.add_flag("--json", a.json, "As JSON, in full precision");
+  command.add_flag("--json", a.json, "As JSON in full precision: a list, one entry per judgement");
   command.add_flag("--csv", a.csv, "As CSV, in full precision")->excludes("--json");
-  command.add_option("--per-pose", a.per_pose, "Write the error of every pose as CSV")
+  command
+      .add_option(
+          "--per-pose", a.per_pose, "Write the error of every pose as CSV; - is standard output")
       ->type_name("FILE");
 }
 

@@ -1,8 +1,12 @@
 #include "harness/commands/judgement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
+#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/incomplete.hpp"
 #include "metrics/body_offset.hpp"
 #include "metrics/diagnostics.hpp"
@@ -40,6 +44,28 @@ std::string status(const Judgement& j) {
   return j.why_incomplete.empty() ? "ok" : "incomplete";
 }
 
+void compare_coverage(std::vector<Judgement>& judgements) {
+  constexpr double kFarLess = 0.5;
+  const auto key = [](const Judgement& j) { return j.reference + "\n" + j.protocol.label(); };
+  std::map<std::string, double> most;
+  for (const Judgement& j : judgements) {
+    double& best = most[key(j)];
+    best = std::max(best, j.coverage.least());
+  }
+  for (Judgement& j : judgements) {
+    const double best = most.at(key(j));
+    if (!j.why_failed.empty() || !j.why_incomplete.empty()) continue;
+    if (j.coverage.least() >= kFarLess * best) continue;
+    j.why_incomplete = fmt::format(
+        "judged {} of {} poses over {:.1f} % of the reference's time, less than half of the {:.1f} "
+        "% that another estimate covers",
+        j.coverage.pairs,
+        j.coverage.possible,
+        100.0 * j.coverage.span,
+        100.0 * best);
+  }
+}
+
 std::string why_not_ok(const Judgement& j) {
   if (!j.why_failed.empty()) return j.why_failed;
   return has_no_number(j) ? "nothing that was asked for is defined here" : j.why_incomplete;
@@ -62,6 +88,7 @@ Judgement judge(const Trajectory& reference,
   out.why_incomplete = why_incomplete(evaluation.coverage, options.min_coverage);
   out.alignment = evaluation.alignment;
   out.diagnosis = diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference, evaluation);
   for (Score& score : out.diagnosis) {  // readers normalise, so the files have to be asked
     if (score.relation == "off_unit") score = single("off_unit", "", "1", options.mended.off_unit);
   }

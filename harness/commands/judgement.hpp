@@ -49,8 +49,9 @@ struct Judgement {
   Coverage coverage;
   std::string why_incomplete;  ///< set when coverage is below the limit; the numbers stand
   Alignment alignment;
-  std::vector<Score> diagnosis;  ///< of `diagnostics` at its defaults
-  std::string other_body;        ///< set when the reference seems to follow another one
+  std::vector<Score> diagnosis;    ///< of `diagnostics` at its defaults
+  std::string other_body;          ///< set when the reference seems to follow another one
+  std::vector<std::string> notes;  ///< see evaluation_notes.hpp
   std::vector<JudgedMetric> metrics;
   std::vector<PoseError> poses;  ///< only when asked for
   std::string why_failed;        ///< set when nothing could be judged: names and protocol only
@@ -70,20 +71,25 @@ Judgement judge(const Trajectory& reference,
                 const NamedProtocol& protocol,
                 const JudgeOptions& options);
 
+/// Makes incomplete what covers less than half of what another estimate covers under the same
+/// reference and protocol, by the smaller share of each.
+void compare_coverage(std::vector<Judgement>& judgements);
+
 /// "rpe 1 s": a metric and its options, short enough for a column.
 std::string label(const JudgedMetric& metric);
 
 /// A table for people, numbers with six decimals.
 std::string text(const Judgement& judgement);
 
-/// One table for each protocol, a row for each estimate: the statistic that the protocol quotes, of
-/// whole errors (axis 3d or all), not of single axes or lengths.
+/// One table for each protocol, a row for each estimate: both shares of coverage, and the statistic
+/// that the protocol quotes, of whole errors (axis 3d or all), not of single axes or lengths. A
+/// metric whose numbers are of other pairs than the judged poses has them in a column.
 std::string comparison(const std::vector<Judgement>& judgements);
 
-/// One object for one judgement, an array for several; doubles in full precision. Keys: reference,
+/// An array of objects, also for one judgement; doubles in full precision. Keys: reference,
 /// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version,
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
-/// alignment {type, scale, rank, condition}, diagnosis {name: value}, metrics
+/// alignment {type, scale, rank, condition}, diagnosis {name: value}, notes [text], metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
 /// [{metric, options, why}], with relation and axis when only one number of a metric is. What
 /// failed has no numbers, but empty metrics and undefined.

@@ -66,12 +66,13 @@ std::string csv(const std::vector<Judgement>& judgements) {
 
 std::string pose_csv(const std::vector<Judgement>& judgements) {
   std::string out =
-      "reference,estimate,protocol,protocol_version,stamp,x_m,y_m,z_m,distance_m,"
+      "reference,estimate,protocol,protocol_version,stamp,estimate_stamp,x_m,y_m,z_m,distance_m,"
       "rx_rad,ry_rad,rz_rad,angle_rad\n";
   for (const Judgement& j : judgements) {
     const std::string front = head(j);
-    for (const auto& [stamp, e, r] : j.poses) {
-      out += fmt::format("{},{},{},{},{},{}", front, stamp, e.x(), e.y(), e.z(), e.norm());
+    for (const auto& [stamp, estimate_stamp, e, r] : j.poses) {
+      out += fmt::format(
+          "{},{},{},{},{},{},{}", front, stamp, estimate_stamp, e.x(), e.y(), e.z(), e.norm());
       out += r.hasNaN() ? std::string(",,,,\n")
                         : fmt::format(",{},{},{},{}\n", r.x(), r.y(), r.z(), r.norm());
     }

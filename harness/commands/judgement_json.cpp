@@ -74,6 +74,7 @@ Json to_json(const Judgement& j) {
                         {"rank", j.alignment.rank},
                         {"condition", j.alignment.condition}};
     out["diagnosis"] = std::move(diagnosis);
+    out["notes"] = j.notes;
   }
   out["metrics"] = std::move(scores);
   out["undefined"] = std::move(undefined);
@@ -85,8 +86,7 @@ Json to_json(const Judgement& j) {
 std::string json(const std::vector<Judgement>& judgements) {
   Json all = Json::array();
   for (const Judgement& judgement : judgements) all.push_back(to_json(judgement));
-  const Json& shown = all.size() == 1 ? all[0] : all;
-  return shown.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names are any bytes
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names are any bytes
 }
 
 }  // namespace loopbench

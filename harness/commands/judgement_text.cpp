@@ -113,8 +113,9 @@ std::string text(const Judgement& j) {
       (j.why_incomplete.empty() ? "" : "incomplete " + j.why_incomplete + "\n") +
       fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
       diagnosis_text(j.diagnosis) +
-      (j.other_body.empty() ? "" : "other body " + j.other_body + "; --ref-body takes it in\n") +
-      "\n";
+      (j.other_body.empty() ? "" : "other body " + j.other_body + "; --ref-body takes it in\n");
+  for (const std::string& note : j.notes) out += "note       " + note + "\n";
+  out += "\n";
   const Widths widths(j);
   out += widths.line("metric", "relation", "axis", "unit");
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
@@ -162,15 +163,18 @@ std::string comparison(const std::vector<Judgement>& judgements) {
       row[place->second] = std::move(cell);
     };
     const bool is_failed = !j.why_failed.empty();
-    put("coverage [%]",
-        is_failed ? TableCell{std::nullopt, 0, "failed"}
-                  : TableCell{100.0 * j.coverage.share(), 1, ""});
+    const auto percent = [&](double share) {
+      return is_failed ? TableCell{std::nullopt, 0, "failed"} : TableCell{100.0 * share, 1, ""};
+    };
+    put("poses [%]", percent(j.coverage.share()));
+    put("time [%]", percent(j.coverage.span));
     std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
     if (!j.why_incomplete.empty()) {
       notes.push_back({j.estimate, "", "incomplete", j.why_incomplete});
     }
     if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
     if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
+    for (const std::string& note : j.notes) notes.push_back({j.estimate, "", "note", note});
     for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
     for (const JudgedMetric& metric : j.metrics) {
       for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
@@ -179,6 +183,9 @@ std::string comparison(const std::vector<Judgement>& judgements) {
         const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
         if (j.why_incomplete.empty()) {
           put(column, {quoted_statistic(rules, s), 1, ""});
+          if (metric.name == "rpe" && axis == "3d") {
+            put(label(metric) + " pairs", {static_cast<double>(s.count), 1, ""});
+          }
         } else {
           put(column, {std::nullopt, 0, "incomplete"});
         }

@@ -27,7 +27,7 @@ bool is_text(const Path& file) {
 }
 
 std::string align_of(const YamlNode& node, bool is_first_pose, const std::string& file) {
-  const std::string word = node.type == YamlNode::Type::scalar ? to_text(node.scalar) : "";
+  const std::string word = node.type == YamlNode::Type::scalar ? node.text : "";
   if (word == "none") return word;
   if (is_first_pose && word == "se3") return "origin";
   if (is_first_pose && word == "posyaw") return "posyaw_origin";

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/commands.hpp"
+#include "harness/export/write_file.hpp"
 
 namespace loopbench {
 
@@ -23,6 +24,7 @@ void add_merge(CLI::App& app, int& exit_code) {
       ->required();
   command->add_flag("--mixed-builds", arguments->mixed_builds, "Also cells of different builds");
   command->callback([arguments, &exit_code] {
+    require_no_dash("-o", arguments->out);
     std::filesystem::path out = arguments->out;
     if (out.extension() != ".sqlite") out /= "results.sqlite";
     const Merged merged = merge_stores(arguments->stores, out, arguments->mixed_builds);

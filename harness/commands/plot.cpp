@@ -5,6 +5,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/export/origin.hpp"
+#include "harness/export/where.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
@@ -36,15 +37,28 @@ std::vector<std::string> usual_methods(const ReportContent& content) {
   return out;
 }
 
-int write_figures(const PlotArguments& arguments) {
-  const ReportContent content = read_report_content(arguments.store);
-  for (const std::string& name : arguments.methods) {
-    if (std::ranges::count(content.methods, name) == 0) {
-      throw InputError("--methods: " + unknown_name("method", name, content.methods));
+/// Each word is a label, or labels separated by commas; a label may hold commas itself.
+std::vector<std::string> known_methods(const std::vector<std::string>& words,
+                                       const std::vector<std::string>& known) {
+  std::vector<std::string> out;
+  for (const std::string& word : words) {
+    const bool is_label = std::ranges::count(known, word) > 0;
+    for (const std::string& name : is_label ? std::vector{word} : split_list(word)) {
+      if (std::ranges::count(known, name) == 0) {
+        throw InputError("--methods: " + unknown_name("method", name, known));
+      }
+      out.push_back(name);
     }
   }
-  const std::vector<std::string> methods =
-      arguments.methods.empty() ? usual_methods(content) : arguments.methods;
+  return out;
+}
+
+int write_figures(const PlotArguments& arguments) {
+  const ReportContent content = read_report_content(arguments.store);
+  const std::vector<std::string> methods = arguments.methods.empty()
+                                               ? usual_methods(content)
+                                               : known_methods(arguments.methods, content.methods);
+  require_no_dash("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
   std::size_t written = 0;
@@ -84,8 +98,10 @@ void add_plot(CLI::App& app, int& exit_code) {
   command->add_option("-o,--out", arguments->folder, "Folder for the figures")
       ->type_name("DIR")
       ->default_val("figures");
-  command->add_option("--methods", arguments->methods, "Drawn (default: baseline and best ranked)")
-      ->delimiter(',');
+  command->add_option("--methods",
+                      arguments->methods,
+                      "Labels, separated by commas (default: baseline and best ranked); "
+                      "\"...\" around one that holds commas");
   command->add_option("--format", arguments->formats, "svg, pdf or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"svg", "pdf"}))

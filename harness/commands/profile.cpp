@@ -65,7 +65,10 @@ void add_profile(CLI::App& app, int& exit_code) {
   command->add_option("--format", arguments->format)
       ->check(CLI::IsMember({"markdown", "csv"}))
       ->capture_default_str();
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
 }

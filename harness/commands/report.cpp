@@ -21,7 +21,7 @@ void add_report(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("report", "One HTML file that tells what a sweep found");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
-  command->add_option("-o,--out", arguments->out, "File to write")
+  command->add_option("-o,--out", arguments->out, "File to write; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
   command->add_option("--size", arguments->megabytes, "Thin trajectories to stay below this [MB]")
@@ -33,7 +33,10 @@ void add_report(CLI::App& app, int& exit_code) {
     const std::string html = report_html(read_report_content(arguments->store),
                                          static_cast<std::size_t>(1e6 * arguments->megabytes));
     write_file(arguments->out, html);
-    fmt::print("{}: {:.2f} MB\n", arguments->out, 1e-6 * static_cast<double>(html.size()));
+    fmt::print(is_dash(arguments->out) ? stderr : stdout,
+               "{}: {:.2f} MB\n",
+               arguments->out,
+               1e-6 * static_cast<double>(html.size()));
     exit_code = kExitOk;
   });
 }

@@ -51,6 +51,7 @@ int reproduce(const ReproduceArguments& arguments) {
       done.push_back(std::move(cell));
     }
   }
+  require_no_dash("--out", arguments.out);
   const std::filesystem::path out(arguments.out);
   std::string claims;
   for (const std::string& reading : readings(done)) {

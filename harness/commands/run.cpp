@@ -17,8 +17,10 @@
 #include "harness/export/where.hpp"
 #include "harness/export/write_file.hpp"
 #include "harness/isolate/isolated_sweep.hpp"
+#include "harness/printable.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/provenance/made_by.hpp"
+#include "harness/run/bad_inputs.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
@@ -49,6 +51,18 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
                sweep.methods[cell.method].label);
   }
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
+}
+
+/// What keeps sequences from loading, on standard error.
+int report_bad_inputs(const std::vector<std::string>& reasons) {
+  if (reasons.empty()) return kExitOk;
+  for (const std::string& reason : reasons) {
+    fmt::print(stderr, "loopbench: {}\n", printable(reason));
+  }
+  fmt::print(stderr,
+             "loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
+             reasons.size());
+  return kExitBadInput;
 }
 
 /// The method failed, or a metric is undefined on its result.
@@ -113,9 +127,10 @@ int run(const RunArguments& arguments, const Source& source) {
   if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
   if (arguments.dry_run) {
     print_plan(sweep, planned);
-    return kExitOk;
+    return report_bad_inputs(bad_inputs(sweep, planned, known, root));
   }
 
+  require_no_dash("--out", arguments.out);
   const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
   const std::filesystem::path file = out / "results.sqlite";
   CellKeys keys(sweep, known, root, build_id());
@@ -182,7 +197,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_option("config", arguments->config, "YAML file, see configs/")->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
-  command->add_flag("--dry-run", arguments->dry_run, "Check everything, list the cells, run none");
+  command->add_flag("--dry-run",
+                    arguments->dry_run,
+                    "Check the config and its input files, list the cells, run none");
   command->add_option("-j,--jobs", arguments->jobs, "Workers; results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

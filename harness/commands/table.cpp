@@ -17,7 +17,7 @@ struct TableArguments {
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
-  double alpha = 0.05;
+  RankingOptions ranking;
   TableFormat format = TableFormat::markdown;
   std::string out;
 };
@@ -52,7 +52,12 @@ ExportFormat carrier(TableFormat format) {
   return ExportFormat::markdown;
 }
 
-int print_table(const TableArguments& arguments) {
+int print_table(TableArguments arguments) {
+  std::vector<std::string> show;
+  for (const std::string& word : arguments.spec.show) {
+    for (std::string& score : split_list(word)) show.push_back(std::move(score));
+  }
+  arguments.spec.show = std::move(show);
   std::vector<Record> records = all_records(arguments.store);
   keep_where(records, arguments.where);
   if (records.empty()) {
@@ -62,7 +67,7 @@ int print_table(const TableArguments& arguments) {
   const std::string shown =
       arguments.format == TableFormat::rows
           ? csv(records)
-          : text(pivot(records, arguments.spec, arguments.alpha), arguments.format);
+          : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
   deliver(shown, carrier(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
@@ -86,12 +91,19 @@ void add_table(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--value", arguments->spec.value, "rmse mean median std min max sse count")
       ->capture_default_str();
-  command->add_option("--show", arguments->spec.show, "Only these scores: ate,error x,gain,time")
-      ->delimiter(',');
+  command->add_option("--show", arguments->spec.show, "Only these scores: ate,error x,gain,time");
   command->add_option("--where",
                       arguments->where,
-                      "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated");
-  command->add_option("--alpha", arguments->alpha, "Level at which a best value is marked")
+                      "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
+                      "FIELD=\"TEXT\" where TEXT holds commas");
+  command->add_option("--alpha", arguments->ranking.alpha, "Chance of a false mark in a column")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command
+      ->add_option("--relevant",
+                   arguments->ranking.relevant,
+                   "Largest relative difference that counts as a tie [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
@@ -103,7 +115,10 @@ void add_table(CLI::App& app, int& exit_code) {
                                                    {"rows", TableFormat::rows}};
   command->add_option("--format", arguments->format, "How to print; rows is the long table")
       ->transform(one_of("format", formats));
-  command->add_option("-o,--out", arguments->out, "Write a file; beside a CSV, its provenance")
+  command
+      ->add_option("-o,--out",
+                   arguments->out,
+                   "Write a file (-: standard output); beside a CSV, its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }

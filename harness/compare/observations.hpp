@@ -10,33 +10,47 @@
 
 namespace loopbench {
 
-/// What one observation is.
-enum class Over {
-  runs,      ///< each repeat of each sequence: conclusions hold for these sequences
-  sequences  ///< the mean over a sequence's repeats: conclusions reach to sequences like these
-};
-
 /// "room" or "room (repeat 2)": the run of a record.
 std::string run_name(const Record& record);
+
+/// Runs with the same name belong to one group: Record::group, or the run by itself.
+std::string group_name(const Record& record);
+
+/// Whether a record without a usable value is a loss of its method: the method failed, crashed, ran
+/// out of its limits, declined, or left an estimate that is incomplete or has no score. A score
+/// that is undefined or declined is the metric's own.
+bool is_loss(const Record& record);
+
+/// One value, or why there is none.
+struct Observed {
+  std::optional<double> value;
+  bool is_loss = false;
+  std::string status = "not run";  ///< "" with a value
+};
+
+struct ObservedRun {
+  std::string name;  ///< "room" or "room (repeat 2)"
+  std::string sequence;
+  std::string group;
+  std::string content;  ///< runs of equal non-empty content are one observation
+  bool has_oracle_closures = false;
+};
 
 struct Observations {
   Record kind;  ///< protocol, times, metric, relation, axis and unit, shared by all values
   std::vector<std::string> methods;
-  std::vector<std::string> runs;                           ///< "room" or "room (repeat 2)"
-  std::vector<std::string> sequences;                      ///< of each run
-  std::vector<std::vector<std::optional<double>>> values;  ///< [method][run]
-  std::vector<std::vector<std::string>> status;  ///< why there is no value; "" where one is
+  std::vector<ObservedRun> runs;
+  std::vector<std::vector<Observed>> values;  ///< [method][run]
 };
 
 /// One table for every score (protocol, times, metric, relation, axis) in the records, in the order
-/// they appear; only numbers with status ok count. A run or a method that any record names is in
-/// every table, with the status of its cell, or "not run". Throws InputError for an unknown
-/// statistic. O(n log n).
+/// they appear; only finite numbers with status ok count. A run or a method that any record names
+/// is in every table. Throws InputError for an unknown statistic. O(n log n).
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value);
 
-/// Means over the repeats of each sequence: geometric where all of them are positive. A method
-/// without a value on one repeat has none on the sequence.
-Observations by_sequence(const Observations& by_run);
+/// Keeps the first of every set of runs with equal content; a method that loses one of them loses
+/// it. Returns the number of runs that were dropped.
+std::size_t drop_copies(Observations& all);
 
 }  // namespace loopbench

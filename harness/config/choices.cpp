@@ -6,6 +6,7 @@
 #include "harness/config/calibration.hpp"
 #include "harness/config/grid.hpp"
 #include "harness/config/method_text.hpp"
+#include "harness/config/source_text.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -61,7 +62,7 @@ struct Named {
 };
 
 Named named(const YamlNode& entry, const std::string& key, const std::string& file) {
-  if (entry.type == YamlNode::Type::scalar) return {to_text(entry.scalar), ""};
+  if (entry.type == YamlNode::Type::scalar) return {entry.text, ""};
   const YamlNode* name = entry.find(key);
   if (entry.type != YamlNode::Type::map || name == nullptr ||
       name->type != YamlNode::Type::scalar) {
@@ -71,7 +72,7 @@ Named named(const YamlNode& entry, const std::string& key, const std::string& fi
   if (label != nullptr && label->type != YamlNode::Type::scalar) {
     throw input_error(file, label->line, "label: expected a word");
   }
-  return {to_text(name->scalar), label == nullptr ? "" : to_text(label->scalar)};
+  return {name->text, label == nullptr ? "" : label->text};
 }
 
 template <class Find>
@@ -121,24 +122,36 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
                                            const Catalogue& catalogue) {
   const auto [name, label] = named(entry, "dataset", file);
   const DatasetEntry& known = found(find_dataset, catalogue, name, file, entry.line);
+  const YamlNode* group = entry.find("group");
+  if (group != nullptr && group->type != YamlNode::Type::scalar) {
+    throw input_error(file, group->line, "group: expected a word");
+  }
   std::vector<DatasetChoice> out;
-  for (const GridPoint& point : spread(entry, {"dataset", "label"}, file)) {
+  for (GridPoint& point : spread(entry, {"dataset", "label", "group"}, file)) {
+    keep_text(point.settings, known.options);
     const Params options = to_params(point.settings);
     located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
-    out.push_back({label_of(name, label, point), {name, options}});
+    out.push_back(
+        {label_of(name, label, point), {name, options}, group == nullptr ? "" : group->text});
   }
   return out;
 }
 
 std::vector<MetricChoice> metric_choices(const YamlNode& entry,
                                          const std::string& file,
-                                         const Catalogue& catalogue) {
+                                         const Catalogue& catalogue,
+                                         const std::vector<NamedProtocol>& protocols) {
   const auto [name, label] = named(entry, "metric", file);
   const MetricEntry& known = found(find_metric, catalogue, name, file, entry.line);
   std::vector<MetricChoice> out;
-  for (const GridPoint& point : spread(entry, {"metric", "label"}, file)) {
+  for (GridPoint& point : spread(entry, {"metric", "label"}, file)) {
+    keep_text(point.settings, known.options);
     const Params options = to_params(point.settings);
-    located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
+    located(file, entry.line, name, point.settings, known.options, [&] {
+      known.check(options);
+      if (!known.check_protocol) return;
+      for (const NamedProtocol& protocol : protocols) known.check_protocol(options, protocol.rules);
+    });
     out.push_back({label_of(name, label, point), {name, options}});
   }
   return out;
@@ -155,26 +168,30 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   if (const std::string why = refuses_stages(stages); !why.empty()) {
     throw input_error(file, entry.line, text + ": " + why);
   }
-  std::map<std::string, std::vector<Setting>> calibrated;
+  LearntSettings calibrated;
   if (const YamlNode* node = entry.find("calibration")) {
     if (node->type != YamlNode::Type::scalar) {
       throw input_error(file, node->line, "calibration: expected the name of a file");
     }
     std::vector<std::string> names;
     for (const MethodEntry* stage : stages) names.push_back(stage->name);
-    calibrated = read_calibration(to_text(node->scalar), names, file, node->line);
+    calibrated = read_calibration(node->text, names, file, node->line);
   }
   std::vector<MethodChoice> out;
-  for (const GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
-    MethodChoice choice{label_of(text, label, point), {}};
-    for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
+  for (GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
     std::vector<std::vector<Setting>> by_stage(stages.size());
-    for (const Setting& setting : point.settings) {
+    for (Setting& setting : point.settings) {
       const auto [stage, name] = owner(setting, stages, file);
-      by_stage[stage].push_back({name, setting.value, setting.line});
+      std::vector<Setting> own{{name, setting.value, setting.line, setting.text}};
+      keep_text(own, stages[stage]->options);
+      setting.value = own.front().value;
+      by_stage[stage].push_back(own.front());
     }
+    MethodChoice choice{label_of(text, label, point), {}, calibrated.trained_on};
+    for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      for (const Setting& learnt : calibrated[stages[i]->name]) {  // what the entry says goes first
+      for (const Setting& learnt :
+           calibrated.by_method[stages[i]->name]) {  // what the entry says goes first
         if (std::ranges::count(by_stage[i], learnt.name, &Setting::name) == 0) {
           by_stage[i].push_back(learnt);
         }

@@ -17,8 +17,10 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
 std::vector<MethodChoice> method_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue);
+/// The options of a metric must fit each of the protocols.
 std::vector<MetricChoice> metric_choices(const YamlNode& entry,
                                          const std::string& file,
-                                         const Catalogue& catalogue);
+                                         const Catalogue& catalogue,
+                                         const std::vector<NamedProtocol>& protocols);
 
 }  // namespace loopbench

@@ -24,9 +24,10 @@ void flatten(const YamlNode& node,
              std::vector<Setting>& out) {
   switch (node.type) {
     case YamlNode::Type::scalar:
-      out.push_back({name, node.scalar, node.line});
+      out.push_back({name, node.scalar, node.line, node.text});
       break;
     case YamlNode::Type::map:
+      if (node.map.empty()) throw input_error(file, node.line, name + ": has no value");
       for (const auto& [key, value] : node.map) flatten(value, name + "." + key, file, out);
       break;
     case YamlNode::Type::list:
@@ -36,17 +37,22 @@ void flatten(const YamlNode& node,
   }
 }
 
-std::vector<Param> values(const YamlNode& node, const std::string& name, const std::string& file) {
-  if (node.type == YamlNode::Type::map) return range(node, file);
+std::vector<Setting> values(const YamlNode& node,
+                            const std::string& name,
+                            const std::string& file) {
+  std::vector<Setting> out;
+  if (node.type == YamlNode::Type::map) {
+    for (const Param& value : range(node, file)) out.push_back({name, value, node.line});
+    return out;
+  }
   if (node.type != YamlNode::Type::list || node.list.empty()) {
     throw input_error(file, node.line, name + ": expected a list or {from, to, steps}");
   }
-  std::vector<Param> out;
   for (const YamlNode& item : node.list) {
     if (item.type != YamlNode::Type::scalar) {
       throw input_error(file, item.line, name + ": expected plain values in the list");
     }
-    out.push_back(item.scalar);
+    out.push_back({name, item.scalar, node.line, item.text});
   }
   return out;
 }
@@ -90,7 +96,7 @@ void expect_few_settings(const YamlNode& entry, std::size_t fixed, const std::st
 Axis zipped(const YamlNode& zip, const std::string& file) {
   Axis axis;
   for (const auto& [name, node] : as_map(zip, "zip", file).map) {
-    const std::vector<Param> column = values(node, name, file);
+    const std::vector<Setting> column = values(node, name, file);
     expect_few_points(column.size(), zip.line, file);
     if (axis.empty()) axis.resize(column.size());
     if (axis.size() != column.size()) {
@@ -99,7 +105,7 @@ Axis zipped(const YamlNode& zip, const std::string& file) {
                         name + ": has " + std::to_string(column.size()) +
                             " values, the others under 'zip' have " + std::to_string(axis.size()));
     }
-    for (std::size_t i = 0; i < column.size(); ++i) axis[i].push_back({name, column[i], node.line});
+    for (std::size_t i = 0; i < column.size(); ++i) axis[i].push_back(column[i]);
   }
   return axis;
 }
@@ -133,7 +139,8 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
     throw input_error(file, need("steps").line, "steps: expected a whole number, 1 to 100000");
   }
   const YamlNode* log = node.find("log");
-  if (log != nullptr && !std::holds_alternative<bool>(log->scalar)) {
+  if (log != nullptr &&
+      (log->type != YamlNode::Type::scalar || !std::holds_alternative<bool>(log->scalar))) {
     throw input_error(file, log->line, "log: expected true or false");
   }
   const bool is_log = log != nullptr && std::get<bool>(log->scalar);
@@ -185,8 +192,7 @@ std::vector<GridPoint> spread(const YamlNode& entry,
   if (const YamlNode* sweep = entry.find("sweep")) {
     for (const auto& [name, node] : as_map(*sweep, "sweep", file).map) {
       Axis axis;
-      for (const Param& value : values(node, name, file))
-        axis.push_back({{name, value, node.line}});
+      for (const Setting& value : values(node, name, file)) axis.push_back({value});
       expect_few_points(combinations *= axis.size(), entry.line, file);
       axes.push_back(std::move(axis));
     }

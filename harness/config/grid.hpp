@@ -13,6 +13,7 @@ struct Setting {
   std::string name;  ///< nested maps flattened: segment: {band: 1} is segment.band
   Param value;
   std::size_t line = 0;
+  std::string text = {};  ///< the value as written; empty: computed
 };
 
 /// One point of the grid: fixed settings, then the swept ones (also named in `swept`, in order).

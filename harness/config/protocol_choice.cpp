@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/config/grid.hpp"
+#include "harness/config/source_text.hpp"
 #include "harness/suggest.hpp"
 
 namespace loopbench {
@@ -20,7 +20,7 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
   std::size_t base_line = node.line;
   std::vector<Setting> settings;
   if (node.type == YamlNode::Type::scalar) {
-    base = to_text(node.scalar);
+    base = node.text;
   } else if (node.type == YamlNode::Type::map) {
     if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
       throw input_error(file, node.line, "protocol: is not swept; give a list of protocols");
@@ -29,10 +29,11 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
       if (given->type != YamlNode::Type::scalar) {
         throw input_error(file, given->line, "protocol: base: expected a name");
       }
-      base = to_text(given->scalar);
+      base = given->text;
       base_line = given->line;
     }
     settings = spread(node, {"base"}, file).front().settings;
+    keep_text(settings, describe(Protocol{}));
   } else {
     throw input_error(file, node.line, "protocol: expected a name or a map with 'base: NAME'");
   }
@@ -47,6 +48,24 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
     const std::size_t line = place == settings.end() ? node.line : place->line;
     throw input_error(file, line, std::string("protocol: ") + error.what());
   }
+}
+
+std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::string& file) {
+  if (node.type != YamlNode::Type::list) return {protocol_choice(node, file)};
+  constexpr std::size_t kMost = 1'000;
+  if (node.list.size() > kMost) {
+    throw input_error(file, node.line, "protocol: more than 1000 entries");
+  }
+  std::vector<NamedProtocol> out;
+  for (const YamlNode& item : node.list) {
+    out.push_back(protocol_choice(item, file));
+    const std::string label = out.back().label();
+    if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
+      throw input_error(file, item.line, "protocol: '" + label + "' is there twice");
+    }
+  }
+  if (out.empty()) throw input_error(file, node.line, "protocol: is empty, expected a name");
+  return out;
 }
 
 }  // namespace loopbench

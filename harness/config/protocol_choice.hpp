@@ -15,4 +15,7 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file);
 /// The protocol of that name, changed. Throws InputError with a suggestion, OptionError.
 NamedProtocol known_protocol(const std::string& name, const Params& changes);
 
+/// A protocol as above, or a list of at most 1000 whose labels differ.
+std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::string& file);
+
 }  // namespace loopbench

@@ -35,7 +35,7 @@ constexpr int kRunsWhenAlone = 5;
 
 /// Limits that nobody's sweep meets, so that a few lines cannot ask for hours.
 constexpr std::size_t kMostChoices = 10'000;  // of datasets, of methods, of metrics
-constexpr std::size_t kMostRules = 1'000;     // protocols, exclusions
+constexpr std::size_t kMostRules = 1'000;     // exclusions
 
 /// Reads one config; knows the file for its messages.
 class SweepReader {
@@ -51,9 +51,13 @@ class SweepReader {
     Sweep sweep;
     sweep.datasets = list<DatasetChoice>(root, "datasets", dataset_choices);
     sweep.methods = list<MethodChoice>(root, "methods", method_choices);
-    sweep.metrics = list<MetricChoice>(root, "metrics", metric_choices);
+    if (const YamlNode* node = root.find("protocol"))
+      sweep.protocols = protocol_choices(*node, file_);
+    sweep.metrics = list<MetricChoice>(root, "metrics", [&](const auto&... entry) {
+      return metric_choices(entry..., sweep.protocols);
+    });
     if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
-    if (const YamlNode* node = root.find("protocol")) sweep.protocols = protocols(*node);
+    if (const YamlNode* node = root.find("description")) word(*node, "description");
     if (const YamlNode* node = root.find("min_coverage"))
       sweep.min_coverage = number(*node, "min_coverage", "a number from 0 to 1", Between{0.0, 1.0});
     if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
@@ -67,6 +71,21 @@ class SweepReader {
   }
 
  private:
+  /// Settings that only a map of `known` ones may follow.
+  void map_of(const YamlNode& node,
+              const std::string& key,
+              const std::vector<std::string>& known) const {
+    if (node.type != YamlNode::Type::map) {
+      std::string all;
+      for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+      const std::string found = node.type == YamlNode::Type::scalar ? "'" + node.text + "'"
+                                : node.type == YamlNode::Type::list ? "a list"
+                                                                    : "nothing";
+      throw input_error(file_, node.line, key + ": found " + found + ", expected a map of " + all);
+    }
+    only_keys(node, known);
+  }
+
   void only_keys(const YamlNode& node, const std::vector<std::string>& known) const {
     for (const auto& [key, value] : node.map) {
       if (std::ranges::count(known, key) == 0) {
@@ -76,7 +95,7 @@ class SweepReader {
   }
 
   std::string word(const YamlNode& node, const std::string& key) const {
-    if (node.type == YamlNode::Type::scalar) return to_text(node.scalar);
+    if (node.type == YamlNode::Type::scalar) return node.text;
     throw input_error(file_, node.line, key + ": expected a word");
   }
 
@@ -112,7 +131,7 @@ class SweepReader {
   }
 
   Limits limits(const YamlNode& node) const {
-    only_keys(node, {"seconds", "memory"});
+    map_of(node, "limits", {"seconds", "memory"});
     Limits out;
     if (const YamlNode* seconds = node.find("seconds")) {
       out.seconds = number(*seconds, "limits.seconds");
@@ -186,30 +205,16 @@ class SweepReader {
     return out;
   }
 
-  /// A name, a map with `base` and changes, or a list of these.
-  std::vector<NamedProtocol> protocols(const YamlNode& node) const {
-    if (node.type != YamlNode::Type::list) return {protocol_choice(node, file_)};
-    std::vector<NamedProtocol> out;
-    expect_few(node, "protocol");
-    for (const YamlNode& item : node.list) {
-      out.push_back(protocol_choice(item, file_));
-      const std::string label = out.back().label();
-      if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
-        throw input_error(file_, item.line, "protocol: '" + label + "' is there twice");
-      }
-    }
-    if (out.empty()) throw input_error(file_, node.line, "protocol: is empty, expected a name");
-    return out;
-  }
-
   std::vector<Exclusion> exclusions(const YamlNode& node) const {
     std::vector<Exclusion> out;
     if (node.type != YamlNode::Type::list) {
       throw input_error(file_, node.line, "exclude: expected a list of {dataset, method} patterns");
     }
-    expect_few(node, "exclude");
+    if (node.list.size() > kMostRules) {
+      throw input_error(file_, node.line, "exclude: more than 1000 entries");
+    }
     for (const YamlNode& entry : node.list) {
-      only_keys(entry, {"dataset", "method"});
+      map_of(entry, "exclude", {"dataset", "method"});
       Exclusion exclusion;
       if (const YamlNode* d = entry.find("dataset")) exclusion.dataset = pattern(*d, "dataset");
       if (const YamlNode* m = entry.find("method")) exclusion.method = pattern(*m, "method");
@@ -228,13 +233,8 @@ class SweepReader {
     return text;
   }
 
-  void expect_few(const YamlNode& list, const std::string& key) const {
-    if (list.list.size() <= kMostRules) return;
-    throw input_error(file_, list.line, key + ": more than 1000 entries");
-  }
-
   TableSpec table(const YamlNode& node) const {
-    only_keys(node, {"rows", "columns", "split", "value", "show", "where"});
+    map_of(node, "table", {"rows", "columns", "split", "value", "show", "where"});
     TableSpec out;
     if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
     if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");

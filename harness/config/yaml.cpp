@@ -60,6 +60,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
     case YAML::NodeType::Scalar:
       out.type = YamlNode::Type::scalar;
       out.scalar = to_param(node);
+      out.text = node.Scalar();
       break;
     case YAML::NodeType::Sequence:
       out.type = YamlNode::Type::list;

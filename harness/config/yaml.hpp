@@ -18,6 +18,7 @@ struct YamlNode {
   Type type = Type::null;
   std::size_t line = 0;  ///< counted from 1
   Param scalar;
+  std::string text;  ///< of a scalar, as written
   std::vector<YamlNode> list;
   std::vector<YamlEntry> map;
 

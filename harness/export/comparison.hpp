@@ -9,8 +9,9 @@
 
 namespace loopbench {
 
-/// A line per method, best rank first: median, ratio to the baseline with its interval, wins,
-/// losses and ties against it, p, effect sizes, average rank and groups. Notes: verdict, remarks.
+/// A line per method, best first: median, ratio to the baseline with its interval, wins, losses and
+/// ties against it, p, effect size, the ranks that the claims leave, and letters. The best is
+/// marked where it is proven. Notes: verdict, remarks.
 Sheet sheet(const Comparison& comparison);
 
 /// A line per method of every comparison, numbers in full precision; empty where there is none.

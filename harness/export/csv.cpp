@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "harness/export/text.hpp"
 
 namespace loopbench {
@@ -65,16 +67,17 @@ std::string csv(const std::vector<Record>& records) {
                        to_text(r.better),
                        r.better == Better::target ? fmt::format("{}", r.target) : "");
     // An undefined score has no numbers, not zeros.
+    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
     out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",
                                                              s.count,
-                                                             s.rmse,
-                                                             s.mean,
-                                                             s.median,
-                                                             s.std,
-                                                             s.min,
-                                                             s.max,
-                                                             s.sse,
+                                                             number(s.rmse),
+                                                             number(s.mean),
+                                                             number(s.median),
+                                                             number(s.std),
+                                                             number(s.min),
+                                                             number(s.max),
+                                                             number(s.sse),
                                                              r.pairs,
                                                              r.possible);
     out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));

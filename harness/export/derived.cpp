@@ -1,8 +1,12 @@
 #include "harness/export/derived.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
+
+#include "harness/compare/levels.hpp"
 
 namespace loopbench {
 namespace {
@@ -17,8 +21,10 @@ bool is_gain_source(const Record& r) {
   return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
 }
 
+/// Not a number where the baseline has no error that could be reduced.
 double gain(double value, double baseline) {
-  return baseline == 0.0 ? 0.0 : 100.0 * (1.0 - value / baseline);
+  if (baseline <= zero_floor(std::max(value, baseline))) return std::nan("");
+  return 100.0 * (1.0 - value / baseline);
 }
 
 /// A score that is one number: every statistic is that number.
@@ -71,6 +77,10 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
                                        &Statistics::max,
                                        &Statistics::sse}) {
       g.statistics.*number = gain(r.statistics.*number, b.*number);
+    }
+    if (!std::isfinite(g.statistics.rmse)) {
+      g.status = "declined";
+      g.why = "the baseline " + baseline + " has no error here that could be reduced";
     }
     out.push_back(std::move(g));
   }

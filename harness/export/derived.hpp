@@ -10,7 +10,10 @@ namespace loopbench {
 
 /// For every `ate` translation record with a baseline record of the same sequence, repeat,
 /// protocol and times: metric `gain`, unit %, each statistic 100 * (1 - value / baseline value).
-/// Positive is better; the baseline itself gains 0. None when `baseline` is empty. O(n log n).
+/// Positive is better; the baseline itself gains 0. A statistic is not a number where the
+/// baseline's is zero but for rounding, and the record is declined where that is its RMSE. Gains of
+/// several runs are averaged by their ratios (see pivot.hpp). None when `baseline` is empty. O(n
+/// log n).
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline);
 
 /// One record per cell, protocol and times: metric `time`, unit ms, every statistic the median wall

@@ -8,9 +8,13 @@
 
 namespace loopbench {
 
-/// JSON with a line per cell: what it was made from and by, limits, the list of scores, then for
-/// every cell its statistics in that order, in full precision; null where a score is missing, its
-/// status in words where it has no number.
+/// Raised when a baseline has to hold more, or something else.
+inline constexpr int kBaselineFormat = 3;
+
+/// JSON with a line per cell: definitions of sequences, protocols, metrics and methods, limits, the
+/// list of scores, then for every cell the pose pairs, counts and statistics in that order, in full
+/// precision; null where a score is missing or has no number. `statuses` only where some score is
+/// not ok; `possible` and `counts` only where they differ from `pairs`.
 std::string json(const Baseline& baseline);
 
 /// Throws InputError `file:line:` where it is not JSON, `file: cells[3].rmse:` where it is no

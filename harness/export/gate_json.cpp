@@ -1,37 +1,43 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "datasets/core/error.hpp"
+#include "datasets/core/fields.hpp"
 #include "harness/export/gate.hpp"
-#include "harness/export/where.hpp"
 
 namespace loopbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kFormat = 2;
 
-/// The question of a score, without its answer.
+/// Which score it is, without its numbers.
 Json question(const GateScore& s) {
-  return {{"protocol", s.protocol},
-          {"times", s.times},
-          {"metric", s.metric},
-          {"relation", s.relation},
-          {"axis", s.axis},
-          {"unit", s.unit}};
+  Json out{{"protocol", s.protocol},
+           {"times", s.times},
+           {"metric", s.metric},
+           {"label", s.label},
+           {"relation", s.relation},
+           {"axis", s.axis},
+           {"unit", s.unit},
+           {"better", to_text(s.better)}};
+  if (s.better == Better::target) out["target"] = s.target;
+  return out;
+}
+
+Json head(const GateCell& cell) {
+  Json out{{"sequence", cell.sequence}, {"repeat", cell.repeat}, {"method", cell.method}};
+  if (cell.oracle) out["oracle"] = true;
+  if (cell.oracle_data) out["oracle_data"] = true;
+  out["status"] = cell.status;
+  return out;
 }
 
 Json answers(const GateCell& cell,
              const std::vector<GateScore>& questions,
              const std::vector<std::string>& statistics) {
-  Json out{{"sequence", cell.sequence},
-           {"repeat", cell.repeat},
-           {"method", cell.method},
-           {"status", cell.status}};
+  Json out = head(cell);
   if (cell.scores.empty()) return out;
   std::vector<const GateScore*> found;
   for (const GateScore& asked : questions) {
@@ -42,22 +48,31 @@ Json answers(const GateCell& cell,
   const auto list = [&](auto entry) {
     Json values = Json::array();
     for (const GateScore* score : found) {
-      values.push_back(score == nullptr        ? Json(nullptr)
-                       : score->status != "ok" ? Json(score->status)
-                                               : Json(entry(*score)));
+      values.push_back(score == nullptr ? Json(nullptr) : Json(entry(*score)));
     }
     return values;
   };
-  out["pairs"] = list([](const GateScore& score) { return score.pairs; });
+  const auto is_ok = [](const GateScore& score) { return score.status == "ok"; };
+  if (!std::ranges::all_of(cell.scores, is_ok)) {
+    out["statuses"] = list([](const GateScore& score) { return score.status; });
+  }
+  const Json pairs = list([](const GateScore& score) { return score.pairs; });
+  const Json possible = list([](const GateScore& score) { return score.possible; });
+  const Json counts = list([](const GateScore& score) { return score.count; });
+  out["pairs"] = pairs;
+  if (possible != pairs) out["possible"] = possible;
+  if (counts != pairs) out["counts"] = counts;
   for (const std::string& statistic : statistics) {
-    out[statistic] = list([&](const GateScore& score) { return score.values.at(statistic); });
+    out[statistic] = list([&](const GateScore& score) {
+      return has_number(score.status) ? Json(score.values.at(statistic)) : Json(nullptr);
+    });
   }
   return out;
 }
 
 Json written(const Tolerance& limit) {
   Json out{{"where", limit.where},
-           {"value", limit.value},
+           {"values", limit.values},
            {"relative", limit.relative},
            {"absolute", limit.absolute},
            {"tie", limit.tie}};
@@ -65,154 +80,16 @@ Json written(const Tolerance& limit) {
   return out;
 }
 
-/// Walks a baseline; every complaint names the place.
-class BaselineReader {
- public:
-  explicit BaselineReader(std::string file) : file_(std::move(file)) {}
-
-  Baseline read(const Json& root) {
-    const Json& format = member(root, "loopbench_baseline", "");
-    if (format != kFormat) {
-      refuse("loopbench_baseline",
-             fmt::format("is {}, expected {}; --update writes it anew", format.dump(), kFormat));
+/// Every statistic that some limit is about.
+std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
+  std::vector<std::string> out;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      if (std::ranges::count(out, statistic) == 0) out.push_back(statistic);
     }
-    Baseline out;
-    out.snapshot.sweep = text(root, "sweep", "");
-    out.made_by = texts(root, "made_by");
-    out.snapshot.sequences = texts(root, "sequences");
-    out.snapshot.protocols = texts(root, "protocols");
-    out.limits = limits(root);
-    each(root, "scores", [&](const Json& entry, const std::string& at) {
-      questions_.push_back({text(entry, "protocol", at),
-                            text(entry, "times", at),
-                            text(entry, "metric", at),
-                            text(entry, "relation", at),
-                            text(entry, "axis", at),
-                            text(entry, "unit", at),
-                            "ok",
-                            0,
-                            {}});
-    });
-    each(root, "cells", [&](const Json& entry, const std::string& at) {
-      out.snapshot.cells.push_back(cell(entry, at, out.limits));
-    });
-    return out;
   }
-
-  std::vector<Tolerance> limits(const Json& root) const {
-    std::vector<Tolerance> out;
-    each(root, "limits", [&](const Json& entry, const std::string& at) {
-      out.push_back(limit(entry, at));
-    });
-    return out;
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& at, const std::string& what) const {
-    throw InputError(file_ + ": " + at + ": " + what);
-  }
-
-  const Json& member(const Json& node, const std::string& key, const std::string& at) const {
-    const std::string place = at.empty() ? "" : at;
-    if (!node.is_object()) refuse(place.empty() ? "baseline" : place, "expected an object");
-    const auto found = node.find(key);
-    if (found == node.end()) refuse(place + (place.empty() ? "" : ".") + key, "is missing");
-    return *found;
-  }
-
-  std::string text(const Json& node, const std::string& key, const std::string& at) const {
-    const Json& found = member(node, key, at);
-    if (!found.is_string()) refuse(at + "." + key, "expected text, found " + found.dump());
-    return found.get<std::string>();
-  }
-
-  double number(const Json& node, const std::string& key, const std::string& at) const {
-    const Json& found = member(node, key, at);
-    if (!found.is_number() || found.get<double>() < 0.0) {
-      refuse(at + "." + key, "expected a number, not negative, found " + found.dump());
-    }
-    return found.get<double>();
-  }
-
-  std::map<std::string, std::string> texts(const Json& root, const std::string& key) const {
-    std::map<std::string, std::string> out;
-    const Json& node = member(root, key, "");
-    if (!node.is_object()) refuse(key, "expected an object");
-    for (const auto& [name, value] : node.items()) out[name] = text(node, name, key);
-    return out;
-  }
-
-  template <class Each>
-  void each(const Json& root, const std::string& key, Each act) const {
-    const Json& node = member(root, key, "");
-    if (!node.is_array()) refuse(key, "expected a list");
-    for (std::size_t i = 0; i < node.size(); ++i) act(node[i], fmt::format("{}[{}]", key, i));
-  }
-
-  Tolerance limit(const Json& node, const std::string& at) const {
-    Tolerance out;
-    const Json& rules = member(node, "where", at);
-    if (!rules.is_array()) refuse(at + ".where", "expected a list");
-    for (const Json& rule : rules) {
-      if (!rule.is_string()) refuse(at + ".where", "expected text, found " + rule.dump());
-      out.where.push_back(rule.get<std::string>());
-    }
-    out.value = text(node, "value", at);
-    try {
-      where(out.where);
-      value(Record{}, out.value);
-    } catch (const InputError& error) {
-      refuse(at, error.what());
-    }
-    out.relative = number(node, "relative", at);
-    out.absolute = number(node, "absolute", at);
-    out.tie = number(node, "tie", at);
-    out.alpha.reset();
-    if (node.contains("alpha")) out.alpha = number(node, "alpha", at);
-    return out;
-  }
-
-  GateCell cell(const Json& node,
-                const std::string& at,
-                const std::vector<Tolerance>& limits) const {
-    GateCell out{text(node, "sequence", at), 0, text(node, "method", at), "", {}};
-    out.repeat = static_cast<std::int64_t>(number(node, "repeat", at));
-    out.status = text(node, "status", at);
-    if (!node.contains("pairs")) return out;
-    const auto list = [&](const std::string& key) -> const Json& {
-      const Json& found = member(node, key, at);
-      if (!found.is_array() || found.size() != questions_.size()) {
-        refuse(at + "." + key, fmt::format("expected a list of {}, as scores", questions_.size()));
-      }
-      return found;
-    };
-    const Json& pairs = list("pairs");
-    for (std::size_t i = 0; i < questions_.size(); ++i) {
-      if (pairs[i].is_null()) continue;
-      GateScore score = questions_[i];
-      if (pairs[i].is_string()) {
-        score.status = pairs[i].get<std::string>();
-      } else if (pairs[i].is_number_integer()) {
-        score.pairs = pairs[i].get<std::int64_t>();
-        for (const Tolerance& limit : limits) {
-          const Json& entry = list(limit.value)[i];
-          if (!entry.is_number()) {
-            refuse(fmt::format("{}.{}[{}]", at, limit.value, i),
-                   "expected a number, found " + entry.dump());
-          }
-          score.values[limit.value] = entry.get<double>();
-        }
-      } else {
-        refuse(fmt::format("{}.pairs[{}]", at, i), "expected a whole number or a status");
-      }
-      out.scores.push_back(std::move(score));
-    }
-    return out;
-  }
-
-  std::string file_;
-  std::vector<GateScore> questions_;
-};
+  return out;
+}
 
 }  // namespace
 
@@ -224,17 +101,14 @@ std::string json(const Baseline& baseline) {
       if (asked.emplace(name(score), true).second) questions.push_back(score);
     }
   }
-  std::vector<std::string> statistics;
-  for (const Tolerance& limit : baseline.limits) {
-    if (std::ranges::count(statistics, limit.value) == 0) statistics.push_back(limit.value);
-  }
-  const auto line = [](const Json& node) {
+  const std::vector<std::string> statistics = compared_statistics(baseline.limits);
+  const auto text = [](const Json& node) {
     return node.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   const auto lines = [&](const std::string& key, const std::vector<Json>& entries) {
     std::string out = "\"" + key + "\": [";
     for (std::size_t i = 0; i < entries.size(); ++i)
-      out += (i == 0 ? "\n" : ",\n") + line(entries[i]);
+      out += (i == 0 ? "\n" : ",\n") + text(entries[i]);
     return out + "\n]";
   };
   std::vector<Json> limits;
@@ -245,53 +119,21 @@ std::string json(const Baseline& baseline) {
   for (const GateCell& cell : baseline.snapshot.cells) {
     cells.push_back(answers(cell, questions, statistics));
   }
-  std::string out = "{\n";
-  out += fmt::format("\"loopbench_baseline\": {},\n", kFormat);
-  out += "\"sweep\": " + line(baseline.snapshot.sweep) + ",\n";
-  out += "\"made_by\": " + line(baseline.made_by) + ",\n";
+  const Snapshot& made = baseline.snapshot;
+  std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);
+  const auto member = [&](const std::string& key, const Json& value) {
+    out += "\"" + key + "\": " + text(value) + ",\n";
+  };
+  member("sweep", made.sweep);
+  member("made_by", baseline.made_by);
+  member("machine", made.machine);
   out += lines("limits", limits) + ",\n";
-  out += "\"sequences\": " + line(baseline.snapshot.sequences) + ",\n";
-  out += "\"protocols\": " + line(baseline.snapshot.protocols) + ",\n";
+  member("sequences", made.sequences);
+  member("contents", made.contents);
+  member("protocols", made.protocols);
+  member("metrics", made.metrics);
+  member("methods", made.methods);
   return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
-}
-
-namespace {
-
-Json parsed(const std::string& text, const std::string& file) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
-    const std::string what = error.what();  // "[json.exception...] parse error at ...: the reason"
-    const std::size_t reason = what.find(": ");
-    throw input_error(
-        file,
-        line,
-        "is not JSON: " + (reason == std::string::npos ? what : what.substr(reason + 2)));
-  }
-}
-
-std::string baseline_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read, expected a baseline (--update writes one)");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-}  // namespace
-
-Baseline parse_baseline(const std::string& text, const std::string& file) {
-  return BaselineReader(file).read(parsed(text, file));
-}
-
-Baseline read_baseline(const std::filesystem::path& file) {
-  return parse_baseline(baseline_text(file), file.string());
-}
-
-std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
-  return BaselineReader(file.string()).limits(parsed(baseline_text(file), file.string()));
 }
 
 }  // namespace loopbench

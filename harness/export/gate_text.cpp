@@ -60,11 +60,14 @@ std::string markdown(const GateReport& report, const std::string& sweep) {
                          counted_findings(report.count(Finding::Kind::added), "new cell"),
                          counted_findings(report.cells, "cell"),
                          counted_findings(report.scores, "score"))}};
+  for (const std::string& note : report.notes) out.notes.push_back(note);
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
   }
   if (!out.lines.empty()) return markdown(out);
-  return "### " + out.title + "\n\n- " + out.notes[0] + "\n";
+  std::string text = "### " + out.title + "\n\n";
+  for (const std::string& note : out.notes) text += "- " + note + "\n";
+  return text;
 }
 
 std::string junit(const GateReport& report, const std::string& sweep) {

@@ -5,30 +5,45 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/statistics/average.hpp"
-#include "harness/statistics/differences.hpp"
-#include "harness/statistics/holm.hpp"
-#include "harness/statistics/signed_rank.hpp"
+#include "harness/compare/name_order.hpp"
 
 namespace loopbench {
 namespace {
 
-double mean_of(const ByRun& runs) {
-  std::vector<double> values;
-  for (const auto& [run, value] : runs) values.push_back(value);
-  return mean(values);
-}
+struct MarkContest {
+  std::vector<std::size_t> entries;  // competitors with a value
+  std::vector<bool> is_complete;     // of each entry: knows every run
+  GroupedValues values;
+  std::size_t groups = 0;
+};
 
-double p_value(const ByRun& a, const ByRun& b) {
-  std::vector<double> left;
-  std::vector<double> right;
-  for (const auto& [run, value] : a) {
-    const auto other = b.find(run);
-    if (other == b.end()) continue;
-    left.push_back(value);
-    right.push_back(other->second);
+MarkContest mark_contest(const Lane& lane) {
+  MarkContest out;
+  std::set<std::string> runs;
+  for (std::size_t i = 0; i < lane.competitors.size(); ++i) {
+    const ByRun& own = lane.competitors[i];
+    if (std::ranges::none_of(own, [](const auto& run) { return run.second.has_value(); })) continue;
+    out.entries.push_back(i);
+    for (const auto& [run, value] : own) runs.insert(run);
   }
-  return signed_rank(paired_differences(left, right).values).p;
+  NameOrder groups;
+  out.values.values.resize(out.entries.size());
+  out.values.better = lane.better;
+  out.values.target = lane.target;
+  for (const std::size_t i : out.entries) {
+    out.is_complete.push_back(lane.competitors[i].size() == runs.size());
+  }
+  for (const std::string& run : runs) {
+    const auto knows = [&](std::size_t i) { return lane.competitors[i].contains(run); };
+    if (!std::ranges::all_of(out.entries, knows)) continue;
+    for (std::size_t e = 0; e < out.entries.size(); ++e) {
+      out.values.values[e].push_back(lane.competitors[out.entries[e]].at(run));
+    }
+    const auto group = lane.group.find(run);
+    out.values.group.push_back(groups.index(group == lane.group.end() ? run : group->second));
+  }
+  out.groups = groups.names().size();
+  return out;
 }
 
 }  // namespace
@@ -37,49 +52,30 @@ const char* mark_name(Mark mark) {
   return mark == Mark::best ? "best" : mark == Mark::second ? "second" : "";
 }
 
-Marks mark_best(const std::vector<ByRun>& competitors, bool higher, double alpha) {
-  Marks out{std::vector<Mark>(competitors.size(), Mark::none), ""};
-  std::vector<std::size_t> order;
-  std::set<std::string> runs;
-  for (std::size_t i = 0; i < competitors.size(); ++i) {
-    if (!competitors[i].empty()) order.push_back(i);
-    for (const auto& [run, value] : competitors[i]) runs.insert(run);
-  }
-  if (order.size() < 2) return out;
-  const std::size_t pairs = order.size() * (order.size() - 1) / 2;
-  // The last of Holm's steps asks for alpha itself, the first for alpha over all pairs.
-  if (least_p(runs.size()) > alpha) {
-    out.why_none = fmt::format("{} run{} a cell cannot show a difference at {} (least p {:.2g})",
-                               runs.size(),
-                               runs.size() == 1 ? "" : "s",
-                               alpha,
-                               least_p(runs.size()));
+Marks mark_best(const Lane& lane, const RankingOptions& options) {
+  Marks out{std::vector<Mark>(lane.competitors.size(), Mark::none), ""};
+  const MarkContest all = mark_contest(lane);
+  if (all.entries.size() < 2 || all.groups == 0) return out;
+  const Ranking ranking = rank_methods(all.values, options);
+  if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
+    out.why_none = fmt::format("{} independent run{} a cell cannot prove a difference at {:g}",
+                               all.groups,
+                               all.groups == 1 ? "" : "s",
+                               options.alpha);
     return out;
   }
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    const double left = mean_of(competitors[a]);
-    const double right = mean_of(competitors[b]);
-    return higher ? left > right : left < right;
-  });
-  std::vector<double> p;
-  p.reserve(pairs);
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      p.push_back(p_value(competitors[order[a]], competitors[order[b]]));
-    }
-  }
-  const std::vector<double> adjusted = holm(p);
-  const auto beats_the_rest = [&](std::size_t begin, std::size_t count) {
-    return std::all_of(adjusted.begin() + static_cast<std::ptrdiff_t>(begin),
-                       adjusted.begin() + static_cast<std::ptrdiff_t>(begin + count),
-                       [&](double value) { return value < alpha; });
+  if (!ranking.is_best_proven()) return out;
+  const auto mark = [&](std::size_t entry, Mark value) {
+    if (all.is_complete[entry]) out.marks[all.entries[entry]] = value;
   };
-  const auto is_whole = [&](std::size_t i) { return competitors[order[i]].size() == runs.size(); };
-  if (!is_whole(0) || !beats_the_rest(0, order.size() - 1)) return out;
-  out.marks[order[0]] = Mark::best;
-  if (order.size() > 2 && is_whole(1) && beats_the_rest(order.size() - 1, order.size() - 2)) {
-    out.marks[order[1]] = Mark::second;
-  }
+  const std::vector<std::size_t> best = ranking.leaders();
+  for (const std::size_t entry : best) mark(entry, Mark::best);
+  if (best.size() + 1 >= all.entries.size()) return out;
+  const std::size_t next = ranking.order[best.size()];
+  const auto is_below = [&](std::size_t m) {
+    return m == next || ranking.beats[next][m] || ranking.beats[m][next];
+  };
+  if (std::ranges::all_of(ranking.order, is_below)) mark(next, Mark::second);
   return out;
 }
 

@@ -1,9 +1,12 @@
-/// Who may be called best in a table.
+/// Which values of a table's column (or row) are marked as best and second best.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "harness/compare/ranking.hpp"
 
 namespace loopbench {
 
@@ -12,19 +15,26 @@ enum class Mark { none, second, best };
 /// "best", "second" or "".
 const char* mark_name(Mark mark);
 
-/// The values that fell into one cell, by run: what is paired in a test.
-using ByRun = std::map<std::string, double>;
+/// The values that fell into one cell, by run; none where the method failed.
+using ByRun = std::map<std::string, std::optional<double>>;
+
+/// What is compared where the best is marked.
+struct Lane {
+  std::vector<ByRun> competitors;
+  std::map<std::string, std::string> group;  ///< of a run; a group by itself where there is none
+  Better better = Better::lower;
+  double target = 0.0;
+};
 
 struct Marks {
   std::vector<Mark> marks;  ///< one for each competitor
   std::string why_none;     ///< set when nothing could be tested, whatever the values
 };
 
-/// Best: the lowest mean, when a paired Wilcoxon test tells it from every other competitor at level
-/// alpha, Holm-corrected over all pairs since it was picked by looking; second best: likewise among
-/// the rest. A competitor that lacks a run which another has is compared where both have one, but
-/// never marked. `higher` turns the order round. Competitors without values do not compete.
-/// O(competitors^2) tests.
-Marks mark_best(const std::vector<ByRun>& competitors, bool higher, double alpha);
+/// Best: proven better than every other competitor by `rank_methods`, as verdicts have it; second
+/// best: than all but the best. Methods that are equal share a mark. A competitor that lacks a run
+/// without having failed on it is compared where all have one, but never marked. Competitors
+/// without values do not compete.
+Marks mark_best(const Lane& lane, const RankingOptions& options);
 
 }  // namespace loopbench

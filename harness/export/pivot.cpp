@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/name_order.hpp"
+#include "harness/compare/observations.hpp"
+#include "harness/export/cell_numbers.hpp"
+#include "harness/export/error_counts.hpp"
 #include "harness/export/notes.hpp"
 
 namespace loopbench {
@@ -27,20 +31,21 @@ std::string kind(const Record& r) {
          "]";
 }
 
-/// What is compared where the best is marked.
-struct CellContest {
-  ByRun runs;
-  Better better = Better::neither;
-};
+using Place = std::pair<std::size_t, std::size_t>;  // row, column
 
 struct Builder {
   NameOrder rows;
   NameOrder columns;
-  std::map<std::pair<std::size_t, std::size_t>, TableCell> cells;
-  std::map<std::pair<std::size_t, std::size_t>, std::string> kinds;
-  std::map<std::pair<std::size_t, std::size_t>, CellContest> contests;
-  std::size_t most = 1;                           // records averaged into one cell
+  std::map<Place, CellNumbers> numbers;
+  std::map<Place, std::string> status;  // of cells with a record that has no value
+  std::map<Place, std::string> kinds;
+  std::map<Place, std::set<std::string>> lost;               // runs on which a score failed
+  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
+  std::map<std::string, std::set<std::string>> lost_by_method;
+  std::map<std::string, std::string> groups;  // of runs
+  ErrorCounts counts;
   std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
+  std::set<std::string> oracle_sequences;         // whose closures are measured in the reference
   std::vector<Missing> missing;
   std::vector<std::string> notes;
 
@@ -56,7 +61,8 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     table.note("oracle: the method was shown the reference");
   }
   const std::size_t row = table.rows.index(name);
-  if (record.oracle_closures) table.note("closures are oracle: measured in the reference");
+  if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
+  table.groups[run_key(record)] = group_name(record);
   if (record.status != "ok") {
     // Too little coverage is one reason for every metric; an undefined number names itself.
     const bool is_whole = record.metric.empty() || record.status == "incomplete";
@@ -66,12 +72,14 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     table.note(name + ": " + record.why);
   }
   if (record.metric.empty()) {
-    if (record.status != "ok") table.row_status[row] = record.status;
+    if (record.status == "ok") return;
+    table.row_status[row] = record.status;
+    table.lost_by_row[row].insert(run_key(record));
+    table.lost_by_method[record.method].insert(run_key(record));
     return;
   }
   const std::string unit = record.unit.empty() ? "" : " [" + record.unit + "]";
   const std::size_t column = table.columns.index(fields_joined(record, spec.columns, " ") + unit);
-  TableCell& cell = table.cells[{row, column}];
   const std::string own = kind(record);
   if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
       other != own) {
@@ -79,78 +87,143 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
                      "'; add the column that tells them apart");
   }
   if (record.status != "ok") {
-    cell.status = record.status;
+    table.status[{row, column}] = record.status;
+    if (is_loss(record)) table.lost[{row, column}].insert(run_key(record));
     return;
   }
-  const double sum = cell.value.value_or(0.0) * static_cast<double>(cell.records);
-  ++cell.records;
-  table.most = std::max(table.most, cell.records);
-  const double own_value = value(record, spec.value);
-  cell.value = (sum + own_value) / static_cast<double>(cell.records);
-  CellContest& contest = table.contests[{row, column}];
-  if (record.oracle) return;  // who was shown the reference does not compete
-  contest.runs[record.sequence + "\n" + std::to_string(record.repeat)] = own_value;
-  contest.better = record.better;
+  table.counts.add(column, record);
+  table.numbers[{row, column}].add(record, value(record, spec.value));
+}
+
+/// The cells of a column (or a row) that compete, with the runs on which they failed.
+Lane lane(const Builder& table, const std::vector<Place>& places, bool along_columns) {
+  Lane out{{}, table.groups, Better::neither, 0.0};
+  std::set<std::string> runs;
+  for (const Place& place : places) {
+    ByRun& own = out.competitors.emplace_back();
+    const auto found = table.numbers.find(place);
+    if (found == table.numbers.end() || found->second.runs().empty()) continue;
+    own = found->second.runs();
+    out.better = found->second.better();
+    out.target = found->second.target();
+    for (const auto& [run, value] : own) runs.insert(run);
+  }
+  const auto lose = [&](ByRun& own, const auto& losses, const auto& key) {
+    const auto found = losses.find(key);
+    if (own.empty() || found == losses.end()) return;
+    for (const std::string& run : found->second) {
+      if (runs.contains(run)) own.emplace(run, std::nullopt);
+    }
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ByRun& own = out.competitors[i];
+    if (own.empty()) continue;
+    lose(own, table.lost, places[i]);
+    if (along_columns) lose(own, table.lost_by_row, places[i].first);
+    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(places[i]).method());
+  }
+  return out;
+}
+
+/// Runs of the competitors that share one with competitor `i`: what its number could be over.
+std::size_t possible(const Lane& lane, std::size_t i) {
+  std::set<std::string> out;
+  for (const ByRun& other : lane.competitors) {
+    const bool shares = std::ranges::any_of(
+        other, [&](const auto& run) { return lane.competitors[i].contains(run.first); });
+    if (!shares) continue;
+    for (const auto& [run, value] : other) out.insert(run);
+  }
+  return out.size();
 }
 
 /// Marks the best along every column (or every row) of the finished table.
-void mark(Table& out, const Builder& table, bool along_columns, double alpha) {
+void mark(Table& out, const Builder& table, bool along_columns, const RankingOptions& options) {
   const std::size_t lanes = along_columns ? out.columns.size() : out.rows.size();
   const std::size_t entries = along_columns ? out.rows.size() : out.columns.size();
   bool is_marked = false;
   std::string why_none;
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    std::vector<ByRun> competitors(entries);
-    Better way = Better::neither;
-    const auto at = [&](std::size_t i) {
-      return along_columns ? std::pair{i, lane} : std::pair{lane, i};
-    };
+  for (std::size_t l = 0; l < lanes; ++l) {
+    std::vector<Place> places;
     for (std::size_t i = 0; i < entries; ++i) {
-      const auto found = table.contests.find(at(i));
-      if (found == table.contests.end()) continue;
-      competitors[i] = found->second.runs;
-      way = found->second.better;
+      places.push_back(along_columns ? Place{i, l} : Place{l, i});
     }
-    if (way == Better::neither || way == Better::target) continue;
-    const Marks marks = mark_best(competitors, way == Better::higher, alpha);
+    const Lane all = lane(table, places, along_columns);
+    const Marks marks = all.better == Better::neither
+                            ? Marks{std::vector<Mark>(entries, Mark::none), ""}
+                            : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
     for (std::size_t i = 0; i < entries; ++i) {
-      out.cells[at(i).first][at(i).second].mark = marks.marks[i];
-      is_marked = is_marked || marks.marks[i] != Mark::none;
+      TableCell& cell = out.cells[places[i].first][places[i].second];
+      cell.mark = marks.marks[i];
+      is_marked = is_marked || cell.mark != Mark::none;
+      const auto values = static_cast<std::size_t>(std::ranges::count_if(
+          all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
+      const std::size_t most = possible(all, i);
+      if (cell.value && values < most) cell.possible = cell.records + most - values;
     }
   }
   if (is_marked) {
     out.notes.insert(out.notes.begin(),
-                     "marked: best, and second best, where paired Wilcoxon tests over the runs "
-                     "tell it from all others (Holm over all pairs)");
+                     "marked: best, and second best, where it is proven better than all others, as "
+                     "compare tests it");
   } else if (!why_none.empty()) {
     out.notes.push_back("no best is marked: " + why_none);
   }
 }
 
-Table finish(const Builder& table, const std::string& title, const TableSpec& spec, double alpha) {
+/// What a reader must know of the averages.
+void explain_averages(Table& out, const Builder& table) {
+  std::size_t most = 1;
+  bool has_gain = false;
+  for (const auto& [place, numbers] : table.numbers) {
+    most = std::max(most, numbers.size());
+    has_gain = has_gain || numbers.is_gain();
+  }
+  if (most < 2) return;
+  std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
+  if (has_gain) text += "; gain is 1 - the geometric mean ratio to the baseline";
+  out.notes.insert(out.notes.begin(), text);
+}
+
+Table finish(const Builder& table,
+             const std::string& title,
+             const TableSpec& spec,
+             const RankingOptions& options) {
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
-  if (table.most > 1) {
-    out.notes.insert(out.notes.begin(),
-                     "each number is the mean of up to " + std::to_string(table.most) + " cells");
+  if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
+    out.notes.push_back("numbers of other counts than the judged poses (pairs): " + counts);
   }
+  if (!table.oracle_sequences.empty()) {
+    std::string names;
+    for (const std::string& name : table.oracle_sequences)
+      names += (names.empty() ? "" : ", ") + name;
+    out.notes.push_back("closures are oracle, measured in the reference: " + names);
+  }
+  explain_averages(out, table);
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
     std::vector<TableCell> line(out.columns.size());
     for (std::size_t c = 0; c < out.columns.size(); ++c) {
-      if (const auto found = table.cells.find({r, c}); found != table.cells.end()) {
-        line[c] = found->second;
-      } else if (const auto whole = table.row_status.find(r); whole != table.row_status.end()) {
+      if (const auto whole = table.row_status.find(r); whole != table.row_status.end()) {
         line[c].status = whole->second;
       }
+      if (const auto own = table.status.find({r, c}); own != table.status.end()) {
+        line[c].status = own->second;
+      }
+      const auto found = table.numbers.find({r, c});
+      if (found == table.numbers.end()) continue;
+      line[c].value = found->second.average();
+      line[c].records = found->second.size();
+      if (!line[c].value) line[c].status = "undefined";
     }
     out.cells.push_back(std::move(line));
   }
   // Methods compete; a best sequence means nothing.
-  if (std::ranges::count(spec.rows, "method") > 0) mark(out, table, true, alpha);
-  if (spec.columns == std::vector<std::string>{"method"}) mark(out, table, false, alpha);
+  if (std::ranges::count(spec.rows, "method") > 0) mark(out, table, true, options);
+  if (spec.columns == std::vector<std::string>{"method"}) mark(out, table, false, options);
   return out;
 }
 
@@ -173,7 +246,9 @@ TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& rec
 
 }  // namespace
 
-std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& given, double alpha) {
+std::vector<Table> pivot(const std::vector<Record>& records,
+                         const TableSpec& given,
+                         const RankingOptions& options) {
   const TableSpec spec = telling_protocols_apart(given, records);
   NameOrder titles;
   std::vector<Builder> builders;
@@ -205,7 +280,7 @@ std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& gi
   if (builders.empty()) throw InputError("the table is empty: no row is left to show");
   std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.push_back(finish(builders[t], titles.names()[t], spec, alpha));
+    out.push_back(finish(builders[t], titles.names()[t], spec, options));
   }
   return out;
 }

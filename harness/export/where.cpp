@@ -16,20 +16,35 @@ struct Condition {
   std::optional<Pattern> pattern;
 };
 
-/// At commas outside of brackets: labels like `evo (align=se3, first=10)` stay whole.
+/// At commas outside of brackets and quotes: labels like `evo (align=se3, first=10)` stay whole. A
+/// quote opens at the beginning of a part or after an operator only.
 std::vector<std::string> split(const std::string& rule) {
   std::vector<std::string> parts{""};
   int depth = 0;
+  bool is_quoted = false;
   for (const char c : rule) {
+    std::string& part = parts.back();
+    const bool may_open = part.empty() || part.back() == '=' || part.back() == '~';
+    if (c == '"' && (is_quoted || may_open)) is_quoted = !is_quoted;
+    if (is_quoted) {
+      part += c;
+      continue;
+    }
     if (c == '(' || c == '[' || c == '{') ++depth;
     if (c == ')' || c == ']' || c == '}') --depth;
     if (c == ',' && depth <= 0) {
       parts.emplace_back();
     } else {
-      parts.back() += c;
+      part += c;
     }
   }
+  if (is_quoted) throw InputError("'" + rule + "': a quote is not closed");
   return parts;
+}
+
+std::string unquoted(const std::string& text) {
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 Condition condition(const std::string& part) {
@@ -37,9 +52,11 @@ Condition condition(const std::string& part) {
   const bool is_not = at != std::string::npos && part[at] == '!';
   if (at == std::string::npos || (is_not && part.compare(at, 2, "!=") != 0)) {
     throw InputError("where: '" + part +
-                     "' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
+                     "' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
+                     "method=\"a, b\"");
   }
-  Condition out{part.substr(0, at), part.substr(at + (is_not ? 2 : 1)), !is_not, std::nullopt};
+  Condition out{
+      part.substr(0, at), unquoted(part.substr(at + (is_not ? 2 : 1))), !is_not, std::nullopt};
   try {
     field(Record{}, out.field);
     if (part[at] == '~') out.pattern.emplace(out.text);
@@ -60,6 +77,12 @@ bool holds(const Condition& condition, const Record& record) {
 }
 
 }  // namespace
+
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> out;
+  for (const std::string& part : split(text)) out.push_back(unquoted(part));
+  return out;
+}
 
 std::function<bool(const Record&)> where(const std::vector<std::string>& rules) {
   std::vector<Condition> conditions;

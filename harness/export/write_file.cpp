@@ -76,7 +76,18 @@ int create_beside(const FilePath& file, FilePath& part) {
 
 }  // namespace
 
+bool is_dash(const FilePath& file) { return file == "-"; }
+
+void require_no_dash(const std::string& option, const FilePath& file) {
+  if (!is_dash(file)) return;
+  throw InputError(option + " -: standard output cannot hold this, expected a name");
+}
+
 void write_file(const FilePath& file, const std::string& text) {
+  if (is_dash(file)) {
+    std::fwrite(text.data(), 1, text.size(), stdout);  // main() reports when nobody takes it
+    return;
+  }
   struct stat there {};
   const bool exists = ::stat(file.c_str(), &there) == 0;
   if (exists && S_ISDIR(there.st_mode)) throw cannot_write(file, "is a folder");
@@ -106,7 +117,7 @@ void write_file(const FilePath& file, const std::string& text) {
 
 void refuse_to_overwrite(const std::vector<FilePath>& inputs, const FilePath& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return;
+  if (is_dash(file) || !std::filesystem::is_regular_file(file, error)) return;
   for (const FilePath& input : inputs) {
     if (std::filesystem::equivalent(input, file, error) && !error) {
       throw input_error(file.string(), 0, "is read by this command, so it is not written over");

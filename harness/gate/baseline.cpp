@@ -6,7 +6,11 @@
 namespace loopbench {
 
 Tolerance time_limit(double relative) {
-  return {.where = {"metric=time"}, .relative = relative, .absolute = 1.0, .tie = 0.1};
+  return {.where = {"metric=time"},
+          .values = {"rmse"},
+          .relative = relative,
+          .absolute = 1.0,
+          .tie = 0.1};
 }
 
 bool limits_time(const std::vector<Tolerance>& limits) {
@@ -15,14 +19,21 @@ bool limits_time(const std::vector<Tolerance>& limits) {
   });
 }
 
-std::string name(const GateCell& cell) {
-  const std::string repeat =
-      cell.repeat == 0 ? "" : " (repeat " + std::to_string(cell.repeat) + ")";
-  return cell.sequence + repeat + " / " + cell.method;
+bool is_dirty(const std::map<std::string, std::string>& made_by) {
+  const auto source = made_by.find("source");
+  return source != made_by.end() && source->second.find("dirty") != std::string::npos;
 }
 
+bool has_number(const std::string& status) { return status == "ok" || status == "incomplete"; }
+
+std::string sequence_name(const GateCell& cell) {
+  return cell.sequence + (cell.repeat == 0 ? "" : " (repeat " + std::to_string(cell.repeat) + ")");
+}
+
+std::string name(const GateCell& cell) { return sequence_name(cell) + " / " + cell.method; }
+
 std::string name(const GateScore& score) {
-  std::string out = score.metric;
+  std::string out = score.label.empty() ? score.metric : score.label;
   for (const std::string& word : {score.relation, score.axis}) {
     if (!word.empty()) out += " " + word;
   }
@@ -37,46 +48,72 @@ Record as_record(const GateCell& cell, const GateScore& score) {
   out.protocol = score.protocol;
   out.times = score.times;
   out.metric = score.metric;
+  out.label = score.label;
   out.relation = score.relation;
   out.axis = score.axis;
   out.unit = score.unit;
   out.status = score.status;
   out.better = score.better;
+  out.target = score.target;
   return out;
 }
+
+namespace {
+
+GateCell gate_cell(const Record& r) {
+  GateCell out;
+  out.sequence = r.sequence;
+  out.repeat = r.repeat;
+  out.method = r.method;
+  out.oracle = r.oracle;
+  out.oracle_data = r.oracle_closures;
+  out.group = r.group;
+  out.content = r.content;
+  return out;
+}
+
+GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
+  GateScore out;
+  out.protocol = r.protocol;
+  out.times = r.times;
+  out.metric = r.metric;
+  out.label = r.label;
+  out.relation = r.relation;
+  out.axis = r.axis;
+  out.unit = r.unit;
+  out.better = r.better;
+  out.target = r.target;
+  out.status = r.status;
+  if (!has_number(r.status)) return out;
+  out.pairs = r.pairs;
+  out.possible = r.possible;
+  out.count = static_cast<std::int64_t>(r.statistics.count);
+  for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
+  return out;
+}
+
+}  // namespace
 
 std::vector<GateCell> gate_cells(const std::vector<Record>& records,
                                  const std::vector<Tolerance>& limits) {
   std::set<std::string> statistics;
   for (const Tolerance& limit : limits) {
-    value(Record{}, limit.value);  // refuses an unknown one even when there are no records
-    statistics.insert(limit.value);
+    for (const std::string& statistic : limit.values) {
+      value(Record{}, statistic);  // rejects an unknown one even when there are no records
+      statistics.insert(statistic);
+    }
   }
   std::vector<GateCell> out;
   std::map<std::int64_t, std::size_t> places;
   for (const Record& r : records) {
     const auto [found, is_new] = places.emplace(r.cell, out.size());
-    if (is_new) out.push_back({r.sequence, r.repeat, r.method, "ok", {}});
+    if (is_new) out.push_back(gate_cell(r));
     GateCell& cell = out[found->second];
     if (r.metric.empty()) {
       cell.status = r.status;
-      continue;
+    } else {
+      cell.scores.push_back(gate_score(r, statistics));
     }
-    GateScore score{r.protocol,
-                    r.times,
-                    metric_label(r),
-                    r.relation,
-                    r.axis,
-                    r.unit,
-                    r.status,
-                    0,
-                    {},
-                    r.better};
-    if (r.status == "ok") {
-      score.pairs = r.pairs;
-      for (const std::string& statistic : statistics) score.values[statistic] = value(r, statistic);
-    }
-    cell.scores.push_back(std::move(score));
   }
   return out;
 }

@@ -4,63 +4,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 #include "datasets/core/error.hpp"
+#include "datasets/core/fields.hpp"
 #include "harness/export/where.hpp"
 #include "harness/gate/consistent_loss.hpp"
+#include "harness/gate/definitions.hpp"
 
 namespace loopbench {
 namespace {
 
-/// What one of two texts of options, `name: a=1, b=2; file bytes hash`, has and the other has not.
-std::string only_in(const std::string& text, const std::string& other) {
-  const auto parts = [](const std::string& whole) {
-    std::vector<std::string> out{""};
-    for (const char c : whole) {
-      if (c == ',' || c == ';') {
-        out.emplace_back();
-      } else if (c != ' ' || !out.back().empty()) {
-        out.back() += c;
-      }
-    }
-    return out;
+/// How much is missing: nothing, coverage, a number, a result.
+int severity(const std::string& status) {
+  if (status == "ok") return 0;
+  if (status == "incomplete") return 1;
+  return status == "declined" ? 2 : 3;
+}
+
+/// Positive: worse.
+double loss(const GateScore& score, double before, double now) {
+  switch (score.better) {
+    case Better::lower:
+      return now - before;
+    case Better::higher:
+      return before - now;
+    case Better::target:
+      return std::abs(now - score.target) - std::abs(before - score.target);
+    case Better::neither:
+      return std::abs(now - before);
+  }
+  return 0.0;
+}
+
+/// Why the numbers of the two cannot be compared, or empty.
+std::string other_meaning(const GateScore& before, const GateScore& now) {
+  if (now.metric != before.metric) {
+    return fmt::format("is the metric '{}', was '{}'", now.metric, before.metric);
+  }
+  if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
+  if (now.better == before.better && now.target == before.target) return "";
+  const auto direction = [](const GateScore& score) {
+    return score.better == Better::target ? fmt::format("target {}", score.target)
+                                          : to_text(score.better);
   };
-  const std::vector<std::string> others = parts(other);
-  std::string out;
-  for (const std::string& part : parts(text)) {
-    if (std::ranges::count(others, part) > 0) continue;
-    out += (out.empty() ? "" : ", ") + part;
-  }
-  return out;
-}
-
-void refuse_others(const std::map<std::string, std::string>& baseline,
-                   const std::map<std::string, std::string>& now,
-                   const std::string& what,
-                   bool may_be_missing) {
-  for (const auto& [label, text] : baseline) {
-    const auto found = now.find(label);
-    if (found == now.end()) {
-      if (may_be_missing) continue;
-      throw InputError("the baseline has the " + what + " '" + label + "', these results do not");
-    }
-    if (found->second == text) continue;
-    throw InputError("the baseline is of another " + what + " '" + label + "': it has '" +
-                     only_in(text, found->second) + "', these results have '" +
-                     only_in(found->second, text) + "'");
-  }
-}
-
-bool is_failure(const std::string& status) {
-  return status != "ok" && status != "declined" && status != "incomplete";
-}
-
-/// 1: worse, -1: better, 0: neither.
-int status_move(const std::string& before, const std::string& now) {
-  if (before == now) return 0;
-  if (now == "ok" || (is_failure(before) && !is_failure(now))) return -1;
-  return before == "ok" || is_failure(now) ? 1 : 0;
+  return fmt::format("best value: {}, was: {}", direction(now), direction(before));
 }
 
 class Checker {
@@ -81,6 +70,7 @@ class Checker {
       }
     }
     for (const Finding& finding : losses_.findings()) report_.findings.push_back(finding);
+    report_.notes = losses_.notes();
   }
 
   GateReport report() && { return std::move(report_); }
@@ -96,18 +86,31 @@ class Checker {
     report_.findings.push_back({kind, cell, score, what});
   }
 
+  /// Whether both have a number.
   bool status(const std::string& before,
               const std::string& now,
               const std::string& cell,
               const std::string& score) {
-    const int move = status_move(before, now);
-    if (move != 0) {
-      find(move > 0 ? Finding::Kind::regression : Finding::Kind::improvement,
-           cell,
-           score,
-           "was " + before + ", is " + now);
+    if (severity(now) != severity(before)) {
+      find(
+          severity(now) > severity(before) ? Finding::Kind::regression : Finding::Kind::improvement,
+          cell,
+          score,
+          "was " + before + ", is " + now);
     }
-    return before == "ok" && now == "ok";
+    return has_number(before) && has_number(now);
+  }
+
+  void oracle(const GateCell& before, const GateCell& now) {
+    const auto flag = [&](bool was, bool is, const std::string& what) {
+      if (was == is) return;
+      find(is ? Finding::Kind::regression : Finding::Kind::improvement,
+           name(before),
+           "",
+           what + (is ? ", was not" : " no longer"));
+    };
+    flag(before.oracle, now.oracle, "oracle: the method or its data is shown the reference");
+    flag(before.oracle_data, now.oracle_data, "oracle: closures are measured in the reference");
   }
 
   void add(const GateCell& before) {
@@ -121,6 +124,7 @@ class Checker {
       return;
     }
     const GateCell& now = *found->second;
+    oracle(before, now);
     if (!status(before.status, now.status, name(before), "")) return;
     std::map<std::string, const GateScore*> scores;
     for (const GateScore& score : now.scores) scores.emplace(name(score), &score);
@@ -129,48 +133,62 @@ class Checker {
       if (same == scores.end()) {
         find(Finding::Kind::regression, name(before), name(score), "vanished");
       } else if (status(score.status, same->second->status, name(before), name(score))) {
-        compare(before, score, *same->second);
+        compare(now, score, *same->second);
       }
     }
   }
 
   void compare(const GateCell& cell, const GateScore& before, const GateScore& now) {
     ++report_.scores;
-    const Record record = as_record(cell, before);
-    if (now.pairs < before.pairs) {
-      find(Finding::Kind::regression,
-           name(cell),
-           name(before),
-           fmt::format("judged {} pose pairs, was {}", now.pairs, before.pairs));
+    const auto regression = [&](const std::string& what) {
+      find(Finding::Kind::regression, name(cell), name(before), what);
+    };
+    if (const std::string other = other_meaning(before, now); !other.empty()) {
+      regression(other);
+      return;
     }
+    if (now.pairs < before.pairs) {
+      regression(fmt::format("judged {} pose pairs, was {}", now.pairs, before.pairs));
+    } else if (now.pairs * before.possible < before.pairs * now.possible) {
+      regression(fmt::format("judged {} of {} possible pose pairs, was {} of {}",
+                             now.pairs,
+                             now.possible,
+                             before.pairs,
+                             before.possible));
+    }
+    const Record record = as_record(cell, before);
     for (std::size_t i = 0; i < keeps_.size(); ++i) {
       if (!keeps_[i](record)) continue;
       const Tolerance& limit = baseline_.limits[i];
-      const auto old_value = before.values.find(limit.value);
-      const auto new_value = now.values.find(limit.value);
-      if (old_value == before.values.end() || new_value == now.values.end()) return;
-      measure(cell, before, limit, now.better, old_value->second, new_value->second);
+      const double fewest = static_cast<double>(before.count) * (1.0 - limit.relative);
+      if (static_cast<double>(now.count) < fewest) {
+        regression(fmt::format("statistics over {} errors, was {}", now.count, before.count));
+      }
+      for (const std::string& statistic : limit.values) {
+        const auto old_value = before.values.find(statistic);
+        const auto new_value = now.values.find(statistic);
+        if (old_value == before.values.end() || new_value == now.values.end()) continue;
+        measure(cell, before, statistic, limit, old_value->second, new_value->second);
+      }
       return;
     }
   }
 
   void measure(const GateCell& cell,
                const GateScore& score,
+               const std::string& statistic,
                const Tolerance& limit,
-               Better way,
                double before,
                double now) {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
-    const double worse = way == Better::higher  ? before - now
-                         : way == Better::lower ? now - before
-                                                : std::abs(now - before);
-    losses_.add(cell.method, name(score), limit, way, before, now);
-    if (std::abs(worse) <= allowed) return;  // also refuses NaN below: not <=
+    const double worse = loss(score, before, now);
+    losses_.add(cell, score, statistic, limit, before, now);
+    if (std::abs(worse) <= allowed) return;  // NaN is beyond every limit
     find(worse < 0.0 ? Finding::Kind::improvement : Finding::Kind::regression,
          name(cell),
          name(score),
          fmt::format("{} {:.9g} {}, was {:.9g} ({:+.3g} %, may move {:.3g})",
-                     limit.value,
+                     statistic,
                      now,
                      score.unit,
                      before,
@@ -194,9 +212,11 @@ std::size_t GateReport::count(Finding::Kind kind) const {
 }
 
 GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
-  refuse_others(baseline.snapshot.sequences, now.sequences, "sequence", true);
-  refuse_others(baseline.snapshot.protocols, now.protocols, "protocol", false);
-  return Checker(baseline, now, extent).report();
+  require_same_definitions(baseline.snapshot, now);
+  GateReport out = Checker(baseline, now, extent).report();
+  const std::string contents = note_on_contents(baseline.snapshot, now);
+  if (!contents.empty()) out.notes.push_back(contents);
+  return out;
 }
 
 }  // namespace loopbench

@@ -18,7 +18,7 @@ struct Finding {
   Kind kind = Kind::regression;
   std::string cell;   ///< as `name` has it; a method where the finding is over all its runs
   std::string score;  ///< empty: the cell as a whole
-  std::string what;   ///< what was and what is, with the limit
+  std::string what;   ///< value before and now, with the limit
 };
 
 struct GateReport {
@@ -26,6 +26,7 @@ struct GateReport {
   std::size_t scores = 0;          ///< compared
   std::vector<std::string> names;  ///< of the baseline's cells, in order
   std::vector<Finding> findings;   ///< in the order of the baseline; over all runs last
+  std::vector<std::string> notes;  ///< checks that could not be made, and why
 
   std::size_t count(Finding::Kind kind) const;
   bool passes() const { return count(Finding::Kind::regression) == 0; }
@@ -34,9 +35,9 @@ struct GateReport {
 /// Whether `now` is all of the sweep, or a part of it whose missing cells are not missed.
 enum class GateExtent { whole, part };
 
-/// Throws InputError when the baseline's numbers were made from other inputs or by other rules,
-/// saying which, or when not one of its cells is among these. A sequence that is gone is not
-/// another input: its cells vanished. O(n log n) and a test per method and score.
+/// Throws InputError when the baseline's numbers were made from other definitions (see
+/// definitions.hpp), or when not one of its cells is among these. A sequence or method that is gone
+/// is not another one: its cells vanished. O(n log n) and one joint test of all methods and scores.
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::whole);

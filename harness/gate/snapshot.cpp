@@ -9,19 +9,22 @@
 namespace loopbench {
 namespace {
 
-/// One protocol a line, "label [version]: every rule", as the store keeps them.
-std::map<std::string, std::string> protocols(const std::string& text) {
+/// One definition a line, as the store keeps them: what ends the label, and how much of that
+/// belongs to the label.
+std::map<std::string, std::string> definitions(const std::string& text,
+                                               const std::string& end_of_label,
+                                               std::size_t kept) {
   std::map<std::string, std::string> out;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
-    const std::size_t end = line.find("]: ");
+    const std::size_t end = line.find(end_of_label);
     if (end == std::string::npos) continue;
-    out[line.substr(0, end + 1)] = line.substr(end + 3);
+    out[line.substr(0, end + kept)] = line.substr(end + end_of_label.size());
   }
   return out;
 }
 
-/// Where a file lies is not what it is: names, sizes and hashes of content.
+/// A file is its name, size and content, wherever it lies.
 std::string inputs_of(const std::vector<InputFile>& files) {
   std::string out;
   for (const InputFile& file : files) {
@@ -31,43 +34,68 @@ std::string inputs_of(const std::vector<InputFile>& files) {
   return out;
 }
 
+std::string text_of(const std::map<std::string, std::string>& run,
+                    const std::string& key,
+                    const std::filesystem::path& store) {
+  const auto found = run.find(key);
+  if (found != run.end()) return found->second;
+  throw InputError(store.string() + ": does not hold the " + key +
+                   " of its config in full; `run` with the same config adds them");
+}
+
+void add_sequences(const std::filesystem::path& store, Snapshot& out) {
+  const auto inputs = read_inputs(store);
+  const auto options = read_dataset_options(store);
+  for (const CellRecord& cell : read_cells(store)) {
+    GateCell named;
+    named.sequence = cell.sequence;
+    named.repeat = cell.repeat;
+    const std::string label = sequence_name(named);
+    if (out.sequences.contains(label)) continue;
+    const auto files = inputs.find(label);
+    const auto own = options.find(label);
+    // A sequence that was never loaded has only the options of the config.
+    out.sequences[label] = (own == options.end() ? cell.dataset_options : own->second) +
+                           (files == inputs.end() ? "" : inputs_of(files->second));
+  }
+  for (const GateCell& cell : out.cells) {
+    if (!cell.content.empty()) out.contents[sequence_name(cell)] = cell.content;
+  }
+}
+
 }  // namespace
 
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
   const auto run = read_run(store);
+  const auto made = read_provenance(store);
+  const auto fact = [&](const std::string& name) {
+    const auto found = made.find(name);
+    return found == made.end() ? "unknown" : found->second;
+  };
   Snapshot out;
   out.sweep = run.at("sweep");
-  out.protocols = protocols(run.at("protocol"));
+  out.machine =
+      fact("compiler") + ", " + fact("flags") + ", " + fact("c library") + ", " + fact("cpu");
+  out.protocols = definitions(run.at("protocol"), "]: ", 1);
+  out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
+  out.methods = definitions(text_of(run, "methods", store), "\t", 0);
   std::vector<Record> records = read_records(store);
   if (limits_time(limits)) {
     for (Record& time : run_times(records)) records.push_back(std::move(time));
-    const auto made = read_provenance(store);
-    const auto cpu = made.find("cpu");
-    // Times on another machine are not worse or better, they are others.
-    out.protocols["time"] = cpu == made.end() ? "on an unknown CPU" : "on " + cpu->second;
+    // Times on another machine are neither worse nor better.
+    const std::string cpu = fact("cpu");
+    out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
   out.cells = gate_cells(records, limits);
   if (out.cells.empty()) throw InputError(store.string() + ": holds no cell, nothing to check");
-  const auto inputs = read_inputs(store);
-  const auto options = read_dataset_options(store);
-  for (const CellRecord& cell : read_cells(store)) {
-    const std::string label = cell.repeat == 0
-                                  ? cell.sequence
-                                  : cell.sequence + " (repeat " + std::to_string(cell.repeat) + ")";
-    if (out.sequences.contains(label)) continue;
-    const auto files = inputs.find(label);
-    const auto own = options.find(label);
-    // One that never finished loading has only what the config says of it.
-    out.sequences[label] = (own == options.end() ? cell.dataset_options : own->second) +
-                           (files == inputs.end() ? "" : inputs_of(files->second));
-  }
+  add_sequences(store, out);
   return out;
 }
 
 std::map<std::string, std::string> made_by(const std::filesystem::path& store) {
   std::map<std::string, std::string> out{{"loopbench", read_run(store).at("loopbench")}};
   for (const auto& [key, value] : read_provenance(store)) {
-    for (const char* kept : {"commit", "state", "compiler", "flags"}) {
+    for (const char* kept : {"commit", "source", "compiler", "flags"}) {
       if (key == kept) out[key] = value;
     }
   }

@@ -90,7 +90,7 @@ Listing costs(const std::vector<CellRecord>& cells) {
       (cell->worker.find("serial") == std::string::npos ? shared : alone) = true;
     }
     out.rows.push_back(
-        {method,
+        {shown_name(method, all),
          std::to_string(all.size()),
          std::to_string(failed),
          median_text(
@@ -111,6 +111,7 @@ Listing costs(const std::vector<CellRecord>& cells) {
     out.notes.push_back(std::string(alone ? "some" : "all") +
                         " cells ran beside others: `timing: true` in the config runs them alone");
   }
+  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 
@@ -123,9 +124,10 @@ Listing reported(const std::vector<CellRecord>& cells) {
       for (const Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
       for (const Count& count : cell->counts) counts.add(count.name, count.value);
     }
-    phases.add_rows(out, method, "phase [ms]", milliseconds);
-    counts.add_rows(out, method, "count", plain);
+    phases.add_rows(out, shown_name(method, all), "phase [ms]", milliseconds);
+    counts.add_rows(out, shown_name(method, all), "count", plain);
   }
+  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "harness/profile/profile.hpp"
+#include "harness/statistics/ranks.hpp"
 
 namespace loopbench {
 
@@ -40,22 +41,14 @@ std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vecto
 }
 
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<std::size_t> order(a.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, [&](std::size_t i, std::size_t j) {
-    return a[i] != a[j] ? a[i] < a[j] : b[i] < b[j];
-  });
-  std::vector<bool> out(a.size(), false);
-  double best = std::numeric_limits<double>::infinity();  // b of those with a smaller a
-  double here = best;                                     // b of the best with the same a
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::size_t i = order[k];
-    if (k > 0 && a[i] != a[order[k - 1]]) {
-      best = std::min(best, here);
-      here = std::numeric_limits<double>::infinity();
-    }
-    here = std::min(here, b[i]);
-    out[i] = b[i] < best && b[i] <= here;
+  const auto less = [](double x, double y) { return x < y && !tied(x, y, kRelevant); };
+  const auto beats = [&](std::size_t i, std::size_t j) {
+    const bool is_worse = less(a[j], a[i]) || less(b[j], b[i]);
+    return !is_worse && (less(a[i], a[j]) || less(b[i], b[j]));
+  };
+  std::vector<bool> out(a.size(), true);
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    for (std::size_t i = 0; i < a.size() && out[j]; ++i) out[j] = !beats(i, j);
   }
   return out;
 }

@@ -22,6 +22,36 @@ inline std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_me
   return out;
 }
 
+/// Whether the method was shown the reference in some cell.
+inline bool is_oracle(const std::vector<const CellRecord*>& cells) {
+  return std::ranges::any_of(cells, [](const CellRecord* cell) { return cell->oracle; });
+}
+
+/// The method as tables name it.
+inline std::string shown_name(const std::string& method,
+                              const std::vector<const CellRecord*>& cells) {
+  return method + (is_oracle(cells) ? " (oracle)" : "");
+}
+
+/// What "(oracle)" means, and which sequences have closures from the reference; nothing where
+/// neither occurs.
+inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cells) {
+  std::vector<std::string> out;
+  std::vector<std::string> measured;
+  for (const CellRecord& cell : cells) {
+    if (cell.oracle && out.empty()) {
+      out.emplace_back("oracle: the method or its data was shown the reference");
+    }
+    if (cell.oracle_closures && std::ranges::count(measured, cell.sequence) == 0) {
+      measured.push_back(cell.sequence);
+    }
+  }
+  std::string names;
+  for (const std::string& name : measured) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty()) out.push_back("closures are oracle (measured in the reference): " + names);
+  return out;
+}
+
 /// Its method ran to its end.
 inline bool is_timed(const CellRecord& cell) {
   return cell.runs > 0 && (cell.status == "ok" || cell.status == "incomplete");

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
+#include "harness/statistics/ranks.hpp"
 
 namespace loopbench {
 namespace {
@@ -47,6 +50,61 @@ Chosen choose(const std::vector<Record>& records, const Accuracy& accuracy) {
   return out;
 }
 
+struct Point {
+  std::string method;
+  bool is_oracle = false;
+  std::size_t runs = 0;  // with an error
+  double error = 0.0;
+  double seconds = 0.0;
+};
+
+/// A point per method that has errors, the fastest first. `error_of`: by position of the cell.
+std::vector<Point> points_of(const std::vector<CellRecord>& cells,
+                             const std::map<std::int64_t, double>& error_of) {
+  std::vector<Point> points;
+  for (const auto& [method, all] : by_method(cells)) {
+    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> by_sequence;
+    std::size_t runs = 0;
+    for (const CellRecord* cell : all) {
+      const auto error = error_of.find(cell->position);
+      if (error == error_of.end()) continue;
+      ++runs;
+      by_sequence[cell->sequence].first.push_back(error->second);
+      by_sequence[cell->sequence].second.push_back(cell->seconds);
+    }
+    if (by_sequence.empty()) continue;
+    std::vector<double> errors;
+    std::vector<double> times;
+    for (const auto& [sequence, values] : by_sequence) {
+      errors.push_back(mean(values.first));
+      times.push_back(median_of(values.second));
+    }
+    points.push_back({method, is_oracle(all), runs, geometric_mean(errors), geometric_mean(times)});
+  }
+  std::ranges::stable_sort(points, {}, &Point::seconds);
+  return points;
+}
+
+/// yes, no, or a dash for those that do not compete.
+std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t runs) {
+  const auto competes = [&](const Point& p) { return p.runs == runs && !p.is_oracle; };
+  std::vector<double> errors;
+  std::vector<double> times;
+  for (const Point& point : points) {
+    if (!competes(point)) continue;
+    errors.push_back(point.error);
+    times.push_back(point.seconds);
+  }
+  const std::vector<bool> front = pareto_front(errors, times);
+  std::vector<std::string> out;
+  std::size_t next = 0;
+  for (const Point& point : points) {
+    out.push_back(!competes(point) ? "-" : front[next] ? "yes" : "no");
+    if (competes(point)) ++next;
+  }
+  return out;
+}
+
 }  // namespace
 
 Listing pareto(const std::vector<CellRecord>& cells,
@@ -63,70 +121,39 @@ Listing pareto(const std::vector<CellRecord>& cells,
     error_of[r.cell] = value(r, accuracy.value);
     unit = r.unit;
   }
-  struct Point {
-    std::string method;
-    std::size_t sequences = 0;
-    double error = 0.0;
-    double seconds = 0.0;
-  };
-  std::vector<Point> points;
-  std::set<std::string> all_sequences;
-  for (const CellRecord& cell : cells) all_sequences.insert(cell.sequence);
-  for (const auto& [method, all] : by_method(cells)) {
-    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> by_sequence;
-    for (const CellRecord* cell : all) {
-      const auto error = error_of.find(cell->position);
-      if (error == error_of.end()) continue;
-      by_sequence[cell->sequence].first.push_back(error->second);
-      by_sequence[cell->sequence].second.push_back(cell->seconds);
-    }
-    if (by_sequence.empty()) continue;
-    std::vector<double> errors;
-    std::vector<double> times;
-    for (const auto& [sequence, values] : by_sequence) {
-      errors.push_back(mean(values.first));
-      times.push_back(median_of(values.second));
-    }
-    points.push_back({method, by_sequence.size(), geometric_mean(errors), geometric_mean(times)});
-  }
-  std::ranges::stable_sort(points, {}, &Point::seconds);
-
-  std::vector<double> errors;
-  std::vector<double> times;
-  for (const Point& point : points) {
-    if (point.sequences != all_sequences.size()) continue;
-    errors.push_back(point.error);
-    times.push_back(point.seconds);
-  }
-  const std::vector<bool> front = pareto_front(errors, times);
+  std::set<std::pair<std::string, std::int64_t>> all_runs;
+  for (const CellRecord& cell : cells) all_runs.emplace(cell.sequence, cell.repeat);
+  const std::vector<Point> points = points_of(cells, error_of);
+  const std::vector<std::string> front = on_front(points, all_runs.size());
   Listing out{"accuracy and time",
               {"method",
-               "sequences",
+               "runs",
                accuracy.metric + " " + accuracy.value + " [" + unit + "]",
                "wall [ms]",
                "front"},
               {},
               {}};
-  std::size_t next = 0;
-  for (const Point& point : points) {
-    const bool covers = point.sequences == all_sequences.size();
-    out.rows.push_back({point.method,
-                        fmt::format("{} of {}", point.sequences, all_sequences.size()),
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& point = points[i];
+    out.rows.push_back({point.method + (point.is_oracle ? " (oracle)" : ""),
+                        fmt::format("{} of {}", point.runs, all_runs.size()),
                         fmt::format("{:.4g}", point.error),
                         fmt::format("{:.4g}", 1e3 * point.seconds),
-                        !covers       ? "-"
-                        : front[next] ? "yes"
-                                      : "no"});
-    if (covers) ++next;
+                        front[i]});
   }
   if (points.empty()) {
     out.notes.push_back("no cell has " + accuracy.metric + " " + accuracy.relation + " " +
                         accuracy.axis);
     return out;
   }
-  out.notes.push_back("geometric means over sequences of the mean over repeats; protocol " +
-                      chosen.protocol + ", " + chosen.times +
-                      "; front: no method is both faster and more accurate");
+  out.notes.push_back(fmt::format(
+      "geometric means over sequences of the mean over repeats; protocol {}, {}; front: no method "
+      "is both faster and more accurate (differences below {} relative count as none); -: lacks "
+      "runs or was shown the reference",
+      chosen.protocol,
+      chosen.times,
+      kRelevant));
+  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 

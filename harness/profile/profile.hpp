@@ -21,9 +21,12 @@ struct PowerLaw {
 /// when the largest x is less than four times the smallest: too short a lever. O(n).
 std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vector<double>& y);
 
-/// For each point whether no other is at least as good in both and better in one; less is better.
-/// O(n log n).
+/// For each point whether no other is at least as good in both and better in one; less is better,
+/// and a relative difference up to kRelevant (statistics/ranks.hpp) is none. O(n^2).
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Every table below marks methods that were shown the reference with "(oracle)", and its notes
+/// name sequences whose closures were measured in it.
 
 /// A row per method: wall and CPU time, memory, allocations, iterations. Medians over its cells
 /// that ran to their end, largest value for memory.
@@ -45,8 +48,8 @@ struct Accuracy {
 };
 
 /// A row per method: geometric means over all sequences of its mean error and median time over
-/// repeats, and whether it is on the front of those that cover all sequences. Errors are those of
-/// the store's first protocol, dense where there are dense ones.
+/// repeats, and whether it is on the front of those that have all runs and were not shown the
+/// reference. Errors are those of the store's first protocol, dense where there are dense ones.
 Listing pareto(const std::vector<CellRecord>& cells,
                const std::vector<Record>& records,
                const Accuracy& accuracy);

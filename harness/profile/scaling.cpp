@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "harness/profile/grouping.hpp"
@@ -25,7 +27,7 @@ Listing scaling(const std::vector<CellRecord>& cells) {
     }
     const auto law = power_law(sizes, times);
     if (!law) continue;
-    out.rows.push_back({method,
+    out.rows.push_back({shown_name(method, all),
                         std::to_string(sizes.size()),
                         fmt::format("{} to {}", by_size.begin()->first, by_size.rbegin()->first),
                         fmt::format("{:.2f}", law->exponent),
@@ -38,6 +40,7 @@ Listing scaling(const std::vector<CellRecord>& cells) {
         "none: it takes three numbers of keyframes, the largest four times the "
         "smallest, for example `sweep: {keyframes: [100, 1000, 10000]}`");
   }
+  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 

@@ -22,6 +22,12 @@ Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   return out;
 }
 
+/// "NAME, a=1, b=2": every option, defaults included.
+std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
+  const std::string text = to_text(in_full(options, choice.options));
+  return choice.name + (text.empty() ? "" : ", ") + text;
+}
+
 std::string hashed(const Params& params) {
   Fields fields;
   for (const auto& [name, value] : params) fields.add(name).add(to_text(value));
@@ -84,6 +90,28 @@ std::string CellKeys::dataset_in_full(const Cell& cell) const {
   const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
   const Params options = in_full(entry.options, full_options(choice, entry, cell.repeat));
   return choice.dataset.name + ": " + to_text(options);
+}
+
+std::string CellKeys::metrics_in_full() const {
+  std::string out;
+  for (const MetricChoice& metric : sweep_.metrics) {
+    const MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
+    out += metric.label + "\t" + named_options(metric.metric, entry.options) + "\n";
+  }
+  return out;
+}
+
+std::string CellKeys::methods_in_full() const {
+  std::string out;
+  for (const MethodChoice& method : sweep_.methods) {
+    std::string stages;
+    for (const Choice& stage : method.stages) {
+      stages += (stages.empty() ? "" : "; + ") +
+                named_options(stage, find_method(catalogue_, stage.name).options);
+    }
+    out += method.label + "\t" + stages + "\n";
+  }
+  return out;
 }
 
 std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,

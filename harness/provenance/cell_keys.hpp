@@ -29,6 +29,11 @@ class CellKeys {
   /// The same in words: "simulated: closures.angle=30.0, ...", every option, defaults included.
   std::string dataset_in_full(const Cell& cell) const;
 
+  /// What the labels of metrics and methods stand for: "LABEL\tNAME, every option" a line; the
+  /// stages of a method are joined by "; +".
+  std::string metrics_in_full() const;
+  std::string methods_in_full() const;
+
   /// Of what is kept about the sequence: of what is asked, the content of its files and the build.
   std::string sequence_key(const Cell& cell, const std::vector<InputFile>& inputs);
 

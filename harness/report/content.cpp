@@ -4,7 +4,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/tables.hpp"
-#include "harness/compare/stored_intervals.hpp"
 
 namespace loopbench {
 namespace {
@@ -54,7 +53,6 @@ ReportContent read_report_content(const std::filesystem::path& store) {
     CompareOptions options;
     options.baseline = baseline;
     out.comparisons = compare(scores, options);
-    add_intervals_from_traces(out.comparisons, scores, store);
   }
   return out;
 }

@@ -25,15 +25,9 @@ ScoreKind score_kind(const Record& r) {
   return {r.protocol, r.times, metric_label(r), r.relation, r.axis, r.unit};
 }
 
-const char* better_name(const Record& r) {
-  switch (r.better) {
-    case Better::lower:
-      return "lower";
-    case Better::higher:
-      return "higher";
-    case Better::target:
-    case Better::neither:
-      return "neither";
+std::string better_name(const Record& r) {
+  for (const auto& [name, value] : choices(Better())) {
+    if (value == r.better) return name;
   }
   return "neither";
 }
@@ -51,7 +45,7 @@ std::string scores_json(const ReportContent& content) {
       kinds.push_back({{"label", field(r, "score")},
                        {"protocol", r.protocol},
                        {"times", r.times},
-                       {"metric", r.metric},
+                       {"metric", metric_label(r)},
                        {"relation", r.relation},
                        {"axis", r.axis},
                        {"unit", r.unit},

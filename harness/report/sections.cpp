@@ -30,7 +30,7 @@ std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
   if (best.method == c.options.baseline || !best.ratio) return "";
   const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
-  const bool proven = best.p < c.options.alpha;
+  const bool proven = best.beats_baseline;
   std::string out = std::string("<div class=\"key") + (proven ? "" : " unproven") +
                     "\"><span class=\"number\">" + percent(best.ratio->estimate) +
                     " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
@@ -44,9 +44,8 @@ std::string key_figure(const Comparison& c) {
   } else {
     out += "<br>no interval, ";
   }
-  out += fmt::format("{} {}",
-                     c.observations,
-                     plural(c.observations, c.options.over == Over::runs ? "run" : "sequence"));
+  out += unit_text(c);
+  if (best.fails > 0) out += fmt::format(", {} failed", best.fails);
   return out + (proven ? "" : ", not proven") + "</span></div>";
 }
 
@@ -87,8 +86,8 @@ std::string summary_html(const ReportContent& content) {
   }
   for (const std::string& name : measured) {
     out += "<p class=\"warning\">" + html_text(name) +
-           ": loop closures were measured in the reference (oracle), better than any "
-           "detector's.</p>\n";
+           ": loop closures were measured in the reference or selected by it (oracle), better than "
+           "any detector's.</p>\n";
   }
   return out;
 }
@@ -101,7 +100,7 @@ std::string verdicts_html(const ReportContent& content) {
     out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
   }
   out.notes.push_back(
-      "each score is judged by itself: with many scores, some differences are proven by chance");
+      "each score is tested by itself: with many scores, some claims are false by chance");
   return html_text_table(out);
 }
 

@@ -4,6 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/run/run_cell.hpp"
+#include "metrics/losses.hpp"
 
 namespace loopbench {
 namespace {
@@ -84,7 +85,8 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
                              *curve,
                              stamps(sequence->problem.keyframes),
                              Times::dense,
-                             sweep.protocols.front().rules);
+                             sweep.protocols.front().rules,
+                             tracked_stamps(sequence->problem));
       paper.keyframes = moved(paper.dense.alignment, sequence->problem.keyframes);
       paper.roughness = roughness(paper.dense.estimate);
     }

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace loopbench {
 
 std::string why_incomplete(const Coverage& coverage, double min_coverage) {
-  if (std::min(coverage.share(), coverage.span) >= min_coverage) return "";
+  if (coverage.least() >= min_coverage) return "";
   return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
                      coverage.pairs,
                      coverage.possible,

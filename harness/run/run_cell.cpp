@@ -9,8 +9,10 @@
 #include "harness/run/allocations.hpp"
 #include "harness/run/finite_output.hpp"
 #include "harness/run/incomplete.hpp"
+#include "harness/run/oracle_method.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
+#include "metrics/losses.hpp"
 
 namespace loopbench {
 namespace {
@@ -110,11 +112,12 @@ void judge(CellResult& result,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const std::vector<double> tracked = tracked_stamps(sequence.problem);
   const Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
   fenced(none, [&] {
     Evaluation evaluation =
-        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol);
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
                           &at_keyframes,
                           &sequence.problem,
@@ -201,9 +204,7 @@ CellResult run_cell(const Cell& cell,
   CellResult result;
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];
-  result.oracle_method = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
-    return find_oracle(catalogue, stage.name) != nullptr;
-  });
+  result.oracle_method = is_shown_reference(choice, catalogue);
   fenced(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {

@@ -6,7 +6,11 @@
 
 namespace loopbench {
 
-/// Two numbers that no computation tells apart: |a - b| <= tie * max(|a|, |b|).
+/// Relative difference up to which two errors count as equal: less is rounding, another order of
+/// summation or another solver, whatever its p.
+inline constexpr double kRelevant = 1e-6;
+
+/// Whether |a - b| <= tie * max(|a|, |b|).
 bool tied(double a, double b, double tie);
 
 /// 1 for the smallest; ties get the mean of the ranks they span. Neighbours in order that are

@@ -85,6 +85,11 @@ SignedRank signed_rank(std::span<const double> differences, const SignedRankOpti
   return out;
 }
 
+double rank_biserial(const SignedRank& test) {
+  const double total = test.positive + test.negative;
+  return total > 0.0 ? (test.positive - test.negative) / total : 0.0;
+}
+
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }
 
 }  // namespace loopbench

@@ -34,6 +34,10 @@ struct SignedRank {
 /// smaller tail. No NaN. O(n log n), exact O(n^3) with n <= exact_up_to.
 SignedRank signed_rank(std::span<const double> differences, const SignedRankOptions& options = {});
 
+/// Matched-pairs rank-biserial correlation (Kerby 2014): share of the rank sum of positive
+/// differences less that of negative ones, -1..1; 0 when every difference is zero.
+double rank_biserial(const SignedRank& test);
+
 /// The least two-sided p that n differences can reach: 2^(1 - n), all of one sign.
 double least_p(std::size_t n);
 

@@ -49,8 +49,8 @@ inline constexpr const char* kSchema = R"sql(
     dataset_options TEXT NOT NULL,     -- those that differ from the defaults
     method_options TEXT NOT NULL,
     closures TEXT NOT NULL,            -- where the loop closures were taken from
-    oracle_closures INTEGER NOT NULL,  -- 1: they were measured in the reference
-    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference
+    oracle_closures INTEGER NOT NULL,  -- 1: measured in the reference, or selected by it
+    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference or trained on it
     worker TEXT NOT NULL,              -- isolated | in process, then serial, pinned where it was
     runs INTEGER NOT NULL,             -- timed runs of the method's verb
     seconds_median REAL NOT NULL,      -- wall time of one

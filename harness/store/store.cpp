@@ -60,7 +60,8 @@ bool is_empty(Database& database) {
   return count.step() && count.integer() == 0;
 }
 
-void say_run(Database& database, const Sweep& sweep) {
+void say_run(Database& database, const CellKeys& keys) {
+  const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
   const auto say = [&](const std::string& key, const std::string& text) {
     insert.bind(key).bind(text).run();
@@ -74,13 +75,20 @@ void say_run(Database& database, const Sweep& sweep) {
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
   say("protocol", rules);
+  say("metrics", keys.metrics_in_full());
+  say("methods", keys.methods_in_full());
   say("baseline", sweep.baseline);
   renew_texts(database, "run");
 }
 
-std::string config_of(Database& database) {
-  Statement row = database.prepare("SELECT value FROM run WHERE key = 'config'");
-  return row.step() ? row.text() : "";
+/// Whether the store says of its run what it would say now: a default may have changed in the code.
+bool says_the_same(Database& database, const CellKeys& keys) {
+  const auto is = [&](const std::string& key, const std::string& text) {
+    Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
+    return row.bind(key).step() && row.text() == text;
+  };
+  return is("config", keys.sweep().text) && is("metrics", keys.metrics_in_full()) &&
+         is("methods", keys.methods_in_full());
 }
 
 /// What the cells of this run say they are made by.
@@ -149,7 +157,7 @@ void Store::create() {
   Transaction transaction(*database_);
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  say_run(*database_, keys_.sweep());
+  say_run(*database_, keys_);
   renew_texts(*database_, "provenance");
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
@@ -165,7 +173,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Transaction transaction(*database_);
   const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
-  out.unchanged = out.unchanged && config_of(*database_) == keys_.sweep().text;
+  out.unchanged = out.unchanged && says_the_same(*database_, keys_);
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
@@ -173,7 +181,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    say_run(*database_, keys_.sweep());
+    say_run(*database_, keys_);
   }
   transaction.commit();
   return out;

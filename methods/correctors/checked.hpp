@@ -45,6 +45,11 @@ class Checked final : public Corrector {
         report.time("check", [&] { return consistent_closures(problem, check_); });
     for (const std::size_t k : found.kept) believed.closures.push_back(problem.closures[k]);
     report.count("closures_consistent", static_cast<double>(found.kept.size()));
+    if (2 * found.kept.size() < problem.closures.size() && !found.kept.empty()) {
+      report.notes.push_back("only " + std::to_string(found.kept.size()) + " of " +
+                             std::to_string(problem.closures.size()) +
+                             " closures agree with one another");
+    }
     if (!found.is_largest) {
       report.notes.push_back("the search for the largest consistent set stopped at its bound");
     }

@@ -1,11 +1,17 @@
 #include "methods/correctors/dual.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
+#include "methods/correctors/plausibility.hpp"
 #include "methods/correctors/unit_of_length.hpp"
+#include "methods/correctors/variance_components.hpp"
+#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench {
 std::optional<std::string> Dual::declines(const Problem& problem) const {
@@ -23,9 +29,10 @@ Trajectory Dual::correct(const Problem& problem, Report& report) const {
   return correct_rigid(options_, in_one_unit(problem), report);
 }
 
-Trajectory Dual::correct_rigid(const Options& options, const Problem& problem, Report& report) {
-  LoopedChain chain(problem, stated_belief(problem));
-  report.count("cost_before", chain.cost());
+namespace {
+
+/// Steps until the cost is at rest; returns the number of steps.
+int settle(LoopedChain& chain, const Dual::Options& options) {
   if (!std::isfinite(chain.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = 0;
   while (iterations < options.max_iterations) {
@@ -34,9 +41,65 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& problem, R
     ++iterations;
     if (before - chain.cost() <= options.tolerance * before) break;
   }
+  return iterations;
+}
+
+/// Sets `out` to the chain at its chordal relaxation, where that can be computed.
+void start_chordal(const Problem& problem,
+                   const ChainBelief& belief,
+                   std::optional<LoopedChain>& out) {
+  std::vector<ScaledPose> start;
+  try {
+    start = chordal_values(problem, 1.0);
+  } catch (const std::runtime_error&) {
+    return;  // singular to rounding
+  }
+  std::vector<Twist> errors;
+  for (const Edge& edge : problem.odometry) {
+    errors.push_back(edge_error(edge, start[edge.from].pose, start[edge.to].pose));
+  }
+  out.emplace(problem, belief).correct_by(std::move(errors));
+  if (!std::isfinite(out->cost())) out.reset();
+}
+
+}  // namespace
+
+Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {
+  std::optional<Problem> rescaled;
+  if (options.rescale) {
+    const VarianceFactors factors =
+        report.time("variance components", [&] { return variance_factors(stated); });
+    report.count("factor_t", std::sqrt(factors.translation));
+    report.count("factor_r", std::sqrt(factors.rotation));
+    rescaled = with_factors(stated, factors);
+  }
+  const Problem& problem = rescaled ? *rescaled : stated;
+  const ChainBelief belief = stated_belief(problem);
+  const std::size_t degrees = freedom(problem);
+  LoopedChain first(problem, belief);
+  report.count("cost_before", first.cost());
+  int iterations = settle(first, options);
+  const LoopedChain* best = &first;
+  std::optional<LoopedChain> second;
+  if (options.start == Start::automatic && is_too_large(2.0 * first.cost(), degrees)) {
+    start_chordal(problem, belief, second);
+  }
+  if (second) {
+    constexpr double kOther = 1e-6;  // of the cost: another minimum
+    iterations += settle(*second, options);
+    if (second->cost() < first.cost() * (1.0 - kOther)) {
+      best = &*second;
+      report.notes.push_back(fmt::format(
+          "two minima: chi2 {:.6g} from the keyframes, {:.6g} from chordal relaxation; the lower "
+          "one is returned",
+          2.0 * first.cost(),
+          2.0 * second->cost()));
+    }
+  }
   report.count("iterations", iterations);
-  report.count("cost", chain.cost());
-  return chain.keyframes();
+  report.count("cost", best->cost());
+  report_chi2(2.0 * best->cost(), degrees, report);
+  return best->keyframes();
 }
 
 }  // namespace loopbench

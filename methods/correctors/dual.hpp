@@ -22,22 +22,31 @@ namespace loopbench {
 /// Where edges change the unit of length (monocular chains, Sim(3)) that is settled first, in
 /// closed form too (unit_of_length.hpp); `scale` off: poses are rigid and edges' scales ignored.
 ///
+/// Starts from the keyframes. Where chi2 at that minimum is larger than its distribution allows,
+/// chordal relaxation (initial_values.hpp) is tried as a second start and the lower minimum is
+/// returned. `rescale` first scales the odometry's stated covariances by two factors estimated from
+/// the loops (variance_components.hpp).
+///
 /// Odometry edges must join every two neighbours. Information matrices are used whole.
 /// Source: generalised least squares with few constraints; design notes, methods 2.10.
 class Dual final : public Corrector {
  public:
+  enum class Start { automatic, keyframes };
   struct Options {
     int max_iterations = 500;
     double tolerance = 1e-10;
     int max_closures = 300;
     bool scale = true;
+    Start start = Start::automatic;
+    bool rescale = false;
   };
   explicit Dual(const Options& options) : options_(options) {}
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2). Throws
-  /// std::runtime_error when the cost cannot be lowered to a finite value.
+  /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2), `chi2_per_dof`,
+  /// and with rescale `factor_t`, `factor_r` on standard deviations. Notes: implausible chi2, two
+  /// minima. Throws std::runtime_error when the cost cannot be lowered to a finite value.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -45,6 +54,11 @@ class Dual final : public Corrector {
 
   Options options_;
 };
+
+inline auto choices(Dual::Start) {
+  return std::array{std::pair{"auto", Dual::Start::automatic},
+                    std::pair{"keyframes", Dual::Start::keyframes}};
+}
 
 template <class Visit>
 void fields(Dual::Options& o, Visit visit) {
@@ -58,6 +72,13 @@ void fields(Dual::Options& o, Visit visit) {
         "declines above: the dense solve grows with their cube",
         Between{1, 2000});
   visit("scale", o.scale, "first settle the unit of length where edges change it (Sim(3) chains)");
+  visit("start",
+        o.start,
+        "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
+  visit("rescale",
+        o.rescale,
+        "scale the odometry's covariances of translation and rotation by factors estimated from "
+        "the loops");
 }
 
 }  // namespace loopbench

@@ -1,9 +1,14 @@
 #include "methods/correctors/pose_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/consistency.hpp"
+#include "methods/correctors/gnc_pose_graph.hpp"
+#include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/stiffness.hpp"
+#include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench {
@@ -40,16 +45,46 @@ double usual_chi2(Group group) {
   return group == Group::se3 ? 16.812 : 18.475;
 }
 
-/// 1 for those that agree with one another, or nothing where that cannot be told.
-std::optional<std::vector<double>> agreeing(const Problem& problem) {
-  const Consistency rules;
-  if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return std::nullopt;
-  if (!chain_fault(problem).empty() || changes_scale(problem)) return std::nullopt;
-  const ConsistentClosures found = consistent_closures(problem, rules);
-  if (found.kept.size() < 2) return std::nullopt;
-  std::vector<double> out(problem.closures.size(), 0.0);
-  for (const std::size_t k : found.kept) out[k] = 1.0;
+std::size_t dimensions(Group group) {
+  if (group == Group::se2) return 3;
+  return group == Group::se3 ? 6 : 7;
+}
+
+/// Losses that let go of a closure: where they bend is where a true closure's error ends.
+bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
+
+/// Widths from the largest squared error down to `last`, each half of the one before.
+std::vector<double> annealed_widths(const std::vector<double>& squared, double last) {
+  std::vector<double> out;
+  for (double width = *std::ranges::max_element(squared); width > 2.0 * last; width *= 0.5) {
+    out.push_back(width);
+  }
   return out;
+}
+
+/// Moves `poses` to the better of two minima of the last loss: that reached at once, and that
+/// reached through ever narrower losses, each solved from the solution before. Returns the cost
+/// before.
+template <class Solve>
+double anneal(const Problem& problem,
+              const PoseGraphSettings& settings,
+              std::vector<ScaledPose>& poses,
+              Solve solve) {
+  const std::vector<ScaledPose> start = poses;
+  const std::vector<double> squared = squared_errors(start, problem.closures, settings);
+  const PoseGraphSummary direct = solve(settings);
+  std::vector<ScaledPose> reached = std::exchange(poses, start);
+  PoseGraphSettings rough = settings;
+  rough.max_iterations = std::min(settings.max_iterations, 30);
+  rough.tolerance = std::max(settings.tolerance, 1e-6);
+  rough.loss =
+      Loss::switchable;  // smoother than dcs, and as bounded: fewer wrong minima on the way
+  for (const double width : annealed_widths(squared, settings.loss_width)) {
+    rough.loss_width = width;
+    solve(rough);
+  }
+  if (!(solve(settings).cost < direct.cost)) poses = std::move(reached);
+  return direct.cost_before;
 }
 
 }  // namespace
@@ -58,6 +93,10 @@ std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) 
   if (problem.closures.empty()) return "no loop closure to spread";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, the problem not planar";
+  if (options_.rescale) {
+    if (changes_scale(problem)) return "rescale is for rigid chains, and edges have scales";
+    if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+  }
   if (const auto lost = first_unjoined(problem)) {
     return "the graph is not connected: no edges join keyframe " + std::to_string(*lost) +
            " to keyframe 0";
@@ -66,14 +105,34 @@ std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) 
 }
 
 Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) const {
-  PoseGraphSettings settings{group_of(problem, options_.group),
-                             options_.scale_sigma,
-                             options_.loss,
-                             options_.loss_width,
-                             options_.max_iterations,
-                             options_.tolerance};
-  std::vector<ScaledPose> poses = report.time(
-      "initial values", [&] { return initial(problem, options_.start, options_.scale_sigma); });
+  if (is_stiff(problem)) {
+    report.notes.push_back(
+        "closure information above 1e6 times the odometry's is reduced to that: the normal "
+        "equations would be singular to rounding");
+    return correct(with_bounded_stiffness(problem), report);
+  }
+  if (options_.rescale) {
+    const VarianceFactors factors =
+        report.time("variance components", [&] { return variance_factors(problem); });
+    report.count("factor_t", std::sqrt(factors.translation));
+    report.count("factor_r", std::sqrt(factors.rotation));
+    Options stated = options_;
+    stated.rescale = false;
+    return PoseGraphOptimizer(stated).correct(with_factors(problem, factors), report);
+  }
+  const Group group = group_of(problem, options_.group);
+  PoseGraphSettings settings{
+      group,
+      options_.scale_sigma,
+      options_.loss,
+      options_.loss_width.value_or(is_bounded(options_.loss) ? usual_chi2(group) : 1.0),
+      options_.max_iterations,
+      options_.tolerance};
+  std::vector<ScaledPose> poses;
+  if (options_.gnc == Gnc::off) {
+    poses = report.time("initial values",
+                        [&] { return initial(problem, options_.start, options_.scale_sigma); });
+  }
   std::vector<double> weights(problem.closures.size(), 1.0);
   int iterations = 0;
   const auto solve = [&](const PoseGraphSettings& how) {
@@ -84,42 +143,40 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   };
   double before = 0.0;
   if (options_.gnc != Gnc::off) {
-    // On the way only the weights are wanted, and they are forgiving.
-    PoseGraphSettings rough = settings;
-    rough.max_iterations = std::min(settings.max_iterations, 30);
-    rough.tolerance = std::max(settings.tolerance, 1e-6);
-    const double c2 = options_.inlier_chi2.value_or(usual_chi2(settings.group));
-    const auto squared = [&] { return squared_errors(poses, problem.closures, settings); };
-    std::vector<ScaledPose> start = poses;
-    std::optional<double> mu;
-    if (options_.gnc_start == GncStart::consistent) {
-      if (const auto first = report.time("check", [&] { return agreeing(problem); })) {
-        weights = *first;
-        // Past the convex stages, whose purpose is to find a start like this one.
-        mu = options_.gnc == Gnc::tls ? 1.0 : 10.0;
-      }
-    }
-    const GncResult gnc = report.time("graduate", [&] {
-      before = solve(rough).cost_before;
-      if (mu) start = poses;
-      return graduate(options_.gnc, c2, squared(), mu, [&](const std::vector<double>& tried) {
-        weights = tried;
-        poses = start;  // false closures wind poses up; from there a minimum may not be found again
-        solve(rough);
-        return squared();
-      });
-    });
-    weights = gnc.weights;
+    const auto values = [&](const Problem& of) {
+      return initial(of, options_.start, options_.scale_sigma);
+    };
+    GncSolution gnc = solve_gnc({problem,
+                                 settings,
+                                 options_.gnc,
+                                 options_.inlier_chi2.value_or(usual_chi2(settings.group)),
+                                 options_.gnc_start == GncStart::consistent,
+                                 values},
+                                report);
+    poses = std::move(gnc.poses);
+    weights = std::move(gnc.weights);
+    iterations = gnc.iterations;
+    before = gnc.cost_before;
     report.count("gnc_rounds", gnc.rounds);
     report.count("closures_kept",
                  static_cast<double>(
                      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; })));
   }
+  std::optional<double> annealed_from;
+  if (is_bounded(options_.loss) && options_.anneal && options_.gnc == Gnc::off) {
+    annealed_from = report.time("anneal", [&] { return anneal(problem, settings, poses, solve); });
+  }
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
-  if (options_.gnc == Gnc::off) before = summary.cost_before;
+  if (options_.gnc == Gnc::off) before = annealed_from.value_or(summary.cost_before);
   report.count("iterations", iterations);
   report.count("cost_before", before);
   report.count("cost", summary.cost);
+  if (options_.loss == Loss::none) {
+    const auto kept = std::ranges::count_if(weights, [](double weight) { return weight > 0.5; });
+    const std::size_t edges = problem.odometry.size() + static_cast<std::size_t>(kept);
+    const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
+    report_chi2(2.0 * summary.cost, degrees, report);
+  }
   if (!summary.converged) {
     report.notes.push_back("the last solve stopped at max_iterations, not at the tolerance");
   }

@@ -12,12 +12,17 @@ namespace loopbench {
 /// (the same minimum at a fraction of the cost), in Sim(3) when an edge changes the unit of length,
 /// else in SE(3); `group` overrules that. The result's poses are rigid, in the unit of the first.
 ///
-/// Closures may be false: then either one solve with a bounded `loss`; or graduated non-convexity
+/// Closures may be false: then either a bounded `loss`, which at once rejects true closures where
+/// odometry has drifted by more than a closure's deviations, so that it is also solved with a width
+/// that shrinks from the largest error (`anneal`) and the lower cost is kept; or graduated
+/// non-convexity
 /// (`gnc`), which lets go of closures that stay above `inlier_chi2`; or only closures that agree
 /// (Checked). Odometry is trusted. GNC starts from all closures, or where odometry is a whole chain
-/// from the largest set that agrees (`gnc_start: consistent`): a closure's own information says
-/// nothing of how far odometry may have drifted in between, so that starting from all it drops true
-/// closures wherever drift is large; the check does know. All closures are judged either way.
+/// from the largest set that agrees (`gnc_start: consistent`, see gnc_pose_graph.hpp), `start`
+/// being computed from these closures only: a closure's own information says nothing of how far
+/// odometry may have drifted in between, so that starting from all it drops true closures wherever
+/// drift is large; the check does know. All closures are judged either way. Closures that are
+/// stated as all but exact are solved at a bound (stiffness.hpp).
 ///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,
@@ -33,13 +38,15 @@ class PoseGraphOptimizer final : public Corrector {
     Poses group = Poses::automatic;
     Start start = Start::keyframes;
     Loss loss = Loss::none;
-    double loss_width = 1.0;
+    std::optional<double> loss_width = std::nullopt;
+    bool anneal = true;
     Gnc gnc = Gnc::off;
     GncStart gnc_start = GncStart::consistent;
     std::optional<double> inlier_chi2 = std::nullopt;
     double scale_sigma = 0.01;
     int max_iterations = 1000;
     double tolerance = 1e-14;
+    bool rescale = false;
   };
   explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
 
@@ -47,7 +54,8 @@ class PoseGraphOptimizer final : public Corrector {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `iterations` (linear solves), `cost_before`, `cost` (half the sum of squared
-  /// Mahalanobis errors, or of losses), and with GNC `gnc_rounds` and `closures_kept`. Throws
+  /// Mahalanobis errors, or of losses), without a loss `chi2_per_dof`, with rescale `factor_t` and
+  /// `factor_r` on standard deviations, and with GNC `gnc_rounds` and `closures_kept`. Throws
   /// std::runtime_error when there is no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
@@ -78,7 +86,16 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.start,
         "initial values: the keyframes, odometry chained from the first, or chordal relaxation");
   visit("loss", o.loss, "what a closure's squared error costs; dcs and switchable bound it");
-  visit("loss_width", o.loss_width, "squared error where the loss bends [-]", Above{0.0});
+  visit("loss_width",
+        o.loss_width,
+        "squared error where the loss bends [-]; none: the group's 99 % quantile for dcs and "
+        "switchable, 1 for others",
+        Above{0.0});
+  visit("anneal",
+        o.anneal,
+        "dcs and switchable: also solve with a width that starts from the largest error and is "
+        "halved, "
+        "and keep the lower cost");
   visit("gnc", o.gnc, "graduated non-convexity: off, truncated least squares, Geman-McClure");
   visit("gnc_start", o.gnc_start, "closures believed first; consistent: those that agree, if any");
   visit("inlier_chi2",
@@ -88,6 +105,10 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("scale_sigma", o.scale_sigma, "deviation of an edge's log scale, sim3 [-]", Above{0.0});
   visit("max_iterations", o.max_iterations, "of each solve", Between{1, 10000});
   visit("tolerance", o.tolerance, "relative change of the cost that ends a solve [-]", Above{0.0});
+  visit("rescale",
+        o.rescale,
+        "scale the odometry's covariances of translation and rotation by factors estimated from "
+        "the loops (chains only)");
 }
 
 }  // namespace loopbench

@@ -4,6 +4,7 @@
 #include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
+#include "methods/smoothers/stretches.hpp"
 #include "methods/smoothers/two_curves.hpp"
 
 namespace loopbench {
@@ -30,8 +31,17 @@ std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Repo
     report.count("iterations", turned->iterations);
     return spline;
   }
-  report.notes.push_back("no attitude spline found, great arcs instead");
-  return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
+  const auto through = [&](const Trajectory& part) -> std::unique_ptr<const Curve> {
+    const std::vector<double> own = stamps(part);
+    const auto on = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), own);
+    const auto found = rotations_through(on, own, attitudes(part));
+    if (!found) return nullptr;
+    std::vector<Pose> rotations(on.size());
+    for (std::size_t j = 0; j < rotations.size(); ++j) rotations[j].rotation = found->controls[j];
+    return std::make_unique<CumulativeCurve>(on, rotations);
+  };
+  return std::make_unique<TwoCurves>(std::move(spline),
+                                     attitudes_apart(keyframes, report, through));
 }
 
 }  // namespace loopbench

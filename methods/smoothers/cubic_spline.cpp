@@ -5,7 +5,9 @@
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
+#include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/spline_controls.hpp"
+#include "methods/smoothers/stretches.hpp"
 #include "methods/smoothers/two_curves.hpp"
 
 namespace loopbench {
@@ -46,6 +48,24 @@ class SplineCurve final : public Curve {
   std::vector<Control> controls_;
 };
 
+void set_rotations(std::vector<Control>& controls, const ControlRotations& turned) {
+  for (std::size_t j = 0; j < controls.size(); ++j) {
+    controls[j].rotation = turned.rotations[j];
+    if (j > 0)
+      controls[j].step = log_so3(controls[j - 1].rotation.conjugate() * controls[j].rotation);
+  }
+}
+
+/// The attitude spline through two poses or more, at position zero; null where there is none.
+std::unique_ptr<const Curve> attitude_spline(const Trajectory& keyframes) {
+  CubicBasis basis(stamps(keyframes));
+  const auto turned = interpolating_rotations(basis, attitudes(keyframes));
+  if (!turned) return nullptr;
+  std::vector<Control> controls(basis.size(), Control{Vector3::Zero(), Rotation::Identity()});
+  set_rotations(controls, *turned);
+  return std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
+}
+
 }  // namespace
 
 std::optional<std::string> CubicSpline::declines(const Problem& problem) const {
@@ -57,33 +77,23 @@ std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report&
   const Trajectory& keyframes = problem.keyframes;
   if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
   CubicBasis basis(stamps(keyframes));
-  std::vector<Vector3> places;
-  std::vector<Rotation> attitudes;
-  for (const StampedPose& keyframe : keyframes) {
-    places.push_back(keyframe.world_from_body.translation);
-    attitudes.push_back(keyframe.world_from_body.rotation);
-  }
   std::vector<Control> controls(basis.size());
-  const std::vector<Vector3> points = interpolating_points(basis, places);
+  const std::vector<Vector3> points = interpolating_points(basis, places(keyframes));
   for (std::size_t j = 0; j < controls.size(); ++j) controls[j].point = points[j];
 
-  std::optional<ControlRotations> turned;
-  if (options_.rotation == Turn::spline) {
-    turned = interpolating_rotations(basis, attitudes);
-    if (turned) {
-      report.count("iterations", turned->iterations);
-    } else {
-      report.notes.push_back("no attitude spline found, great arcs instead");
-    }
+  if (options_.rotation == Turn::slerp) {
+    auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
+    return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
   }
-  for (std::size_t j = 0; turned && j < controls.size(); ++j) {
-    controls[j].rotation = turned->rotations[j];
-    if (j > 0)
-      controls[j].step = log_so3(controls[j - 1].rotation.conjugate() * controls[j].rotation);
+  const auto turned = interpolating_rotations(basis, attitudes(keyframes));
+  if (turned) {
+    report.count("iterations", turned->iterations);
+    set_rotations(controls, *turned);
+    return std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
   }
   auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
-  if (turned) return spline;
-  return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
+  return std::make_unique<TwoCurves>(std::move(spline),
+                                     attitudes_apart(keyframes, report, attitude_spline));
 }
 
 }  // namespace loopbench

@@ -20,8 +20,9 @@ class CubicSpline final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations` of the rotation solve. When it finds no spline the attitude follows
-  /// great arcs and a note says so.
+  /// Counts: `iterations` of the rotation solve. When it finds no spline through all
+  /// keyframes, splines through stretches of them are joined by great arcs: `great_arcs` and a
+  /// note.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:

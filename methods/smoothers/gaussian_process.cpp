@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "datasets/core/knot_span.hpp"
+#include "datasets/core/polyline.hpp"
 #include "methods/smoothers/gp/evidence.hpp"
+#include "methods/smoothers/stretches.hpp"
 
 namespace loopbench {
 namespace {
@@ -106,14 +108,35 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
 }
 
 std::optional<std::string> GaussianProcess::declines(const Problem& problem) const {
-  const std::size_t needed = options_.prior == Prior::velocity ? 3 : 4;
-  if (problem.keyframes.size() >= needed) return std::nullopt;
-  return "fewer than " + std::to_string(needed) + " keyframes";
+  if (problem.keyframes.size() >= least_keyframes()) return std::nullopt;
+  return "fewer than " + std::to_string(least_keyframes()) + " keyframes";
+}
+
+std::size_t GaussianProcess::least_keyframes() const {
+  return options_.prior == Prior::velocity ? 3 : 4;
 }
 
 std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Report& report) const {
-  return options_.prior == Prior::velocity ? smooth_with<2>(problem.keyframes, report)
-                                           : smooth_with<3>(problem.keyframes, report);
+  // Covariances of the prior grow with the third (fifth) power of an interval: 50 medians are 1e5
+  // (3e8) times the usual, beyond which digits run out, and nothing is known of such a gap anyway.
+  constexpr double kLongest = 50.0;
+  constexpr double kShortest = 0.05;
+  const Trajectory& keyframes = problem.keyframes;
+  const double median = median_interval(keyframes);
+  const auto apart = stretches(keyframes.size(), [&](std::size_t i) {
+    const double interval = keyframes[i + 1].stamp - keyframes[i].stamp;
+    return interval > kLongest * median || interval < kShortest * median;
+  });
+  const std::size_t least = least_keyframes();
+  return smoothed_apart(keyframes,
+                        apart,
+                        "intervals above 50 or below 0.05 times the median",
+                        report,
+                        [&](Trajectory part, Report& own) -> std::unique_ptr<const Curve> {
+                          if (part.size() < least) return std::make_unique<Polyline>(part);
+                          if (options_.prior == Prior::velocity) return smooth_with<2>(part, own);
+                          return smooth_with<3>(part, own);
+                        });
 }
 
 }  // namespace loopbench

@@ -13,7 +13,8 @@ namespace loopbench {
 /// alone, WNOA is the smoothing spline.
 /// The noise of poses and motion, of translation and rotation each, comes from the marginal
 /// likelihood (Laplace, relinearised once, from two starts) unless given. As with every smoother,
-/// drift that is slow against the keyframes looks like motion and stays. O(n): some 150 block
+/// drift that is slow against the keyframes looks like motion and stays. Intervals above 50 or
+/// below 0.05 times the median are chords between stretches smoothed apart. O(n): some 150 block
 /// tridiagonal eliminations, blocks of 12 (18), and 2 (5) kB a keyframe. Source: Anderson & Barfoot
 /// 2015 (WNOA); Tang, Yoon & Barfoot 2019 (WNOJ); Barfoot, ch. 11.
 class GaussianProcess final : public Smoother {
@@ -36,6 +37,8 @@ class GaussianProcess final : public Smoother {
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
+  std::size_t least_keyframes() const;
+
   template <int P>
   std::unique_ptr<const Curve> smooth_with(const Trajectory& keyframes, Report& report) const;
 

@@ -26,4 +26,17 @@ std::vector<FromTo> consecutive_stretches(const std::vector<double>& steps,
   return out;
 }
 
+std::vector<FromTo> consecutive_seconds(const std::vector<double>& stamps,
+                                        double delta,
+                                        double tolerance) {
+  std::vector<FromTo> out;
+  std::size_t start = 0;
+  for (const FromTo& pair : pairs_by_measure(stamps, delta, tolerance)) {
+    if (pair.first < start) continue;
+    out.push_back(pair);
+    start = pair.second;
+  }
+  return out;
+}
+
 }  // namespace loopbench

@@ -17,4 +17,11 @@ std::vector<FromTo> consecutive_stretches(const std::vector<double>& steps,
                                           double delta,
                                           FirstPose first);
 
+/// From each end on, to the later stamp nearest to `delta` ahead (the first of equals), when that
+/// misses by at most `tolerance`; where none does, the next stamp is tried as a start. Ascending
+/// stamps [s]. evo has no such rule. O(n).
+std::vector<FromTo> consecutive_seconds(const std::vector<double>& stamps,
+                                        double delta,
+                                        double tolerance);
+
 }  // namespace loopbench

@@ -1,7 +1,6 @@
 #include "metrics/pairs/stretch.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "metrics/angle.hpp"
 #include "metrics/motion.hpp"
@@ -13,23 +12,13 @@ namespace {
 
 /// Whole frames, or nothing when no list is that long.
 std::size_t frames(const Stretch& stretch, std::size_t size) {
-  if (stretch.delta != std::floor(stretch.delta)) {
-    throw OptionError("delta", "delta = " + to_text(stretch.delta) + ": frames come whole");
-  }
+  check(stretch);
   return static_cast<std::size_t>(std::min(stretch.delta, static_cast<double>(size)));
 }
 
 double radians(const Stretch& stretch) {
-  const double out = stretch.unit == DeltaUnit::deg ? stretch.delta / kDegrees : stretch.delta;
-  if (out <= std::numbers::pi) return out;
-  throw OptionError("delta",
-                    "delta = " + to_text(stretch.delta) + ": no turn is beyond half a circle");
-}
-
-std::vector<double> steps(std::vector<double> measure) {
-  std::adjacent_difference(measure.begin(), measure.end(), measure.begin());
-  if (!measure.empty()) measure.front() = 0.0;
-  return measure;
+  check(stretch);
+  return stretch.unit == DeltaUnit::deg ? stretch.delta / kDegrees : stretch.delta;
 }
 
 std::vector<double> step_lengths(const Trajectory& poses) {
@@ -42,6 +31,19 @@ std::vector<double> step_lengths(const Trajectory& poses) {
 }
 
 }  // namespace
+
+void check(const Stretch& stretch) {
+  const double delta = stretch.delta;
+  const auto refuse = [&](const std::string& why) {
+    return OptionError("delta", "delta = " + to_text(delta) + ": " + why);
+  };
+  if (stretch.unit == DeltaUnit::frames && delta != std::floor(delta)) {
+    throw refuse("frames come whole");
+  }
+  const bool is_angle = stretch.unit == DeltaUnit::deg || stretch.unit == DeltaUnit::rad;
+  const double angle = stretch.unit == DeltaUnit::deg ? delta / kDegrees : delta;
+  if (is_angle && angle > std::numbers::pi) throw refuse("no turn is beyond half a circle");
+}
 
 std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula) {
   std::vector<double> out(trajectory.size());
@@ -67,7 +69,7 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
     }
     case DeltaUnit::s:
       if (is_all) return pairs_by_measure(stamps(reference), delta, stretch.tolerance * delta);
-      return consecutive_stretches(steps(stamps(reference)), delta, FirstPose::starts);
+      return consecutive_seconds(stamps(reference), delta, stretch.tolerance * delta);
     case DeltaUnit::m:
       if (is_all) {
         return pairs_by_measure(accumulated_distances(measured), delta, stretch.tolerance * delta);

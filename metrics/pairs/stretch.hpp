@@ -21,11 +21,13 @@ struct Stretch {
   double tolerance = 0.1;  ///< part of delta
 };
 
+/// Throws OptionError for a delta that is not whole for frames or beyond 180 degrees.
+void check(const Stretch& stretch);
+
 /// Rule `all`: every i with its one j by frames, seconds or metres (pair_search.hpp), or every j
 /// that is turned by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule
-/// `consecutive`: see consecutive.hpp. Seconds are reference stamps; metres and angles are measured
-/// on `measured`. Throws OptionError for a delta that is not whole for frames or beyond 180
-/// degrees.
+/// `consecutive`: see consecutive.hpp; only seconds have a tolerance there. Seconds are reference
+/// stamps; metres and angles are measured on `measured`. Throws as check does.
 std::vector<FromTo> stretch_pairs(const Trajectory& reference,
                                   const Trajectory& measured,
                                   PairRule rule,

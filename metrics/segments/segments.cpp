@@ -102,6 +102,10 @@ double metres(const Length& length, double whole) {
 
 }  // namespace
 
+void check_combination(const SegmentsOptions& options) {
+  if (!options.lengths.empty()) lengths("lengths", options.lengths);
+}
+
 std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions& options) {
   const SegmentRule& rule = evaluation.protocol.segments;
   const bool is_own = !options.lengths.empty();

@@ -16,6 +16,9 @@ void fields(SegmentsOptions& o, Visit visit) {
   visit("each", o.each, "also one set of scores for each length");
 }
 
+/// Throws OptionError for lengths that are no positive numbers.
+void check_combination(const SegmentsOptions& options);
+
 /// By the protocol's segments, form and angle. Axis `all`: translation [%] and rotation [deg/m] of
 /// all sub-trajectories of all lengths. Axis `8 m` or `10%` for each length: these two and
 /// translation [m], rotation [deg], and of E turned into the world yaw [deg] and gravity [deg], the

@@ -102,6 +102,20 @@ TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
   EXPECT_DOUBLE_EQ(whole.scale, 8.0);
 }
 
+TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {
+  // The second pose's unit of length is two of the first's, so its 0.1 is 0.2 there.
+  Edge exact{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(1e-16, 1e-16)};
+  exact.scale = 2.0;
+  Edge noisy{1, 2, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
+  Matrix6 covariance = compose(exact, noisy).information.inverse();
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.2, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(5, 5)), 0.2, 1e-9);
+  // The lever of the first edge's rotation is the second edge in the first one's unit: 2.
+  std::swap(exact.information, noisy.information);
+  covariance = compose(exact, noisy).information.inverse();
+  EXPECT_NEAR(covariance(1, 1), 0.01 + 0.04 * 4.0, 1e-9);
+}
+
 TEST(ComposeEdges, RefuseAnInformationWithoutInverse) {
   Edge blind;
   blind.to = 1;
@@ -118,6 +132,33 @@ TEST(OdometryEdges, StateTheirModel) {
   EXPECT_NEAR(1.0 / edges[0].information(5, 5), 0.01 + 0.0025 * 4.0, 1e-12);
   EXPECT_NEAR(1.0 / edges[1].information(2, 2), 0.09, 1e-12);
   EXPECT_TRUE(odometry_edges({}, {}).empty());
+}
+
+TEST(OdometryEdges, DefaultCovariancesDoNotDependOnHowTheWayIsCut) {
+  // 40 m with one full rotation, as one edge or as 8: the same variances but for the floor.
+  const auto total = [](std::size_t edges, int axis) {
+    Trajectory poses;
+    for (std::size_t i = 0; i <= edges; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(edges);
+      poses.push_back({share, {exp_so3({0.0, 0.0, 3.0 * share}), {40.0 * share, 0.0, 0.0}}});
+    }
+    double sum = 0.0;
+    for (const Edge& edge : odometry_edges(poses, {})) sum += 1.0 / edge.information(axis, axis);
+    return sum;
+  };
+  EXPECT_NEAR(total(8, 0), total(1, 0), 1e-3 * total(1, 0));
+  EXPECT_NEAR(total(8, 5), total(1, 5), 1e-2 * total(1, 5));
+  EXPECT_NEAR(total(1, 0), 0.02 * 0.02 * (40.0 + 3.0), 1e-3 * total(1, 0));
+  EXPECT_NEAR(total(1, 5), 5e-4 * 5e-4 * 40.0 + 5e-3 * 5e-3 * 3.0, 1e-3 * total(1, 5));
+}
+
+TEST(OdometryEdges, RotationAddsItsShare) {
+  Trajectory poses = on_a_line({0.0, 4.0});
+  poses[1].world_from_body.rotation = exp_so3({0.0, 0.5, 0.0});
+  const EdgeNoise noise{0.3, 0.1, 0.2, 0.05, 0.4, 0.3};
+  const Edge edge = odometry_edges(poses, noise)[0];
+  EXPECT_NEAR(1.0 / edge.information(0, 0), 0.09 + 0.04 * 4.0 + 0.16 * 0.5, 1e-12);
+  EXPECT_NEAR(1.0 / edge.information(5, 5), 0.01 + 0.0025 * 4.0 + 0.09 * 0.5, 1e-12);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST_F(Cli, SeveralProtocolsSplitTheTables) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("### b, dense, loopbench\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("### b, dense, evo (align=se3)\n"), std::string::npos);
-  EXPECT_NE(result.out.find("protocol: loopbench [2], evo (align=se3) [26d0953]"),
+  EXPECT_NE(result.out.find("protocol: loopbench [3], evo (align=se3) [26d0953]"),
             std::string::npos);
   const CommandResult rows = run("table results/c --format rows --where metric=ate");
   EXPECT_NE(rows.out.find(",evo (align=se3),26d0953,keyframes,ate,"), std::string::npos)

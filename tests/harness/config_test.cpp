@@ -31,6 +31,10 @@ class ShippedConfig : public testing::TestWithParam<std::string> {
 
 TEST_P(ShippedConfig, Checks) {
   const CommandResult result = run("--dry-run");
+  if (result.err.find("no such file (looked in") != std::string::npos) {
+    EXPECT_NE(result.out.find(" cells, "), std::string::npos) << result.out;
+    GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << result.err;
+  }
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 

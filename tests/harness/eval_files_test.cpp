@@ -189,5 +189,43 @@ TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
   EXPECT_TRUE(row.ends_with(",0,0,0,0,0,,,,")) << row;  // stamp, x y z, distance
 }
 
+TEST(Eval, JsonIsAListAlsoOfOne) {
+  const std::string file = golden("gt.txt");
+  EXPECT_TRUE(Json::parse(eval({file, file, "--json"})).is_array());
+  EXPECT_EQ(Json::parse(eval({file, file, "--json"})).size(), 1u);
+  EXPECT_EQ(Json::parse(eval({file, file, file, "--json"})).size(), 2u);
+}
+
+TEST(Eval, AFailedEstimateKeepsTheBodyOfTheReference) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.file("bad.txt", "not a pose\n").string();
+  const Json judged = eval_json({golden("gt.txt"), bad, golden("gt.txt"), "--ref-body=0.1,0,0"},
+                                kExitSomeCellsFailed);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[0]["status"], "failed");
+  EXPECT_EQ(judged[0]["reference_body"], "0.1,0,0");
+  EXPECT_EQ(judged[1]["reference_body"], "0.1,0,0");
+}
+
+TEST(Eval, ErrorsOfPosesHaveTheStampsOfBoth) {
+  const TemporaryFolder folder;
+  const std::string poses = (folder.path() / "poses.csv").string();
+  const std::string rest = " 0 0 0 0 1\n";
+  eval({written(folder.path() / "reference.txt",
+                "1 0 0" + rest + "2 1 0" + rest + "3 1 1" + rest + "4 2 5" + rest),
+        written(folder.path() / "estimate.txt",
+                "1.01 0 0" + rest + "2.01 1 0" + rest + "3.01 1 1" + rest + "4.01 2 5" + rest),
+        "--align=none",
+        "--association=evo",
+        "--max-diff=0.1",
+        "--per-pose=" + poses});
+  std::ifstream in(poses);
+  std::string header, row;
+  std::getline(in, header);
+  std::getline(in, row);
+  EXPECT_NE(header.find(",stamp,estimate_stamp,x_m,"), std::string::npos) << header;
+  EXPECT_NE(row.find(",1,1.01,0,"), std::string::npos) << row;
+}
+
 }  // namespace
 }  // namespace loopbench

@@ -46,6 +46,7 @@ TEST(Eval, JsonHasThePromisedKeys) {
                           "span",
                           "alignment",
                           "diagnosis",
+                          "notes",
                           "metrics",
                           "undefined"}) {
     EXPECT_TRUE(judged.contains(key)) << key;
@@ -96,7 +97,7 @@ TEST(Eval, RefusesRotationOfPositionsAlone) {
   EXPECT_EQ(judged["undefined"][0]["metric"], "ate");
   EXPECT_EQ(judged["undefined"][0]["relation"], "rotation");
   const std::string text = eval({file, file});
-  EXPECT_NE(text.find("\nate rotation, rpe 1 frames translation, rpe 1 frames rotation, "),
+  EXPECT_NE(text.find("\nate rotation, rpe 1 frames translation, rpe 1 frames translation x, "),
             std::string::npos)
       << text;
   EXPECT_NE(text.find(" undefined: the reference keeps"), std::string::npos);
@@ -155,8 +156,10 @@ TEST(Eval, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
   const Json judged = eval_json({file, file});
   EXPECT_EQ(find(judged, "ate", "translation")["count"], 3);
-  ASSERT_EQ(judged["undefined"].size(), 2u);  // rpe over 1 s and over 1 m
-  EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 3 poses is 1.0 s before another");
+  ASSERT_EQ(judged["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
+  EXPECT_EQ(judged["undefined"][0]["why"],
+            "rpe: found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
+  EXPECT_EQ(judged["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
   EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
 }
 
@@ -180,7 +183,7 @@ TEST(Eval, OneBadEstimateIsARowAndTheOthersStand) {
   as_csv.push_back("--csv");
   const std::string csv = eval(as_csv, kExitSomeCellsFailed);
   const std::string row =
-      golden("gt.txt") + "," + bad + ",loopbench,2,,,,,,,,,,,,,,,,,failed," + why + ",";
+      golden("gt.txt") + "," + bad + ",loopbench,3,,,,,,,,,,,,,,,,,failed," + why + ",";
   EXPECT_NE(csv.find("\n" + row + "\n"), std::string::npos) << csv;
   const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
   EXPECT_EQ(commas(row), commas(csv.substr(0, csv.find('\n'))));

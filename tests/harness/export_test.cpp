@@ -45,6 +45,12 @@ TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
   EXPECT_TRUE(gains({ate("raw", 0.2)}, "").empty());
 }
 
+TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
+  const std::vector<Record> g = gains({ate("raw", 1e-16), ate("uniform", 0.15)}, "raw");
+  EXPECT_EQ(g[1].status, "declined");
+  EXPECT_EQ(g[1].why, "the baseline raw has no error here that could be reduced");
+}
+
 TEST(RunTimes, AreOnePerCellAndTimes) {
   std::vector<Record> records{ate("raw", 0.2), ate("raw", 0.1), failed("bad", "why")};
   records[1].axis = "x";
@@ -67,7 +73,7 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
             "| bad    |  failed |\n"
             "\n"
             "- bad: failed: no such luck\n"
-            "- no best is marked: 1 run a cell cannot show a difference at 0.05 (least p 1)\n");
+            "- no best is marked: 1 independent run a cell cannot prove a difference at 0.05\n");
 }
 
 TEST(Notes, SayAReasonOnce) {
@@ -145,8 +151,7 @@ TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
   EXPECT_NE(
-      text.find("\nroom,0,\"a, "
-                "\"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
+      text.find("\nroom,0,\"a, \"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
       std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;

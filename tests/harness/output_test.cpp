@@ -147,6 +147,32 @@ TEST_F(Output, AFileMayBeStandardOutputItself) {
   EXPECT_NE(both.find("\nreference,estimate,protocol,protocol_version,metric,"), std::string::npos);
 }
 
+TEST_F(Output, ADashIsStandardOutput) {
+  folder_.file("c.yaml",
+               "datasets: [{dataset: simulated, keyframes: 40}]\nmethods: [raw, uniform]\n"
+               "metrics: [ate]\n");
+  ASSERT_EQ(run("run c.yaml --out store", ">/dev/null").exit_code, 0);
+  const auto printed = [&](const std::string& arguments) {
+    EXPECT_EQ(run(arguments, ">out").exit_code, 0) << arguments << read_all(folder_.path() / "err");
+    EXPECT_FALSE(fs::exists(folder_.path() / "-")) << arguments;
+    return read_all(folder_.path() / "out");
+  };
+  EXPECT_EQ(printed("table store -o -"), printed("table store"));
+  EXPECT_EQ(printed("table store --format csv -o -"), printed("table store --format csv"));
+  EXPECT_EQ(printed("profile store -o -").substr(0, 10), "### costs\n");
+  EXPECT_EQ(printed("compare store -o - --where times=dense").substr(0, 3), "###");
+  EXPECT_EQ(printed("report store -o -").substr(0, 9), "<!DOCTYPE");
+  EXPECT_EQ(printed("check store --update --allow-dirty --baseline -").substr(0, 2), "{\n");
+  EXPECT_EQ(printed("eval a.txt a.txt --csv --per-pose -").substr(0, 19), "reference,estimate,");
+  ASSERT_EQ(run("check store --update --allow-dirty --baseline b", ">/dev/null").exit_code, 0);
+  EXPECT_EQ(printed("check store --allow-dirty --baseline b --junit -").substr(0, 5), "<?xml");
+  for (const char* arguments :
+       {"plot store -o -", "merge store store -o -", "run c.yaml --out -"}) {
+    EXPECT_EQ(run(arguments, ">out").exit_code, 2) << arguments;
+    EXPECT_FALSE(fs::exists(folder_.path() / "-")) << arguments;
+  }
+}
+
 TEST_F(Output, AnUnknownWordIsNamed) {
   const auto said = [&](const std::string& arguments) {
     const CommandResult result = run(arguments, ">out");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -108,6 +109,43 @@ TEST(Pareto, OverSequencesThatAllHave) {
   EXPECT_EQ(listing.rows[1], (Row{"fast", "2 of 2", "6", "1", "yes"}));
   EXPECT_EQ(listing.rows[2], (Row{"slow", "2 of 2", "2", "2", "yes"}));
   EXPECT_EQ(listing.rows[3], (Row{"worse", "2 of 2", "6", "4", "no"}));
+}
+
+TEST(ParetoFront, TakesTinyDifferencesForNone) {
+  // Two methods that find the same by other arithmetic: only the faster one is on the front.
+  EXPECT_EQ(pareto_front({1.0, 1.0 - 1e-7}, {1.0, 15.0}), (std::vector<bool>{true, false}));
+  EXPECT_EQ(pareto_front({1.0, 1.0 - 1e-5}, {1.0, 15.0}), (std::vector<bool>{true, true}));
+}
+
+TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
+  std::vector<CellRecord> cells{cell(0, "s", "fast", 9, 0.001),
+                                cell(1, "s", "fast", 9, 0.001),
+                                cell(2, "s", "leaky", 9, 0.0001),
+                                cell(3, "s", "leaky", 9, 0.0001),
+                                cell(4, "s", "lucky", 9, 0.0001),
+                                cell(5, "s", "lucky", 9, 0.0001)};
+  std::vector<Record> records;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i].repeat = static_cast<std::int64_t>(i % 2);
+    cells[i].oracle = cells[i].method == "leaky";
+    cells[i].oracle_closures = true;
+    if (i != 5) records.push_back(score(cells[i].position, "dense", i < 2 ? 1.0 : 0.5));
+  }
+  cells[5].status = "failed";
+  const Listing listing = pareto(cells, records, {});
+  using Row = std::vector<std::string>;
+  ASSERT_EQ(listing.rows.size(), 3u);
+  EXPECT_EQ(listing.rows[0], (Row{"leaky (oracle)", "2 of 2", "0.5", "0.1", "-"}));
+  EXPECT_EQ(listing.rows[1], (Row{"lucky", "1 of 2", "0.5", "0.1", "-"}));
+  EXPECT_EQ(listing.rows[2], (Row{"fast", "2 of 2", "1", "1", "yes"}));
+  const auto has = [&](const Listing& of, const std::string& note) {
+    return std::ranges::any_of(of.notes, [&](const std::string& n) { return n.starts_with(note); });
+  };
+  for (const Listing& of : {listing, costs(cells), reported(cells), scaling(cells)}) {
+    EXPECT_TRUE(has(of, "oracle: the method or its data was shown the reference")) << of.title;
+    EXPECT_TRUE(has(of, "closures are oracle (measured in the reference): s")) << of.title;
+  }
+  EXPECT_EQ(costs(cells).rows[1][0], "leaky (oracle)");
 }
 
 TEST(Listing, ReadsAsMarkdownAndAsCsv) {

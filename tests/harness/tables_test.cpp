@@ -1,7 +1,10 @@
 /// Which rows a table keeps, who is marked in it, and how it is written.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "datasets/core/error.hpp"
+#include "harness/export/derived.hpp"
 #include "harness/export/text.hpp"
 #include "harness/export/where.hpp"
 #include "tests/support/refusal_of.hpp"
@@ -79,32 +82,58 @@ ByRun runs(double factor, int count = 8) {
   return out;
 }
 
+Marks marks(const std::vector<ByRun>& competitors,
+            Better better = Better::lower,
+            double alpha = 0.05) {
+  return mark_best({competitors, {}, better, 0.0}, {.alpha = alpha});
+}
+
 TEST(MarkBest, MarksOnlyWhatIsProven) {
-  const Marks marks = mark_best({runs(2.0), runs(1.0), runs(3.0)}, false, 0.05);
-  EXPECT_EQ(marks.marks, (std::vector<Mark>{Mark::second, Mark::best, Mark::none}));
-  EXPECT_EQ(mark_best({runs(2.0), runs(1.0), runs(3.0)}, true, 0.05).marks,
+  const std::vector<ByRun> three{runs(2.0), runs(1.0), runs(3.0)};
+  EXPECT_EQ(marks(three).marks, (std::vector<Mark>{Mark::second, Mark::best, Mark::none}));
+  EXPECT_EQ(marks(three, Better::higher).marks,
             (std::vector<Mark>{Mark::second, Mark::none, Mark::best}));
   // 2^-7 twice is p = 0.0078 for each of three pairs: 0.023 after Holm.
-  EXPECT_EQ(mark_best({runs(2.0), runs(1.0), runs(3.0)}, false, 0.02).marks,
-            (std::vector<Mark>(3, Mark::none)));
+  EXPECT_EQ(marks(three, Better::lower, 0.02).marks, (std::vector<Mark>(3, Mark::none)));
   // The two best cannot be told apart: no mark at all.
   ByRun alike = runs(1.0);
   alike["1"] = 1.01;
-  EXPECT_EQ(mark_best({runs(1.0), alike, runs(3.0)}, false, 0.05).marks,
-            (std::vector<Mark>(3, Mark::none)));
+  EXPECT_EQ(marks({runs(1.0), alike, runs(3.0)}).marks, (std::vector<Mark>(3, Mark::none)));
 }
 
-TEST(MarkBest, SaysWhenNothingCanBeTested) {
-  EXPECT_EQ(mark_best({runs(1.0, 5), runs(2.0, 5)}, false, 0.05).why_none,
-            "5 runs a cell cannot show a difference at 0.05 (least p 0.062)");
-  EXPECT_EQ(mark_best({runs(1.0), {}}, false, 0.05).why_none, "");  // no contest
+TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
+  EXPECT_EQ(marks({runs(1.0, 5), runs(2.0, 5)}).why_none,
+            "5 independent runs a cell cannot prove a difference at 0.05");
+  EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // no contest
 }
 
-TEST(MarkBest, NeverMarksWhoLacksARun) {
+TEST(MarkBest, NeverMarksACompetitorThatLacksARun) {
   ByRun lucky = runs(0.5);
   lucky.erase("8");
-  EXPECT_EQ(mark_best({lucky, runs(1.0), runs(2.0)}, false, 0.05).marks,
-            (std::vector<Mark>(3, Mark::none)));
+  EXPECT_EQ(marks({lucky, runs(1.0), runs(2.0)}).marks[0], Mark::none);
+}
+
+TEST(MarkBest, CountsFailuresAsLosses) {
+  ByRun failing = runs(0.5, 10);
+  for (int i = 1; i <= 6; ++i) failing[std::to_string(i)] = std::nullopt;
+  EXPECT_EQ(marks({failing, runs(1.0, 10)}).marks, (std::vector<Mark>{Mark::none, Mark::none}));
+  ByRun better = runs(0.5, 20);
+  better["1"] = std::nullopt;  // one loss against nineteen wins
+  EXPECT_EQ(marks({better, runs(1.0, 20)}).marks[0], Mark::best);
+}
+
+TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
+  ByRun loser;  // by a little on nineteen runs, and the one that it wins makes its mean the lowest
+  for (int i = 1; i <= 20; ++i) loser[std::to_string(i)] = i == 20 ? 0.01 : 1.01 * i;
+  EXPECT_NE(marks({loser, runs(1.0, 20)}).marks[0], Mark::best);
+}
+
+TEST(MarkBest, TakesRunsOfAGroupAsOne) {
+  Lane lane{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
+  EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::best);
+  for (int i = 1; i <= 8; ++i) lane.group[std::to_string(i)] = i < 5 ? "a" : "b";
+  EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::none);
+  EXPECT_NE(mark_best(lane, {}).why_none, "");
 }
 
 std::vector<Table> marked() {
@@ -120,8 +149,9 @@ std::vector<Table> marked() {
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
   const std::string notes =
-      "marked: best, and second best, where paired Wilcoxon tests over the runs tell it from all "
-      "others (Holm over all pairs)\n";
+      "marked: best, and second best, where it is proven better than all others, as compare "
+      "tests "
+      "it\n";
   EXPECT_EQ(markdown(tables),
             "### dense\n\n"
             "| method                  |   ate [m] |\n"
@@ -177,6 +207,37 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
       pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
   EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
   EXPECT_EQ(sequences[0].notes.size(), 1u);
+}
+
+TEST(Pivot, AveragesGainsByTheirRatios) {
+  std::vector<Record> records;  // ratios 0.5 and 4: their geometric mean is sqrt 2
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    records.push_back(ate("raw", 1.0, repeat));
+    records.push_back(ate("dm", repeat == 0 ? 0.5 : 4.0, repeat));
+  }
+  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
+  const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+  EXPECT_NEAR(*table.cells[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
+  EXPECT_EQ(*table.cells[0][1].value, 0.0);
+  EXPECT_EQ(table.notes[0],
+            "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
+            "baseline");
+}
+
+TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 4; ++repeat) {
+    records.push_back(ate("raw", 1.0 + repeat, repeat));
+    records.push_back(ate("dm", 1.0, repeat));
+    if (repeat == 0) continue;
+    records.back().status = "failed";
+    records.back().metric.clear();
+  }
+  const std::vector<Table> tables =
+      pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
+  EXPECT_EQ(sheet(tables[0]).lines[0][1].text, "2.500");
+  EXPECT_EQ(sheet(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
+  EXPECT_NE(json(tables).find("\"possible\": 4"), std::string::npos);
 }
 
 TEST(Pivot, MarksNothingAmongDescriptions) {

@@ -32,11 +32,13 @@ double absolute_error(const Trajectory& keyframes, const Trajectory& reference) 
   return std::sqrt((fitted - b).squaredNorm() / static_cast<double>(count));
 }
 
-double error_of(const Sequence& sequence, Gnc gnc) {
+double error_with(const Sequence& sequence, const PoseGraphOptimizer::Options& options) {
   Report report;
-  return absolute_error(PoseGraphOptimizer({.gnc = gnc}).correct(sequence.problem, report),
+  return absolute_error(PoseGraphOptimizer(options).correct(sequence.problem, report),
                         sequence.reference);
 }
+
+double error_of(const Sequence& sequence, Gnc gnc) { return error_with(sequence, {.gnc = gnc}); }
 
 TEST(GncOutliers, ThreeInTenCostAtMostATenthOnSimulatedChains) {
   for (const SimulatedPath path : {SimulatedPath::driving, SimulatedPath::room}) {

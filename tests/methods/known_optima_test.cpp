@@ -77,5 +77,26 @@ TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
   EXPECT_NEAR(chain_cost(problem, a), chain_cost(problem, b), 1e-6 * chain_cost(problem, a));
 }
 
+TEST(KnownOptimum, DualFindsTheLowerMinimumOfMit) {
+  Problem problem;
+  try {
+    problem = loaded("pose_graphs/MIT.g2o");
+  } catch (const DataMissing& missing) {
+    GTEST_SKIP() << missing.what();
+  }
+  const auto chi2 = [](const Report& report) {
+    return 2.0 * std::ranges::find(report.counts, "cost", &Count::name)->value;
+  };
+  Report from_keyframes, dual, graph;
+  Dual({.start = Dual::Start::keyframes}).correct(problem, from_keyframes);
+  Dual({}).correct(problem, dual);
+  PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal}).correct(problem, graph);
+  EXPECT_GT(chi2(from_keyframes), 700.0);
+  EXPECT_NEAR(chi2(graph), 41.2, 0.1);
+  EXPECT_NEAR(chi2(dual), chi2(graph), 1e-3 * chi2(graph));
+  ASSERT_FALSE(dual.notes.empty());
+  EXPECT_TRUE(dual.notes[0].starts_with("two minima")) << dual.notes[0];
+}
+
 }  // namespace
 }  // namespace loopbench

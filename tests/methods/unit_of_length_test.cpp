@@ -7,6 +7,8 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "methods/solvers/groups/sim3.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench {
 namespace {
@@ -98,6 +100,37 @@ TEST(UnitOfLength, DualIsThePoseGraphOfSimilaritiesThen) {
   EXPECT_LT(off(dual, square.truth), 0.1 * off(rigid, square.truth));
   EXPECT_LT(off(drift, square.truth), 0.1 * off(rigid, square.truth));
   EXPECT_LT(off(dual, graph), 1e-3 * off(rigid, graph));
+}
+
+TEST(UnitOfLength, DualWeighsTranslationInTheUnitThatPoseGraphDoes) {
+  // The unit grows by e over the loop; deviations are in that of an edge's first keyframe.
+  const Creeping square = creeping(0.025, 1e4);
+  EXPECT_NEAR(Sim3::information(square.problem.closures[0], 0.01)(0, 0), 1e4 * std::exp(2.0), 1e-6);
+  const Problem rigid = in_one_unit(square.problem);
+  EXPECT_NEAR(rigid.closures[0].information(0, 0), 1e4, 1e-9);
+
+  Report report;
+  const Trajectory dual = Dual({}).correct(square.problem, report);
+  std::vector<ScaledPose> poses;
+  for (std::size_t i = 0; i < dual.size(); ++i) {
+    poses.push_back({dual[i].world_from_body, 1.0});
+    if (i < rigid.odometry.size()) {
+      poses[i].scale = rigid.odometry[i].from_from_to.translation.norm() /
+                       square.problem.odometry[i].from_from_to.translation.norm();
+    } else {
+      poses[i].scale = poses[i - 1].scale * poses[i - 1].scale / poses[i - 2].scale;  // even shares
+    }
+  }
+  double chi2 = 0.0;
+  const PoseGraphSettings settings{.group = Group::sim3};
+  for (const auto* edges : {&square.problem.odometry, &square.problem.closures}) {
+    for (const double each : squared_errors(poses, *edges, settings)) chi2 += each;
+  }
+  Report graph;
+  PoseGraphOptimizer({}).correct(square.problem, graph);
+  const double least = 2.0 * test::count(graph, "cost");
+  EXPECT_GT(chi2, least * (1.0 - 1e-9));
+  EXPECT_LT(chi2, least * 1.001);
 }
 
 }  // namespace

@@ -28,12 +28,15 @@ Trajectory line(const std::array<double, 6>& strays) {
   return out;
 }
 
-JudgedCell corrected(Problem problem, Trajectory keyframes, const Trajectory& truth) {
+JudgedCell corrected(Problem problem,
+                     Trajectory keyframes,
+                     const Trajectory& truth,
+                     const Protocol& rules = kAsIs) {
   return {truth,
           std::move(problem),
           std::make_unique<Polyline>(std::move(keyframes)),
           Times::keyframes,
-          kAsIs};
+          rules};
 }
 
 TEST(GainAlong, ByHand) {
@@ -45,7 +48,12 @@ TEST(GainAlong, ByHand) {
   // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; thirds of the way hold two poses each.
   EXPECT_NEAR(
       find(scores, "translation", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
-  EXPECT_NEAR(find(scores, "translation", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
+  EXPECT_EQ(find(scores, "translation", "3d").count, 6u);
+  const Protocol by_mean{.align = Align::none, .statistic = Statistic::mean};
+  const JudgedCell again =
+      corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}), by_mean);
+  const auto means = gain_along(again.evaluation, {});
+  EXPECT_NEAR(find(means, "translation", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
   EXPECT_NEAR(find(scores, "first_third", "3d").rmse, 50.0, 1e-12);
   EXPECT_NEAR(
       find(scores, "middle_third", "3d").rmse, 100.0 * (1.0 - std::sqrt(8.0 / 20.0)), 1e-12);
@@ -65,6 +73,25 @@ TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
       EXPECT_EQ(score.statistics.rmse, 100.0);
     }
   }
+}
+
+TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
+  // Errors before 0 0 0 1 0 0: the rmse has a gain, the median and the smallest have none.
+  Problem problem;
+  problem.keyframes = line({0, 0, 0, 1, 0, 0});
+  const auto gained = [&](Statistic statistic) {
+    const Protocol rules{.align = Align::none, .statistic = statistic};
+    const JudgedCell cell =
+        corrected(problem, line({0, 0, 0, 3, 0, 0}), line({0, 0, 0, 0, 0, 0}), rules);
+    return gain_along(cell.evaluation, {}).front();
+  };
+  for (const Statistic statistic : {Statistic::rmse, Statistic::mean}) {
+    const Statistics got = gained(statistic).statistics;
+    for (const double number : {got.rmse, got.mean, got.median, got.min, got.max}) {
+      EXPECT_NEAR(number, -200.0, 1e-12);
+    }
+  }
+  EXPECT_EQ(gained(Statistic::median).why_undefined, "there was no error before");
 }
 
 TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreJudged) {

@@ -5,6 +5,7 @@
 
 #include "datasets/core/polyline.hpp"
 #include "metrics/evaluation.hpp"
+#include "metrics/losses.hpp"
 
 namespace loopbench::test {
 
@@ -19,7 +20,12 @@ struct JudgedCell {
         problem(std::move(given)),
         curve(std::move(made)),
         at_keyframes(curve->sample(stamps(problem.keyframes))),
-        evaluation(evaluate(reference, *curve, stamps(problem.keyframes), times, protocol)) {
+        evaluation(evaluate(reference,
+                            *curve,
+                            stamps(problem.keyframes),
+                            times,
+                            protocol,
+                            tracked_stamps(problem))) {
     evaluation.context = {&reference, &at_keyframes, &problem, curve.get(), times, protocol};
   }
   JudgedCell(const JudgedCell&) = delete;

@@ -22,7 +22,7 @@ using test::why;
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 Evaluation beside(const Trajectory& reference, const Trajectory& estimate, Align type) {
-  return evaluate(reference, estimate, {.align = type});
+  return evaluate(reference, estimate, {.align = type, .min_pairs = 1});
 }
 
 /// Three poses one metre apart along x, 1 s apart; the estimate strays by known amounts.
@@ -64,7 +64,7 @@ TEST(AxisError, ByHandInMagnitudes) {
 
 TEST(Rpe, ByHandInTheWorldAndInTheBody) {
   // Position errors (0,0,0), (3,-4,0), (0,0,2): they change by (3,-4,0) and (-3,4,2).
-  const auto world = rpe(by_hand(), {});
+  const auto world = rpe(by_hand(), {.frame = RpeFrame::world});
   EXPECT_EQ(find(world, "translation", "3d").count, 2u);
   EXPECT_DOUBLE_EQ(find(world, "translation", "x").sse, 18.0);
   EXPECT_DOUBLE_EQ(find(world, "translation", "y").sse, 32.0);
@@ -73,7 +73,7 @@ TEST(Rpe, ByHandInTheWorldAndInTheBody) {
 
   // First step E = (4,-4,0) - (1,0,0). Second: the body has turned by 90 degrees about z, so the
   // world motion (-2,4,2) reads (4,2,2) there, and E = (3,2,2).
-  const auto body = rpe(by_hand(), {.frame = RpeFrame::body});
+  const auto body = rpe(by_hand(), {});
   EXPECT_NEAR(find(body, "translation", "x").sse, 9.0 + 9.0, 1e-13);
   EXPECT_NEAR(find(body, "translation", "y").sse, 16.0 + 4.0, 1e-13);
   EXPECT_NEAR(find(body, "translation", "z").sse, 4.0, 1e-13);
@@ -102,13 +102,14 @@ TEST(Rpe, RefusesWhatItCannotMeasure) {
   EXPECT_THROW(rpe(by_hand(), {.delta = 1e30}), std::runtime_error);
 }
 
-TEST(CoverageMetric, IsTwoShares) {
+TEST(CoverageMetric, IsTwoSharesAndTheTimeBridged) {
   Evaluation e = by_hand();
-  e.coverage = {.pairs = 3, .possible = 4, .span = 0.5};
+  e.coverage = {.pairs = 3, .possible = 4, .span = 0.5, .bridged = 12.5};
   const auto scores = coverage(e, {});
   EXPECT_EQ(find(scores, "share", "").mean, 0.75);
   EXPECT_EQ(find(scores, "share", "").count, 3u);
   EXPECT_EQ(find(scores, "span", "").rmse, 0.5);
+  EXPECT_EQ(find(scores, "bridged", "").rmse, 12.5);
 }
 
 /// The metrics that are errors of pairs: zero when perfect, never negative.
@@ -150,7 +151,7 @@ TEST_P(Laws, SquaresOfAxesAddUp) {
   double body_parts = 0.0;
   for (const char* axis : {"x", "y", "z"}) {
     parts += find(axis_error(e, {}), "translation", axis).sse;
-    body_parts += find(rpe(e, {.frame = RpeFrame::body}), "translation", axis).sse;
+    body_parts += find(rpe(e, {}), "translation", axis).sse;
   }
   EXPECT_NEAR(parts, whole, 1e-12 * whole);
   const double relative = find(rpe(e, {}), "translation", "3d").sse;
@@ -176,7 +177,7 @@ TEST_P(Laws, AxisRpeIsBoundedByAxisAte) {
   const Evaluation e = beside(reference_, estimate_, Align::se3);
   const double n = 200.0;
   for (const double delta : {1.0, 7.0, 150.0}) {
-    const auto relative = rpe(e, {.delta = delta});
+    const auto relative = rpe(e, {.delta = delta, .frame = RpeFrame::world});
     for (const char* axis : {"x", "y", "z"}) {
       EXPECT_LE(find(relative, "translation", axis).rmse,
                 2.0 * find(axis_error(e, {}), "translation", axis).rmse *

@@ -50,6 +50,23 @@ TEST(Consecutive, MetresLeaveTheFirstPoseOutAndAnglesDoNot) {
   EXPECT_EQ(consecutive_stretches({}, 2.0, FirstPose::starts), Pairs{});
 }
 
+TEST(Consecutive, SecondsMissByNoMoreThanTheTolerance) {
+  EXPECT_EQ(consecutive_seconds({0, 1, 2, 3, 4, 5}, 2.0, 0.2), (Pairs{{0, 2}, {2, 4}}));
+  // 15 Hz: 0.1 s lies between one step and two, and neither is within a tenth of it.
+  std::vector<double> stamps;
+  for (int i = 0; i < 30; ++i) stamps.push_back(i / 15.0);
+  EXPECT_EQ(consecutive_seconds(stamps, 0.1, 0.01), Pairs{});
+  // 10 Hz with the rounding of large stamps, and a gap that no stretch bridges.
+  stamps.clear();
+  for (int i = 0; i < 30; ++i) {
+    if (i < 10 || i >= 15) stamps.push_back(1.7e9 + 0.1 * i);
+  }
+  const Pairs got = consecutive_seconds(stamps, 0.1, 0.01);
+  EXPECT_EQ(got.size(), 9u + 14u);
+  for (const auto& [i, j] : got) EXPECT_EQ(j, i + 1);
+  EXPECT_EQ(consecutive_seconds({}, 1.0, 0.1), Pairs{});
+}
+
 TEST(AnglePairs, TakeEveryLaterPoseThatIsTurnedSoFar) {
   const Trajectory poses = turning({0.0, 0.5, 1.0, 0.5, 0.0});
   EXPECT_EQ(angle_pairs(poses, 1.0, 0.01), (Pairs{{0, 2}, {2, 4}}));

@@ -39,9 +39,12 @@ inline std::string eval(std::vector<std::string> arguments, int expected_exit = 
   return testing::internal::GetCapturedStdout();
 }
 
+/// The list of judgements, or the only one.
 inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   arguments.push_back("--json");
-  return Json::parse(eval(std::move(arguments), expected_exit));
+  const Json all = Json::parse(eval(std::move(arguments), expected_exit));
+  EXPECT_TRUE(all.is_array()) << all;
+  return all.size() == 1 ? all[0] : all;
 }
 
 template <class Error>

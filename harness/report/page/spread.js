@@ -54,7 +54,7 @@
     const all = rows.flatMap((m) => [m.ratio, ...(m.interval || [])]).concat(1);
     R.chart(host, {
       label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
-      x: { label: "geometric mean ratio (left is better)", domain: R.paddedLog(d3.extent(all)), log: true },
+      x: { label: `geometric mean ratio (${kind.better === "higher" ? "right" : "left"} is better)`, domain: R.paddedLog(d3.extent(all)), log: true },
       y: { band: rows.map((m) => place.get(m.method)), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
         group.append("line").attr("class", "zero").attr("x1", x(1)).attr("x2", x(1)).attr("y1", 0).attr("y2", 1e4);
@@ -66,12 +66,12 @@
               .attr("stroke", "currentColor").attr("stroke-width", 3).attr("stroke-linecap", "round");
           }
           g.append("circle").attr("cx", x(m.ratio)).attr("cy", middle).attr("r", 5.5).attr("fill", "currentColor");
-          g.append("title").text(`${m.method}: ${R.number(m.ratio)}` + (m.interval ? ` [${m.interval.map(R.number).join(", ")}]` : "") + `, p = ${R.number(m.p)}, rank ${R.number(m.average_rank)}`);
+          g.append("title").text(`${m.method}: ${R.number(m.ratio)}` + (m.interval ? ` [${m.interval.map(R.number).join(", ")}]` : "") + `, p = ${R.number(m.p)}, rank ${[...new Set(m.ranks)].join("-")}` + (m.fails ? `, fails ${m.fails}` : ""));
         }
       },
     });
     const caption = d3.select(host).append("p").attr("class", "hint below");
-    caption.text(comparison.verdict + (rows.some((m) => m.interval) ? `. Bars: ${100 * (1 - comparison.alpha)} % bootstrap intervals over ${comparison.observations === 1 ? "poses of the run" : comparison.observations + " runs"}.` : ""));
+    caption.text(comparison.verdict + (rows.some((m) => m.interval) ? `. Bars: ${100 * (1 - comparison.alpha)} % intervals over ${comparison.unit_of_observation}.` : ""));
   };
 
   R.follow(() => {

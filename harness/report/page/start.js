@@ -31,7 +31,7 @@
   R.follow(() => {
     const own = R.repeats(state.sequence);
     repeatField.hidden = own.length < 2;
-    repeat.replaceChildren(...own.map((n) => element("option", { value: n, textContent: n + 1, selected: n === state.repeat })));
+    repeat.replaceChildren(...own.map((n) => element("option", { value: n, textContent: n, selected: n === state.repeat })));
   });
 
   const chips = element("div", { className: "chips" });

@@ -22,8 +22,8 @@
 
   R.comparison = (place) => {
     const k = kinds[place];
-    return k && R.comparisons.find((c) => ["protocol", "times", "metric", "relation", "axis", "unit"]
-      .every((key) => c[key] === k[key])) || null;
+    return k && R.comparisons.find((c) => c.label === k.metric &&
+      ["protocol", "times", "relation", "axis", "unit"].every((key) => c[key] === k[key])) || null;
   };
 
   // The baseline, then by rank those that do not look the same.
@@ -57,8 +57,8 @@
     if (!own.includes(R.state.repeat)) R.state.repeat = own.length ? own[0] : 0;
   };
   R.keepRepeat();
-  // "room", or "room, repeat 3" where there are several to choose from.
-  R.runName = (s) => R.scores.sequences[s] + (R.repeats(s).length > 1 ? `, repeat ${R.state.repeat + 1}` : "");
+  // "room", or "room (repeat 2)" as tables name it: they count from 0.
+  R.runName = (s) => R.scores.sequences[s] + (R.state.repeat > 0 ? ` (repeat ${R.state.repeat})` : "");
   R.usual = shown;
   R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));
   R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +

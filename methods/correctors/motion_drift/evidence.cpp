@@ -45,7 +45,7 @@ Eigen::MatrixXd share_of(const Term& term,
     case Cause::drift: {
       const Eigen::MatrixXd shape =
           through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                               return grown(term.growth, motions[i]) * jacobian.edge[i];
+                               return drifted(term.growth, motions[i]) * jacobian.edge[i];
                              }));
       const Eigen::MatrixXd moved =
           shape.middleCols(half + (term.axis < 0 ? 0 : term.axis), term.axis < 0 ? 3 : 1);

@@ -81,14 +81,15 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
     const std::vector<Twist> pull = pulls(multipliers[j], jacobian, problem.closures);
     Twist together = Twist::Zero();  // drift: one rate all along
     for (std::size_t i = 0; i < pull.size(); ++i) {
-      together += grown(term.growth, motions[i]) * pull[i];
+      together += drifted(term.growth, motions[i]) * pull[i];
     }
     for (std::size_t i = 0; i < pull.size(); ++i) {
       if (term.cause == Cause::stated) {
         out[i] -= problem.odometry[i].information.inverse() * pull[i];
+      } else if (term.cause == Cause::drift) {
+        out[i] -= drifted(term.growth, motions[i]) * on_axes_of(term, together);
       } else {
-        out[i] -= grown(term.growth, motions[i]) *
-                  on_axes_of(term, term.cause == Cause::drift ? together : pull[i]);
+        out[i] -= grown(term.growth, motions[i]) * on_axes_of(term, pull[i]);
       }
     }
   }

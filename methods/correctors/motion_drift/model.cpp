@@ -84,7 +84,7 @@ ChainBelief belief_of(const MotionModel& model,
     ChainBelief::Drift drift{{}, rates};
     drift.shape.reserve(motions.size());
     for (const EdgeMotion& motion : motions) {
-      drift.shape.push_back(Twist::Constant(grown(growth, motion)));
+      drift.shape.push_back(Twist::Constant(drifted(growth, motion)));
     }
     out.drift.push_back(std::move(drift));
   }

@@ -1,9 +1,12 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/motion_drift/drift_reach.hpp"
+#include "methods/correctors/motion_drift/large_moves.hpp"
 #include "methods/correctors/motion_drift/mean_errors.hpp"
 #include "methods/correctors/unit_of_length.hpp"
 
@@ -97,6 +100,33 @@ void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, R
   report.count("chance.steady", steady);
 }
 
+/// One solve of the average costs as much as every model's dense factorisation: with more closures
+/// the models differ less, and fewer do.
+std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::size_t closures) {
+  constexpr std::size_t kFewClosures = 16;
+  constexpr std::size_t kEnough = 64;
+  if (closures <= kFewClosures || draws.size() <= kEnough) return draws;
+  std::vector<MotionModel> out;
+  for (const std::size_t i : spread_choice(draws.size(), kEnough)) out.push_back(draws[i]);
+  return out;
+}
+
+/// Loops that cover little of the chain leave the rest to extrapolation.
+void note_large_move(const LargestMove& move, Report& report) {
+  constexpr double kLarge = 3.0;
+  report.count("largest_move", move.moved);
+  report.count("explained_move", move.explained);
+  if (!(move.moved > kLarge * move.explained + 1e-6)) return;
+  const auto rounded = [](double metres) {
+    const double unit = std::pow(10.0, std::floor(std::log10(metres)) - 1.0);
+    std::string text = std::to_string(std::round(metres / unit) * unit);
+    return text.substr(0, text.find('.') + (metres < 10.0 ? 3 : 0));
+  };
+  report.notes.push_back("keyframes move by up to " + rounded(move.moved) +
+                         " m, the gaps of the loops explain " + rounded(move.explained) +
+                         " m: the drift is extrapolated far beyond the loops");
+}
+
 double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - less[i]).squaredNorm();
@@ -121,10 +151,12 @@ Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
 }
 
 Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
-  const std::vector<EdgeMotion> moved = motions(problem);
+  std::vector<EdgeMotion> moved = motions(problem);
+  limit_drift(moved, problem, options_.prior.drift_reach);
   LoopedChain chain(problem, stated_belief(problem));
-  const MotionPrior prior = prior_of(
-      model_of(options_, problem.planar), options_.prior, problem, moved, chain.linearised().gap);
+  const Eigen::VectorXd gap = chain.linearised().gap;
+  const MotionPrior prior =
+      prior_of(model_of(options_, problem.planar), options_.prior, problem, moved, gap);
   MotionPosterior posterior;
   posterior.centre = prior.hypotheses.back().medians;
   chain.believe(belief_of(posterior.centre, problem, moved));
@@ -141,11 +173,13 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
   }
   const bool few = problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
   if (posterior.draws.size() > 1 && few) {
-    iterations += average(posterior.draws, chain, problem, moved);
+    iterations += average(thinned(posterior.draws, problem.closures.size()), chain, problem, moved);
   }
   report.count("iterations", iterations);
   for (const Term& term : posterior.centre) report.count(name_of(term), term.value);
-  return chain.keyframes();
+  Trajectory out = chain.keyframes();
+  note_large_move(largest_move(problem, gap, out), report);
+  return out;
 }
 
 int MotionDrift::most_likely(LoopedChain& chain) const {

@@ -14,7 +14,8 @@ namespace loopbench {
 /// - steady drift B_j ~ N(0, V_j) of rotation: unknown rates, the same all along the chain. They
 ///   make a chain's errors hang together, which noise alone denies, and loops far apart in time
 ///   teach them. Steady drift of translation (a wrong scale) hardly opens a loop, so that loops
-///   cannot teach it; it is there when its size is given.
+///   cannot teach it; it is there when its size is given. Beyond the loops drift is extrapolated
+///   over twice the motion that they enclose, and no further (drift_reach.hpp).
 ///
 /// Nobody knows these variances, and a few loops do not tell them: they are drawn from what is
 /// believed of them before (prior.hpp) times the density of the gaps that the loops leave
@@ -59,8 +60,9 @@ class MotionDrift final : public Corrector {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `iterations`, `log_evidence` of the gaps, `chance.*` of the hypotheses given the gaps,
-  /// and every variance of the likeliest one by its name (0: denied). Throws std::runtime_error
-  /// when the loop equations cannot be solved.
+  /// every variance of the likeliest one by its name (0: denied), `largest_move` of a keyframe and
+  /// the `explained_move` [m] (large_moves.hpp). Notes when the first is far above the second.
+  /// Throws std::runtime_error when the loop equations cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -111,8 +113,15 @@ void fields(MotionDrift::Options& o, Visit visit) {
         share);
   visit("prior.scaled_chance", p.scaled_chance, "that closures need another factor [-]", share);
   visit("prior.steady_chance", p.steady_chance, "that anything drifts steadily [-]", share);
+  visit("prior.drift_reach",
+        p.drift_reach,
+        "extrapolation of drift beyond the loops, as a multiple of the motion they enclose [-]",
+        Between{0.0});
 
-  visit("draws", o.sampling.draws, "error models averaged", Between{1, 10000});
+  visit("draws",
+        o.sampling.draws,
+        "error models averaged; with more than 16 closures 64 of them",
+        Between{1, 10000});
   visit("draw_steps", o.sampling.steps, "of the sampler from draw to draw", Between{1, 1000});
   visit("warm_up", o.sampling.warm_up, "steps before the first draw", Between{0, 100000});
   visit("seed", o.sampling.seed, "of the sampler", Between{0});

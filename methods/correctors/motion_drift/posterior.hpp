@@ -10,9 +10,9 @@
 namespace loopbench {
 
 struct Sampling {
-  int draws = 64;
-  int steps = 8;     ///< from draw to draw
-  int warm_up = 60;  ///< steps before the first
+  int draws = 256;
+  int steps = 8;      ///< from draw to draw
+  int warm_up = 120;  ///< steps before the first
   std::int64_t seed = 1;
 };
 

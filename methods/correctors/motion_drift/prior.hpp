@@ -23,6 +23,7 @@ struct MotionPriorOptions {
   double as_stated_chance = 0.5;  ///< see Covariance; the rest is its last
   double scaled_chance = 0.25;
   double steady_chance = 0.7;  ///< that anything drifts steadily
+  double drift_reach = 2.0;    ///< of drift beyond the loops, of the motion they enclose [-]
 };
 
 /// What the noise may be like. As stated: every covariance of the problem times one factor, which
@@ -59,7 +60,8 @@ struct MotionPrior {
 ///
 /// Closures keep their stated covariance unless they close gaps five times smaller than it: some
 /// files state units of their own. Then it shrinks as far as what odometry states shrinks, but not
-/// below a tenth of the gaps.
+/// below a tenth of the gaps. Means over the loops are weighted (loop_averages.hpp): a closure that
+/// states nearly nothing changes nothing, and a loop at rest does not set an error per metre.
 ///
 /// `gap` holds the closures' gaps when no edge is corrected, six numbers a closure.
 /// O(edges terms + closures).

@@ -3,6 +3,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm_report.hpp"
 #include "methods/smoothers/manifold/regression.hpp"
+#include "methods/smoothers/stretches.hpp"
 
 namespace loopbench {
 
@@ -80,6 +81,23 @@ std::optional<std::string> Dm::declines(const Problem& problem) const {
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
   Densified dense = with_quasi_keyframes(problem, options_.gap);
+  if (dense.nodes.size() < 2 || !options_.chord_above) return smooth(problem, std::move(dense), report);
+  const double longest = *options_.chord_above * median_interval(problem.keyframes);
+  const auto apart = stretches(dense.nodes.size(), [&](std::size_t i) {
+    return dense.nodes[i + 1].stamp - dense.nodes[i].stamp > longest;
+  });
+  if (apart.size() == 1) return smooth(problem, std::move(dense), report);
+  return smoothed_apart(
+      dense.nodes,
+      apart,
+      "intervals above chord_above without a tracked frame",
+      report,
+      [&](Trajectory part, Report& own) { return smooth(problem, {std::move(part)}, own); });
+}
+
+std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
+                                        Densified dense,
+                                        Report& report) const {
   if (dense.nodes.size() < 3) {
     describe(dense, report);
     count(report, "fallbacks", 1);

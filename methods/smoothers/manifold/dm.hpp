@@ -25,7 +25,8 @@ class Dm final : public Smoother {
   /// O(keyframes log frames). Counts nodes, quasi_keyframes, gaps_left, segments and, when the
   /// stage is on, windows, split_windows, fallbacks, refused_families, mean_window_nodes,
   /// spatial_windows, spatial_truncated, spatial_fallbacks; then the largest jumps at nodes (see
-  /// Continuity). Fewer than three nodes give the polyline.
+  /// Continuity). Fewer than three nodes give the polyline. Stretches between intervals above
+  /// `chord_above` are smoothed apart and joined by chords: smoothed_apart().
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
   /// The same as its pieces, or null for fewer than three nodes. `judge`, when there is one,
@@ -35,6 +36,9 @@ class Dm final : public Smoother {
                                                      const manifold::PieceJudge& judge) const;
 
  private:
+  std::unique_ptr<const Curve> smooth(const Problem& problem,
+                                      manifold::Densified dense,
+                                      Report& report) const;
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      manifold::Densified dense,
                                                      Report& report,

@@ -30,6 +30,8 @@ struct DmOptions {
   int spatial = 0;  ///< M, nodes of a spatial window; 0: z' stays the spline's
   manifold::SegmentRule segment = {};
   manifold::GapRule gap = {};
+  /// [medians]; a pause of a few dozen is no gap: KITTI 07 stands for 37 of its keyframe intervals.
+  std::optional<double> chord_above = 50.0;
   manifold::Up up = manifold::Up::pca;
   manifold::Fallback fallback = manifold::Fallback::arc;
   bool height_guard = true;  ///< surfaces that run away between nodes are not used
@@ -68,6 +70,11 @@ void fields(DmOptions& o, Visit visit) {
   visit("gap_common_min",
         o.gap.common_min,
         "so do keyframes with fewer landmarks in common, where that is known; none: never",
+        Above{0.0});
+  visit("chord_above",
+        o.chord_above,
+        "longer intervals without tracked frames are chords [median keyframe intervals]; none: "
+        "never",
         Above{0.0});
   visit("speed_rule", o.segment.speed, "when a speed fits a segment");
   visit("speed_band",

@@ -73,10 +73,14 @@ struct Sim3 {
 
   static ScaledPose from(const ScaledPose& a) { return a; }
   static ScaledPose to_scaled_pose(const ScaledPose& a) { return a; }
-  /// Edges carry no uncertainty of their scale: `scale_sigma` [-] is that of its logarithm.
+  /// Edges carry no uncertainty of their scale: `scale_sigma` [-] is that of its logarithm. An edge
+  /// states its translation and the deviations of it in the unit of its first keyframe, while the
+  /// error here, behind the measured similarity, is in that of its second.
   static Square information(const Edge& edge, double scale_sigma) {
+    Twist unit = Twist::Ones();
+    unit.head<3>().setConstant(edge.scale);
     Square out = Square::Zero();
-    out.topLeftCorner<6, 6>() = edge.information;
+    out.topLeftCorner<6, 6>() = unit.asDiagonal() * edge.information * unit.asDiagonal();
     out(6, 6) = 1.0 / (scale_sigma * scale_sigma);
     return out;
   }

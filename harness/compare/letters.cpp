@@ -1,0 +1,60 @@
+#include <algorithm>
+
+#include "harness/compare/ranking.hpp"
+
+namespace loopbench {
+namespace {
+
+using LetterColumn = std::vector<std::size_t>;  // places in the order, ascending
+
+LetterColumn without(const LetterColumn& column, std::size_t place) {
+  LetterColumn out = column;
+  std::erase(out, place);
+  return out;
+}
+
+/// Adds a column that no other contains.
+void absorb(std::vector<LetterColumn>& columns, const LetterColumn& added) {
+  const auto contains = [&](const LetterColumn& other) {
+    return std::ranges::includes(other, added);
+  };
+  if (std::ranges::none_of(columns, contains)) columns.push_back(added);
+}
+
+}  // namespace
+
+std::vector<std::string> letters(const Ranking& ranking) {
+  const std::size_t k = ranking.order.size();
+  std::vector<LetterColumn> columns(1);
+  for (std::size_t place = 0; place < k; ++place) columns[0].push_back(place);
+  std::vector<std::string> out(k);
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t j = i + 1; j < k; ++j) {
+      const std::size_t a = ranking.order[i];
+      const std::size_t b = ranking.order[j];
+      if (!ranking.beats[a][b] && !ranking.beats[b][a]) continue;
+      std::vector<LetterColumn> kept;
+      std::vector<LetterColumn> split;
+      for (LetterColumn& column : columns) {
+        const bool has_both =
+            std::ranges::binary_search(column, i) && std::ranges::binary_search(column, j);
+        (has_both ? split : kept).push_back(std::move(column));
+      }
+      for (const LetterColumn& column : split) {
+        absorb(kept, without(column, j));
+        absorb(kept, without(column, i));
+      }
+      columns = std::move(kept);
+      if (columns.size() > 100) return out;
+    }
+  }
+  std::ranges::sort(columns);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::string letter(1, static_cast<char>('a' + c % 26));
+    if (c >= 26) letter += std::to_string(c / 26);
+    for (const std::size_t place : columns[c]) out[ranking.order[place]] += letter;
+  }
+  return out;
+}
+
+}  // namespace loopbench

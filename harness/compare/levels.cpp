@@ -1,0 +1,76 @@
+#include "harness/compare/levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/statistics/ranks.hpp"
+
+namespace loopbench {
+double zero_floor(double largest) {
+  constexpr double kRounding = 1e-12;  // of coordinates, in any unit of a score
+  return std::max(kRounding, 1e-9 * largest);
+}
+
+Levels::Levels(const GroupedValues& all, double relevant)
+    : values_(all.values),
+      costs_(all.values),
+      floor_(all.group.size(), zero_floor(0.0)),
+      sign_(all.better == Better::higher ? -1.0 : 1.0),
+      relevant_(relevant) {
+  for (auto& row : costs_) {
+    for (std::size_t run = 0; run < row.size(); ++run) {
+      if (!row[run]) continue;
+      if (all.better == Better::target) *row[run] = std::abs(*row[run] - all.target);
+      is_ratio_ = is_ratio_ && *row[run] >= 0.0;
+      floor_[run] = std::max(floor_[run], zero_floor(std::abs(*row[run])));
+    }
+  }
+  for (std::size_t run = 0; run < all.group.size(); ++run) {
+    if (all.group[run] >= runs_of_.size()) runs_of_.resize(all.group[run] + 1);
+    runs_of_[all.group[run]].push_back(run);
+  }
+}
+
+bool Levels::is_zero(std::size_t method, std::size_t run) const {
+  return std::abs(*costs_[method][run]) <= floor_[run];
+}
+
+double Levels::level(std::size_t method, std::size_t run) const {
+  const double cost = *costs_[method][run];
+  return sign_ * (is_ratio_ ? std::log(std::max(cost, floor_[run])) : cost);
+}
+
+double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {
+  if (tied(*values_[a][run], *values_[b][run], relevant_)) return 0.0;
+  if (tied(*costs_[a][run], *costs_[b][run], relevant_)) return 0.0;
+  const bool a_zero = is_zero(a, run);
+  const bool b_zero = is_zero(b, run);
+  if (a_zero && b_zero) return 0.0;
+  if (is_ratio_ && a_zero != b_zero) return sign_ * (a_zero ? -kBeyond : kBeyond);
+  return level(a, run) - level(b, run);
+}
+
+double Levels::failed_level(std::size_t run) const {
+  double best = kBeyond;
+  double worst = -kBeyond;
+  for (std::size_t m = 0; m < methods(); ++m) {
+    if (!has(m, run)) continue;
+    best = std::min(best, level(m, run));
+    worst = std::max(worst, level(m, run));
+  }
+  return worst + (is_ratio_ ? std::log(2.0) : worst - best);
+}
+
+double Levels::standing(std::size_t method) const {
+  double sum = 0.0;
+  for (const std::vector<std::size_t>& runs : runs_of_) {
+    double of_group = 0.0;
+    for (const std::size_t run : runs) {
+      of_group += has(method, run) ? level(method, run) : failed_level(run);
+    }
+    sum += of_group / static_cast<double>(runs.size());
+  }
+  return sum / static_cast<double>(groups());
+}
+
+}  // namespace loopbench

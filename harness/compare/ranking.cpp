@@ -1,0 +1,131 @@
+#include "harness/compare/ranking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "harness/statistics/holm.hpp"
+
+namespace loopbench {
+namespace {
+
+struct Test {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  PairedMethods pair;
+  SignedRank ranks;
+  double p = 1.0;  // corrected
+};
+
+bool has_failure(const PairedMethods& pair) {
+  return std::ranges::any_of(pair.losses_last,
+                             [](double value) { return std::abs(value) == kBeyond; });
+}
+
+/// Whether the mean ratio agrees with the ranks; raises p to that of its interval.
+bool mean_agrees(Test& test, bool is_ratio, const RankingOptions& options) {
+  const std::optional<double> middle = mean_difference(test.pair);
+  if (!middle) return true;  // a failure or a zero error decides
+  const double least = is_ratio ? std::log1p(options.relevant) : 0.0;
+  const bool a_is_better = test.ranks.negative > test.ranks.positive;
+  const double gain = a_is_better ? -*middle : *middle;
+  if (std::abs(gain) <= least) return has_failure(test.pair);  // equal where both have a value
+  if (gain < 0.0) return false;
+  const auto interval =
+      mean_interval(test.pair.common, {1.0 - options.alpha, options.resamples, options.seed});
+  if (interval) test.p = std::max(test.p, interval->p);
+  return test.p <= options.alpha;
+}
+
+void decide(Ranking& out,
+            Test& test,
+            const std::vector<double>& standings,
+            bool is_ratio,
+            const RankingOptions& options) {
+  const bool a_is_better = test.ranks.negative > test.ranks.positive;
+  const std::size_t winner = a_is_better ? test.a : test.b;
+  const std::size_t loser = a_is_better ? test.b : test.a;
+  const bool is_significant = test.p <= options.alpha;
+  if (is_significant && mean_agrees(test, is_ratio, options) &&
+      standings[winner] < standings[loser]) {
+    out.beats[winner][loser] = true;
+  } else if (test.p <= options.alpha) {
+    test.p = 1.0;  // ranks and ratio contradict each other: nothing is shown
+  }
+  out.p[test.a][test.b] = out.p[test.b][test.a] = test.p;
+}
+
+std::vector<Test> tests(const Levels& levels, Ranking& out) {
+  std::vector<Test> found;
+  std::size_t groups = 0;
+  for (std::size_t a = 0; a < levels.methods(); ++a) {
+    for (std::size_t b = a + 1; b < levels.methods(); ++b) {
+      Test test{a, b, paired(levels, a, b), {}, 1.0};
+      test.ranks = signed_rank(test.pair.losses_last);
+      groups = std::max(groups, test.pair.losses_last.size());
+      if (test.ranks.count == 0) {
+        out.equal[a][b] = out.equal[b][a] = true;
+      } else {
+        found.push_back(std::move(test));
+      }
+    }
+  }
+  out.pairs = found.size();
+  out.least_p = std::min(1.0, least_p(groups) * static_cast<double>(out.pairs));
+  return found;
+}
+
+}  // namespace
+
+Ranking rank_methods(const GroupedValues& values, const RankingOptions& options) {
+  const Levels levels(values, options.relevant);
+  const std::size_t k = levels.methods();
+  Ranking out;
+  out.beats.assign(k, std::vector<bool>(k));
+  out.equal.assign(k, std::vector<bool>(k));
+  out.p.assign(k, std::vector<double>(k, 1.0));
+  std::vector<double> standings;
+  for (std::size_t m = 0; m < k; ++m) standings.push_back(levels.standing(m));
+  out.order.resize(k);
+  std::iota(out.order.begin(), out.order.end(), std::size_t{0});
+  std::ranges::stable_sort(out.order, {}, [&](std::size_t m) { return standings[m]; });
+
+  std::vector<Test> all = tests(levels, out);
+  std::vector<double> p;
+  for (const Test& test : all) p.push_back(test.ranks.p);
+  const std::vector<double> adjusted = holm(p);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].p = adjusted[i];
+    decide(out, all[i], standings, levels.is_ratio(), options);
+  }
+  while (least_p(out.groups_needed) * static_cast<double>(out.pairs) > options.alpha) {
+    ++out.groups_needed;
+  }
+  return out;
+}
+
+std::vector<std::size_t> Ranking::leaders() const {
+  std::vector<std::size_t> out;
+  for (const std::size_t m : order) {
+    if (m == order.front() || equal[order.front()][m]) out.push_back(m);
+  }
+  return out;
+}
+
+bool Ranking::is_best_proven() const {
+  const std::size_t first = order.front();
+  return pairs > 0 && std::ranges::all_of(order, [&](std::size_t m) {
+           return m == first || equal[first][m] || beats[first][m];
+         });
+}
+
+std::size_t Ranking::lowest_rank(std::size_t method) const {
+  return 1 + static_cast<std::size_t>(
+                 std::ranges::count_if(order, [&](std::size_t m) { return beats[m][method]; }));
+}
+
+std::size_t Ranking::highest_rank(std::size_t method) const {
+  return order.size() - static_cast<std::size_t>(std::ranges::count(beats[method], true));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/compare/compare.hpp"
+
+namespace loopbench {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+std::string comma_list(const Lines& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+Lines about_runs(const Comparison& c) {
+  Lines out{"over " + unit_text(c)};
+  if (c.runs < c.possible) {
+    out[0] += fmt::format(" of {} possible: those on which every method has a value or failed",
+                          c.possible);
+  }
+  if (c.copies > 0) {
+    out.push_back(fmt::format("{} run{} the data of another and {} not counted",
+                              c.copies,
+                              c.copies == 1 ? " repeats" : "s repeat",
+                              c.copies == 1 ? "is" : "are"));
+  }
+  if (c.options.over == Over::runs && c.stated_groups < c.runs) {
+    out.push_back(fmt::format(
+        "assumes that all runs are independent (--over runs), although they form {} groups",
+        c.stated_groups));
+  } else if (c.sequences < c.groups) {
+    out.push_back(fmt::format(
+        "claims hold for other instances of these {} sequence{}; --over sequences tests whether "
+        "they hold for other sequences",
+        c.sequences,
+        c.sequences == 1 ? "" : "s"));
+  }
+  return out;
+}
+
+Lines about_methods(const Comparison& c) {
+  Lines out;
+  for (const Gap& gap : c.gaps) {
+    const auto found = std::ranges::find(c.methods, gap.method, &MethodVerdict::method);
+    const std::size_t fails = found == c.methods.end() ? 0 : found->fails;
+    if (!gap.is_ranked) {
+      out.push_back(fmt::format("{} is not ranked, it has no value: {}", gap.method, gap.why));
+    } else if (fails > 0) {
+      out.push_back(fmt::format(
+          "{} fails on {} of {} runs ({}): the tests count them as lost, its median and "
+          "ratio leave them out",
+          gap.method,
+          fails,
+          c.runs,
+          found->why_fails));
+    } else {
+      out.push_back(
+          fmt::format("{} lacks {} of {} runs: {}", gap.method, gap.missing, c.possible, gap.why));
+    }
+  }
+  if (!c.oracles.empty()) {
+    out.push_back("not ranked, shown the reference (oracle): " + comma_list(c.oracles));
+  }
+  if (!c.oracle_closures.empty()) {
+    out.push_back("closures measured in the reference (oracle): " + comma_list(c.oracle_closures));
+  }
+  return out;
+}
+
+Lines about_ratios(const Comparison& c) {
+  if (!c.is_ratio) return {"some values are negative: no ratio, tests on plain differences"};
+  Lines out;
+  Lines zero;
+  bool is_short = false;
+  for (const MethodVerdict& m : c.methods) {
+    if (!m.ratio && m.runs > 0) zero.push_back(m.method);
+    is_short = is_short || (m.ratio && !m.has_interval && m.wins + m.losses > 0);
+  }
+  if (!zero.empty()) {
+    out.push_back("no ratio to " + c.options.baseline +
+                  " where an error is zero (or no run is common): " + comma_list(zero));
+  }
+  if (is_short) {
+    out.push_back(
+        fmt::format("no interval from fewer than {} observations that differ, or from "
+                    "too few distinct values",
+                    kFewestForInterval));
+  }
+  return out;
+}
+
+}  // namespace
+
+Lines remarks(const Comparison& c) {
+  Lines out = about_runs(c);
+  for (std::string& line : about_methods(c)) out.push_back(std::move(line));
+  if (c.methods.empty()) return out;
+  const double level = 100.0 * (1.0 - c.options.alpha);
+  out.push_back(
+      fmt::format("ratio: geometric mean of value / {}, {:g} % interval (studentised bootstrap of "
+                  "the logarithms, each by itself); effect: rank-biserial, positive is better",
+                  c.options.baseline,
+                  level));
+  out.push_back(fmt::format(
+      "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
+      "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the interval of the "
+      "ratio agrees; rank: what the claims leave open; group: methods that share a letter are not "
+      "proven different; differences up to {:g} of a value are ties",
+      c.options.baseline,
+      c.pairs,
+      c.options.alpha,
+      c.options.relevant));
+  if (c.pairs > 0 && c.groups < c.groups_needed) {
+    out.push_back(fmt::format("no p: {} cannot reach {:g} in {} tests, {} are needed",
+                              unit_text(c),
+                              c.options.alpha,
+                              c.pairs,
+                              c.groups_needed));
+  }
+  for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
+  return out;
+}
+
+}  // namespace loopbench

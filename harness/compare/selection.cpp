@@ -1,0 +1,106 @@
+#include "harness/compare/selection.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "harness/compare/name_order.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Methods with a value anywhere; what they and the others lack goes into `gaps`.
+std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out) {
+  std::vector<std::size_t> ranked;
+  for (std::size_t m = 0; m < all.methods.size(); ++m) {
+    std::vector<std::string> reasons;
+    for (const Observed& one : all.values[m]) {
+      if (!one.value) reasons.push_back(one.status);
+    }
+    const bool is_ranked = reasons.size() < all.runs.size();
+    if (is_ranked) ranked.push_back(m);
+    if (reasons.empty()) continue;
+    out.gaps.push_back({all.methods[m], reasons.size(), counted(reasons), is_ranked});
+  }
+  return ranked;
+}
+
+/// The number of each run's group: runs that share a key of either kind are together.
+std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& keys) {
+  std::vector<std::size_t> group(keys.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  std::map<std::string, std::size_t> first;
+  for (std::size_t run = 0; run < keys.size(); ++run) {
+    for (const std::string& key : keys[run]) {
+      const std::size_t other = group[first.emplace(key, run).first->second];
+      const std::size_t own = group[run];
+      std::ranges::replace(group, own, other);
+    }
+  }
+  NameOrder order;
+  for (std::size_t& g : group) g = order.index(std::to_string(g));
+  return group;
+}
+
+std::vector<std::size_t> groups(const Observations& all,
+                                const std::vector<std::size_t>& runs,
+                                Over over) {
+  std::vector<std::vector<std::string>> keys;
+  for (const std::size_t run : runs) {
+    const ObservedRun& r = all.runs[run];
+    std::vector<std::string>& own = keys.emplace_back();
+    if (over == Over::runs) own.push_back("run " + r.name);
+    if (over != Over::runs) own.push_back("group " + r.group);
+    if (over == Over::sequences) own.push_back("sequence " + r.sequence);
+  }
+  return joined(keys);
+}
+
+std::size_t count(const std::vector<std::size_t>& group) {
+  return group.empty() ? 0 : 1 + *std::ranges::max_element(group);
+}
+
+}  // namespace
+
+std::string counted(const std::vector<std::string>& reasons) {
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& why : reasons) ++counts[why];
+  std::string out;
+  for (const auto& [why, count] : counts) {
+    out += (out.empty() ? "" : ", ") + why + " " + std::to_string(count);
+  }
+  return out;
+}
+
+Selection select_common(const Observations& all, Comparison& out) {
+  Selection kept{ranked_methods(all, out), {}, {}};
+  std::set<std::string> sequences;
+  std::set<std::string> measured;
+  for (std::size_t run = 0; run < all.runs.size(); ++run) {
+    const auto at = [&](std::size_t m) -> const Observed& { return all.values[m][run]; };
+    const bool is_known = std::ranges::all_of(
+        kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
+    const bool is_judged =
+        std::ranges::any_of(kept.methods, [&](std::size_t m) { return at(m).value.has_value(); });
+    if (!is_known || !is_judged) continue;
+    kept.runs.push_back(run);
+    sequences.insert(all.runs[run].sequence);
+    if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);
+  }
+  for (const std::size_t m : kept.methods) {
+    std::vector<std::optional<double>>& row = kept.values.values.emplace_back();
+    for (const std::size_t run : kept.runs) row.push_back(all.values[m][run].value);
+  }
+  kept.values.group = groups(all, kept.runs, out.options.over);
+  kept.values.better = all.kind.better;
+  kept.values.target = all.kind.target;
+  out.groups = count(kept.values.group);
+  out.stated_groups = count(groups(all, kept.runs, Over::groups));
+  out.runs = kept.runs.size();
+  out.possible = all.runs.size();
+  out.sequences = sequences.size();
+  out.oracle_closures.assign(measured.begin(), measured.end());
+  return kept;
+}
+
+}  // namespace loopbench

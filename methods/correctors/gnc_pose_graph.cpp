@@ -1,0 +1,142 @@
+#include "methods/correctors/gnc_pose_graph.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "methods/correctors/chain.hpp"
+#include "methods/correctors/consistency.hpp"
+#include "methods/solvers/initial_values.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Closures whose weights are one half at most are rejected.
+std::size_t kept(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
+}
+
+bool changes_scale(const Problem& problem) {
+  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
+  return std::ranges::any_of(problem.odometry, scaled) ||
+         std::ranges::any_of(problem.closures, scaled);
+}
+
+/// Indices of the closures that agree with one another; none where that cannot be computed.
+std::vector<std::size_t> agreeing(const Problem& problem) {
+  const Consistency rules;
+  if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
+  if (!chain_fault(problem).empty() || changes_scale(problem)) return {};
+  std::vector<std::size_t> found = consistent_closures(problem, rules).kept;
+  if (found.size() < 2) found.clear();
+  return found;
+}
+
+struct GncStartPoint {
+  std::vector<ScaledPose> poses;
+  std::vector<double> weights;
+  std::optional<double> mu;
+};
+
+class GncRuns {
+ public:
+  explicit GncRuns(const GncProblem& of) : of_(of) {}
+
+  /// The best solution so far.
+  const GncSolution& best() const { return best_; }
+
+  void from_consistent(const std::vector<std::size_t>& consistent) {
+    Problem believed{of_.problem.keyframes, of_.problem.odometry, {}, {}, of_.problem.planar};
+    std::vector<double> weights(of_.problem.closures.size(), 0.0);
+    for (const std::size_t k : consistent) {
+      believed.closures.push_back(of_.problem.closures[k]);
+      weights[k] = 1.0;
+    }
+    // Past the convex stages, whose purpose is to find a start like this one.
+    run({of_.initial(believed), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
+  }
+
+  void from_all(std::vector<ScaledPose> poses) {
+    run({std::move(poses), std::vector<double>(of_.problem.closures.size(), 1.0), std::nullopt});
+  }
+
+ private:
+  void run(GncStartPoint start) {
+    // Until the end only the weights are needed, and they tolerate rough solutions.
+    PoseGraphSettings rough = of_.settings;
+    rough.max_iterations = std::min(rough.max_iterations, 30);
+    rough.tolerance = std::max(rough.tolerance, 1e-6);
+    GncSolution out{start.poses, start.weights};
+    const auto solve = [&] {
+      const PoseGraphSummary summary = solve_pose_graph(
+          out.poses, of_.problem.odometry, of_.problem.closures, out.weights, rough);
+      out.iterations += summary.iterations;
+      return summary.cost_before;
+    };
+    const auto squared = [&] {
+      return squared_errors(out.poses, of_.problem.closures, of_.settings);
+    };
+    out.cost_before = solve();
+    if (start.mu) start.poses = out.poses;
+    const auto solved_with = [&](const std::vector<double>& weights) {
+      out.weights = weights;
+      // False closures wind poses up; from there a minimum may not be found again.
+      out.poses = start.poses;
+      solve();
+      return squared();
+    };
+    const GncResult result = graduate(of_.kind, of_.inlier_chi2, squared(), start.mu, solved_with);
+    out.weights = result.weights;
+    out.rounds = result.rounds;
+    const double cost = cost_of(out.poses);
+    const int iterations = best_.iterations + out.iterations;
+    if (cost < least_) {
+      best_ = std::move(out);
+      least_ = cost;
+    }
+    best_.iterations = iterations;
+  }
+
+  double cost_of(const std::vector<ScaledPose>& poses) const {
+    const std::vector<double> odometry = squared_errors(poses, of_.problem.odometry, of_.settings);
+    double sum = std::accumulate(odometry.begin(), odometry.end(), 0.0);
+    const double most = of_.inlier_chi2;
+    for (const double x : squared_errors(poses, of_.problem.closures, of_.settings)) {
+      sum += of_.kind == Gnc::tls ? std::min(x, most) : most * x / (most + x);
+    }
+    return sum;
+  }
+
+  const GncProblem& of_;
+  GncSolution best_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+GncSolution solve_gnc(const GncProblem& of, Report& report) {
+  const std::size_t closures = of.problem.closures.size();
+  std::vector<std::size_t> consistent;
+  if (of.consistent) {
+    consistent = report.time("check", [&] { return agreeing(of.problem); });
+  }
+  const GncSolution out = report.time("graduate", [&] {
+    GncRuns runs(of);
+    if (!consistent.empty()) runs.from_consistent(consistent);
+    if (2 * kept(runs.best().weights) < closures || consistent.empty()) {
+      runs.from_all(of.initial(of.problem));
+    }
+    if (consistent.empty() && of.consistent) runs.from_all(tree_values(of.problem));
+    return runs.best();
+  });
+  if (2 * kept(out.weights) < closures) {
+    report.notes.push_back("graduated non-convexity kept " + std::to_string(kept(out.weights)) +
+                           " of " + std::to_string(closures) +
+                           " closures: odometry covariances that are too small have this effect, "
+                           "too");
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,65 @@
+#include "methods/correctors/motion_drift/drift_reach.hpp"
+
+#include <algorithm>
+
+namespace loopbench {
+namespace {
+
+/// Whether any loop encloses each odometry edge.
+std::vector<bool> enclosed_edges(const Problem& problem) {
+  std::vector<int> change(problem.odometry.size() + 1, 0);
+  for (const Edge& loop : problem.closures) {
+    ++change[loop.from];
+    --change[loop.to];
+  }
+  std::vector<bool> out;
+  int loops = 0;
+  for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
+    loops += change[i];
+    out.push_back(loops > 0);
+  }
+  return out;
+}
+
+/// The part of each edge that begins less than `reach` after the last enclosed edge. `edges` is an
+/// order of the edges: forwards or backwards along the chain.
+template <class Edges, class Of>
+void reach_along(const Edges& edges,
+                 const std::vector<bool>& enclosed,
+                 double reach,
+                 Of of,
+                 std::vector<double>& part) {
+  double left = 0.0;
+  for (const std::size_t i : edges) {
+    if (enclosed[i]) {
+      part[i] = 1.0;
+      left = reach;
+      continue;
+    }
+    const double along = of(i);
+    if (left > 0.0) part[i] = std::max(part[i], along > left ? left / along : 1.0);
+    left -= along;
+  }
+}
+
+}  // namespace
+
+void limit_drift(std::vector<EdgeMotion>& motions, const Problem& problem, double reach) {
+  const std::vector<bool> enclosed = enclosed_edges(problem);
+  std::vector<std::size_t> forwards(motions.size());
+  for (std::size_t i = 0; i < forwards.size(); ++i) forwards[i] = i;
+  const std::vector<std::size_t> backwards(forwards.rbegin(), forwards.rend());
+  for (const Growth growth : kGrowths) {
+    const auto along = [&](std::size_t i) { return grown(growth, motions[i]); };
+    double covered = 0.0;
+    for (const std::size_t i : forwards) covered += enclosed[i] ? along(i) : 0.0;
+    std::vector<double> part(motions.size(), 0.0);
+    reach_along(forwards, enclosed, reach * covered, along, part);
+    reach_along(backwards, enclosed, reach * covered, along, part);
+    for (const std::size_t i : forwards) {
+      motions[i].drift_part[static_cast<std::size_t>(growth)] = part[i];
+    }
+  }
+}
+
+}  // namespace loopbench

@@ -1,0 +1,142 @@
+#include "methods/correctors/variance_components.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "methods/correctors/looped_chain.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr double kLattice = 0.25;             // of a factor [octaves]
+constexpr int kFarthest = 53;                 // steps of the lattice: a factor of 1e4
+constexpr double kPriorOctaves = 6.64385619;  // factor of 10 in a standard deviation
+
+using Octaves = std::array<int, 2>;  // of translation and rotation, in steps of the lattice
+
+double factor_of(int steps) { return std::exp2(kLattice * steps); }
+
+/// Covariance of the loop errors: factor_t translation + factor_r rotation + sqrt(both) mixed +
+/// closures, each the lower triangle.
+struct LoopCovariance {
+  Eigen::VectorXd gap;
+  Eigen::MatrixXd translation, rotation, mixed, closures;
+};
+
+std::vector<Eigen::Index> rows_of(const Problem& problem) {
+  const std::vector<int> axes =
+      problem.planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
+  std::vector<Eigen::Index> out;
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
+  }
+  return out;
+}
+
+LoopCovariance loop_covariance(const Problem& problem,
+                               const ChainBelief& stated,
+                               const LoopedChain& chain) {
+  const LoopJacobian jacobian = chain.linearised();
+  const auto rows = rows_of(problem);
+  const auto through = [&](auto part) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd all = through_loops(
+        jacobian, chain.sums(), running_sum(chain.sums(), [&](std::size_t i) -> Matrix6 {
+          return jacobian.edge[i] * part(stated.covariance[i]) * jacobian.edge[i].transpose();
+        }));
+    return all(rows, rows);
+  };
+  const auto block = [](const Matrix6& S, Eigen::Index row, Eigen::Index column) {
+    Matrix6 out = Matrix6::Zero();
+    out.block<3, 3>(row, column) = S.block<3, 3>(row, column);
+    return out;
+  };
+  LoopCovariance out;
+  out.gap = jacobian.gap(rows);
+  out.translation = through([&](const Matrix6& S) { return block(S, 0, 0); });
+  out.rotation = through([&](const Matrix6& S) { return block(S, 3, 3); });
+  out.mixed = through([&](const Matrix6& S) -> Matrix6 { return block(S, 0, 3) + block(S, 3, 0); });
+  const auto size = static_cast<Eigen::Index>(6 * problem.closures.size());
+  Eigen::MatrixXd closures = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(6 * k);
+    closures.block<6, 6>(at, at) = stated.closure_covariance[k];
+  }
+  out.closures = closures(rows, rows);
+  return out;
+}
+
+/// -log posterior up to a constant; infinite where the covariance is not positive definite.
+double objective(const LoopCovariance& loops, const Octaves& steps) {
+  const double t = factor_of(steps[0]), r = factor_of(steps[1]);
+  const Eigen::MatrixXd covariance =
+      t * loops.translation + r * loops.rotation + std::sqrt(t * r) * loops.mixed + loops.closures;
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(covariance);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd white = factor.matrixL().solve(loops.gap);
+  double out = 0.5 * white.squaredNorm() + factor.matrixLLT().diagonal().array().log().sum();
+  for (const int each : steps) {
+    const double octaves = kLattice * each / kPriorOctaves;  // a factor is of variances
+    out += 0.5 * octaves * octaves;
+  }
+  return out;
+}
+
+/// Descends one factor at a time, in steps of 4 octaves first, then finer.
+Octaves descended(const LoopCovariance& loops, Octaves at) {
+  double least = objective(loops, at);
+  for (int step = 16; step >= 1; step /= 2) {
+    for (bool improved = true; improved;) {
+      improved = false;
+      for (const std::size_t which : {0u, 1u}) {
+        for (const int by : {step, -step}) {
+          Octaves trial = at;
+          trial[which] += by;
+          if (std::abs(trial[which]) > kFarthest) continue;
+          const double value = objective(loops, trial);
+          if (!(value < least)) continue;
+          least = value;
+          at = trial;
+          improved = true;
+          break;
+        }
+      }
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+Problem with_factors(Problem problem, const VarianceFactors& factors) {
+  Twist shrink;
+  shrink.head<3>().setConstant(1.0 / std::sqrt(factors.translation));
+  shrink.tail<3>().setConstant(1.0 / std::sqrt(factors.rotation));
+  for (Edge& edge : problem.odometry) {
+    edge.information = (shrink.asDiagonal() * edge.information * shrink.asDiagonal()).eval();
+  }
+  return problem;
+}
+
+VarianceFactors variance_factors(const Problem& problem) {
+  constexpr int kRounds = 5;
+  constexpr int kSteps = 30;
+  constexpr double kRest = 1e-6;  // of the cost
+  const ChainBelief stated = stated_belief(problem);
+  LoopedChain chain(problem, stated);
+  Octaves at{0, 0};
+  for (int round = 0; round < kRounds; ++round) {
+    const Octaves next = descended(loop_covariance(problem, stated, chain), at);
+    if (round > 0 && next == at) break;
+    at = next;
+    chain.believe(stated_belief(with_factors(problem, {factor_of(at[0]), factor_of(at[1])})));
+    for (int i = 0; i < kSteps; ++i) {
+      const double before = chain.cost();
+      if (!chain.step() || before - chain.cost() <= kRest * before) break;
+    }
+  }
+  return {factor_of(at[0]), factor_of(at[1])};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,163 @@
+#include "methods/smoothers/stretches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "datasets/core/knot_span.hpp"
+#include "datasets/core/polyline.hpp"
+
+namespace loopbench {
+namespace {
+
+class Joined final : public Curve {
+ public:
+  explicit Joined(std::vector<std::unique_ptr<const Curve>> pieces) : pieces_(std::move(pieces)) {
+    for (const auto& piece : pieces_) begins_.push_back(piece->start());
+    begins_.push_back(pieces_.back()->end());
+  }
+
+  double start() const override { return begins_.front(); }
+  double end() const override { return begins_.back(); }
+
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    KnotSpan span(begins_);
+    for (std::size_t first = 0; first < times.size();) {
+      const std::size_t piece = span.find(times[first]);
+      std::size_t last = first + 1;
+      while (last < times.size() && span.find(times[last]) == piece) ++last;
+      pieces_[piece]->sample(times.subspan(first, last - first),
+                             poses.subspan(first, last - first));
+      first = last;
+    }
+  }
+
+ private:
+  std::vector<std::unique_ptr<const Curve>> pieces_;
+  std::vector<double> begins_;  ///< of each piece, and the end of the last
+};
+
+Trajectory part_of(const Trajectory& poses, const Stretch& stretch) {
+  const auto begin = poses.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(stretch.last - stretch.first + 1)};
+}
+
+double step_angle(const Trajectory& poses, std::size_t i) {
+  return angle_between(poses[i].world_from_body.rotation, poses[i + 1].world_from_body.rotation);
+}
+
+using Solve = std::function<std::unique_ptr<const Curve>(const Trajectory&)>;
+
+void add_attitudes(const Trajectory& poses,
+                   const Stretch& stretch,
+                   const Solve& solve,
+                   std::vector<std::unique_ptr<const Curve>>& parts) {
+  if (stretch.first == stretch.last) {
+    parts.push_back(std::make_unique<Polyline>(part_of(poses, stretch)));
+    return;
+  }
+  if (auto curve = solve(part_of(poses, stretch))) {
+    parts.push_back(std::move(curve));
+    return;
+  }
+  std::size_t largest = stretch.first;
+  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+    if (step_angle(poses, i) > step_angle(poses, largest)) largest = i;
+  }
+  add_attitudes(poses, {stretch.first, largest}, solve, parts);
+  add_attitudes(poses, {largest + 1, stretch.last}, solve, parts);
+}
+
+}  // namespace
+
+double median_interval(const Trajectory& poses) {
+  std::vector<double> intervals;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    intervals.push_back(poses[i + 1].stamp - poses[i].stamp);
+  }
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+std::vector<Stretch> stretches(std::size_t poses, const std::function<bool(std::size_t)>& cut) {
+  std::vector<Stretch> out{{0, 0}};
+  for (std::size_t i = 0; i + 1 < poses; ++i) {
+    if (cut(i)) {
+      out.push_back({i + 1, i + 1});
+    } else {
+      out.back().last = i + 1;
+    }
+  }
+  return out;
+}
+
+std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> parts) {
+  std::vector<std::unique_ptr<const Curve>> pieces;
+  std::optional<StampedPose> reached;
+  for (auto& part : parts) {
+    const StampedPose begin{part->start(), part->at(part->start())};
+    const StampedPose end{part->end(), part->at(part->end())};
+    if (reached) pieces.push_back(std::make_unique<Polyline>(Trajectory{*reached, begin}));
+    if (begin.stamp < end.stamp) pieces.push_back(std::move(part));
+    reached = end;
+  }
+  return std::make_unique<Joined>(std::move(pieces));
+}
+
+std::unique_ptr<const Curve> smoothed_apart(
+    const Trajectory& poses,
+    const std::vector<Stretch>& stretches,
+    const std::string& reason,
+    Report& report,
+    const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth) {
+  if (stretches.size() == 1) return smooth(poses, report);
+  std::vector<std::unique_ptr<const Curve>> parts;
+  std::vector<Count> counts;
+  std::size_t longest = 0;
+  for (const Stretch& stretch : stretches) {
+    Report own;
+    parts.push_back(smooth(part_of(poses, stretch), own));
+    std::ranges::move(own.phases, std::back_inserter(report.phases));
+    std::ranges::move(own.sections, std::back_inserter(report.sections));
+    std::ranges::move(own.notes, std::back_inserter(report.notes));
+    const std::size_t size = stretch.last - stretch.first + 1;
+    if (size > longest) {
+      longest = size;
+      counts = std::move(own.counts);
+    }
+  }
+  std::ranges::move(counts, std::back_inserter(report.counts));
+  report.count("chords", static_cast<double>(stretches.size() - 1));
+  const double begin = poses[stretches[0].last].stamp;
+  const double end = poses[stretches[1].first].stamp;
+  report.notes.push_back(
+      fmt::format("{}: {} bridged by a chord, the first from {:.6f} s to {:.6f} s",
+                  reason,
+                  stretches.size() - 1,
+                  begin,
+                  end));
+  return joined(std::move(parts));
+}
+
+std::unique_ptr<const Curve> attitudes_apart(const Trajectory& poses,
+                                             Report& report,
+                                             const Solve& solve) {
+  constexpr double kLarge = 2.0;  // [rad]
+  std::vector<std::unique_ptr<const Curve>> parts;
+  const auto cut =
+      stretches(poses.size(), [&](std::size_t i) { return step_angle(poses, i) > kLarge; });
+  for (const Stretch& stretch : cut) add_attitudes(poses, stretch, solve, parts);
+  report.count("great_arcs", static_cast<double>(parts.size() - 1));
+  report.notes.push_back(
+      fmt::format("no attitude spline through all keyframes: {} of {} intervals are great arcs",
+                  parts.size() - 1,
+                  poses.size() - 1));
+  return joined(std::move(parts));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,191 @@
+/// What one observation is: failures, groups, copies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/compared_sweep.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace compared_sweep;  // NOLINT: its records are what every test here is about
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+bool has_note(const Comparison& c, const std::string& text) {
+  return std::ranges::count_if(remarks(c),
+                               [&](const std::string& line) { return has(line, text); }) == 1;
+}
+
+/// Twenty sequences; `good` is 55 % below raw on the first ten and fails as `status` on the rest.
+std::vector<Record> failing(const std::string& status) {
+  std::vector<Record> out;
+  for (int i = 0; i < 20; ++i) {
+    const std::string sequence = std::to_string(i);
+    out.push_back(score(sequence, 0, "raw", 1.0 + 0.1 * i));
+    out.push_back(score(sequence, 0, "good", 0.45 * (1.0 + 0.1 * i)));
+    if (i < 10) continue;
+    if (status == "nan") {
+      out.back().statistics.rmse = std::nan("");
+    } else {
+      out.back() = failed(sequence, 0, "good");
+      out.back().status = status;
+    }
+  }
+  return out;
+}
+
+TEST(Failures, AreLossesAndTheSentenceCountsThem) {
+  for (const char* status : {"failed", "declined", "crashed", "timeout", "out_of_memory", "nan"}) {
+    const Comparison c = compared(failing(status), {.baseline = "raw"});
+    EXPECT_FALSE(c.is_best_proven) << status;
+    EXPECT_EQ(c.runs, 20u);
+    const auto good = std::ranges::find(c.methods, "good", &MethodVerdict::method);
+    EXPECT_EQ(good->wins, 10u);
+    EXPECT_EQ(good->losses, 10u);
+    EXPECT_EQ(good->fails, 10u);
+    EXPECT_NEAR(good->ratio->estimate, 0.45, 1e-12);  // over the ten common runs
+    EXPECT_TRUE(has(verdict(c), "on 10 of 20 runs; fails 10")) << verdict(c);
+    EXPECT_TRUE(has_note(c, "good fails on 10 of 20 runs")) << status;
+  }
+}
+
+TEST(Failures, AreNoGainOfTheMethodThatFails) {
+  std::vector<Record> records;  // `same` is raw, but fails on 12 of 16
+  for (int i = 0; i < 16; ++i) {
+    const std::string sequence = std::to_string(i);
+    records.push_back(score(sequence, 0, "raw", 1.0 + i));
+    records.push_back(i < 12 ? failed(sequence, 0, "same") : score(sequence, 0, "same", 1.0 + i));
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  EXPECT_EQ(c.methods[0].method, "raw");
+  EXPECT_EQ(verdict(c),
+            "the baseline raw is best; proven better than the other method; over 16 sequences");
+  EXPECT_EQ(c.methods[1].ratio->estimate, 1.0);
+}
+
+TEST(Failures, MayBeFewerThanWhatABestMethodWins) {
+  std::vector<Record> records;
+  for (int i = 0; i < 20; ++i) {
+    const std::string sequence = std::to_string(i);
+    records.push_back(score(sequence, 0, "raw", 1.0 + i));
+    records.push_back(i < 1 ? failed(sequence, 0, "good")
+                            : score(sequence, 0, "good", 0.5 + 0.4 * i));
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  EXPECT_TRUE(c.is_best_proven) << verdict(c);
+  EXPECT_TRUE(has(verdict(c), "on 19 of 20 runs; fails 1")) << verdict(c);
+}
+
+TEST(Failures, AreNotRunsThatWereNeverMade) {
+  std::vector<Record> records = sweep();
+  std::erase_if(records, [](const Record& r) { return r.method == "dual" && r.repeat == 0; });
+  records.push_back(failed("room", 0, "broken"));
+  const Comparison c = compared(records);
+  EXPECT_EQ(c.runs, 6u);
+  EXPECT_EQ(c.possible, 8u);
+  EXPECT_TRUE(has_note(c, "over 6 runs of 8 possible"));
+  EXPECT_TRUE(has_note(c, "dual lacks 2 of 8 runs: not run 2"));
+  EXPECT_TRUE(has_note(c, "broken is not ranked, it has no value: failed 1, not run 7"));
+}
+
+TEST(Failures, OfAMetricAreNotTheMethods) {
+  std::vector<Record> records = sweep();
+  const auto fails = [&] {
+    const Comparison c = compared(records);
+    return std::pair{c.runs, std::ranges::find(c.methods, "dual", &MethodVerdict::method)->fails};
+  };
+  records[2].status = "undefined";
+  EXPECT_EQ(fails(), (std::pair{std::size_t{7}, std::size_t{0}}));
+  records[2].status = "incomplete";
+  EXPECT_EQ(fails(), (std::pair{std::size_t{8}, std::size_t{1}}));
+}
+
+/// Five odometers on each of `routes` routes, whose effects are the route's: dual is better on
+/// `won` of them.
+std::vector<Record> routes(int routes, int won) {
+  std::vector<Record> out;
+  for (int route = 0; route < routes; ++route) {
+    for (int odometer = 0; odometer < 5; ++odometer) {
+      const std::string sequence = std::to_string(route) + " " + std::to_string(odometer);
+      const double factor = (route < won ? 0.8 : 1.05) + 0.01 * odometer + 0.005 * route;
+      for (const char* method : {"raw", "dual"}) {
+        out.push_back(score(sequence, 0, method, method[0] == 'd' ? factor : 1.0));
+        out.back().group = "route " + std::to_string(route);
+      }
+    }
+  }
+  return out;
+}
+
+TEST(Groups, AreTheObservations) {
+  const Comparison c = compared(routes(6, 5), {.baseline = "raw"});
+  EXPECT_EQ(c.groups, 6u);
+  EXPECT_EQ(c.runs, 30u);
+  EXPECT_EQ(c.methods[0].wins, 5u);
+  EXPECT_FALSE(c.is_best_proven);
+  EXPECT_TRUE(has(verdict(c), "; over 6 groups (30 runs)")) << verdict(c);
+  // Taken as independent, the same runs prove a difference; the remark states the assumption.
+  const Comparison runs = compared(routes(6, 5), {.baseline = "raw", .over = Over::runs});
+  EXPECT_EQ(runs.groups, 30u);
+  EXPECT_TRUE(runs.is_best_proven);
+  EXPECT_TRUE(has_note(runs,
+                       "assumes that all runs are independent (--over runs), although they "
+                       "form 6 groups"));
+}
+
+TEST(Groups, WeighTheSameWhateverTheirRuns) {
+  std::vector<Record> records = routes(6, 6);
+  std::erase_if(records,
+                [](const Record& r) { return r.sequence[0] == '0' && r.sequence != "0 0"; });
+  double expected = 0.0;
+  for (int route = 0; route < 6; ++route) {
+    double of_route = 0.0;
+    const int odometers = route == 0 ? 1 : 5;
+    for (int o = 0; o < odometers; ++o) of_route += std::log(0.8 + 0.01 * o + 0.005 * route);
+    expected += of_route / odometers / 6.0;
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  EXPECT_NEAR(c.methods[0].ratio->estimate, std::exp(expected), 1e-12);
+}
+
+TEST(Groups, GiveNoPWhereTheyAreTooFew) {
+  const Comparison c = compared(routes(5, 5), {.baseline = "raw"});
+  EXPECT_FALSE(c.methods[0].p);
+  EXPECT_TRUE(has(verdict(c),
+                  "but 5 groups (25 runs) cannot prove a difference among 2 methods at "
+                  "0.05 (6 are needed)"))
+      << verdict(c);
+}
+
+TEST(Groups, AreSequencesWhereTheseAreAskedFor) {
+  const Comparison c = compared(sweep(), {.baseline = "uniform", .over = Over::sequences});
+  EXPECT_EQ(c.groups, 2u);
+  EXPECT_EQ(c.methods[0].wins, 2u);
+  EXPECT_EQ(unit_text(c), "2 sequences (8 runs)");
+  // Sequences of one group are not independent either.
+  EXPECT_EQ(compared(routes(6, 5), {.baseline = "raw", .over = Over::sequences}).groups, 6u);
+}
+
+TEST(Copies, OfTheSameDataAreOneObservation) {
+  std::vector<Record> records;  // ten identical problems
+  for (int i = 0; i < 10; ++i) {
+    for (const char* method : {"raw", "dual"}) {
+      records.push_back(score("room", i, method, method[0] == 'd' ? 0.9 : 1.0));
+      records.back().content = "c0ffee";
+    }
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  EXPECT_EQ(c.groups, 1u);
+  EXPECT_EQ(c.copies, 9u);
+  EXPECT_FALSE(c.methods[0].p);
+  EXPECT_TRUE(has_note(c, "9 runs repeat the data of another and are not counted"));
+  for (Record& r : records) r.content = std::to_string(r.repeat);
+  EXPECT_EQ(compared(records, {.baseline = "raw"}).groups, 10u);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,106 @@
+/// What a scalar means depends on the option it is given to; and what has the wrong shape is
+/// rejected.
+#include <gtest/gtest.h>
+
+#include "harness/catalogue.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string config(const std::string& datasets,
+                   const std::string& metrics = "ate",
+                   const std::string& rest = "") {
+  return "datasets:\n  - " + datasets + "\nmethods: [raw]\nmetrics: [" + metrics + "]\n" + rest;
+}
+
+Sweep parse(const std::string& text) { return parse_sweep(text, "c.yaml", catalogue({})); }
+
+std::string why(const std::string& text) {
+  return refusal_of([&] { parse(text); });
+}
+
+Param option(const Sweep& sweep, const std::string& name) {
+  return sweep.datasets.at(0).dataset.options.at(name);
+}
+
+TEST(ConfigText, StaysAsItWasWrittenWhereTextIsWanted) {
+  const Sweep sweep =
+      parse(config("{dataset: trajectory, label: 00, estimate: 007, reference: 1e3, name: true, "
+                   "period: 1e3, seed: 007}"));
+  EXPECT_EQ(sweep.datasets[0].label, "00");
+  EXPECT_EQ(option(sweep, "estimate"), Param(std::string("007")));
+  EXPECT_EQ(option(sweep, "reference"), Param(std::string("1e3")));
+  EXPECT_EQ(option(sweep, "name"), Param(std::string("true")));
+  EXPECT_EQ(option(sweep, "period"), Param(1000.0));
+  EXPECT_EQ(option(sweep, "seed"), Param(std::int64_t{7}));
+}
+
+TEST(ConfigText, IsKeptInSweepsLabelsAndRules) {
+  const Sweep sweep = parse(config("{dataset: trajectory, label: a, sweep: {estimate: [00, 01]}}",
+                                   "{metric: ate, label: 1e3}",
+                                   "table: {where: [label=1e3], value: rmse}\n"
+                                   "exclude: [{dataset: 007}]\n"));
+  ASSERT_EQ(sweep.datasets.size(), 2u);
+  EXPECT_EQ(sweep.datasets[1].label, "a (estimate=01)");
+  EXPECT_EQ(sweep.metrics[0].label, "1e3");
+  EXPECT_EQ(sweep.exclude[0].dataset, "007");
+}
+
+TEST(ConfigText, IsKeptInProtocols) {
+  const Sweep sweep = parse(
+      config("{dataset: simulated}", "ate", "protocol: {base: kitti, segments: {lengths: 1e2}}\n"));
+  EXPECT_EQ(sweep.protocols[0].rules.segments.lengths, "1e2");
+}
+
+TEST(ConfigText, AnOptionalNumberIsNoText) {
+  const Sweep sweep =
+      parse(config("{dataset: simulated}", "{metric: rpe, label: r, tolerance: 1e-1}"));
+  EXPECT_EQ(sweep.metrics[0].metric.options.at("tolerance"), Param(0.1));
+}
+
+TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
+  const auto refusal = [](const std::string& rest) {
+    return why(config("{dataset: simulated}", "ate", rest));
+  };
+  EXPECT_EQ(refusal("limits: 60\n"),
+            "c.yaml:5: limits: found '60', expected a map of seconds, memory");
+  EXPECT_EQ(refusal("limits: [60]\n"),
+            "c.yaml:5: limits: found a list, expected a map of seconds, memory");
+  EXPECT_EQ(refusal("limits:\n"),
+            "c.yaml:5: limits: found nothing, expected a map of seconds, memory");
+  EXPECT_EQ(refusal("table: nonsense\n"),
+            "c.yaml:5: table: found 'nonsense', expected a map of rows, columns, split, value, "
+            "show, where");
+  EXPECT_EQ(refusal("exclude: [raw]\n"),
+            "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
+  EXPECT_EQ(refusal("exclude: raw\n"),
+            "c.yaml:5: exclude: expected a list of {dataset, method} patterns");
+  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a word");
+  EXPECT_EQ(why(config("{dataset: simulated, keyframes: {}}")),
+            "c.yaml:2: keyframes: has no value");
+  EXPECT_EQ(
+      why(config("{dataset: simulated, sweep: {keyframes: {from: 1, to: 2, steps: 2, log: [1]}}}")),
+      "c.yaml:2: log: expected true or false");
+}
+
+TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
+  const auto refusal = [](const std::string& metric, const std::string& rest = "") {
+    return why(config("{dataset: simulated}", metric, rest));
+  };
+  EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: frames}"),
+            "c.yaml:4: rpe: delta = 1.5: frames come whole");
+  EXPECT_EQ(refusal("{metric: rpe, delta: 200, unit: deg}"),
+            "c.yaml:4: rpe: delta = 200.0: no turn is beyond half a circle");
+  EXPECT_EQ(refusal("{metric: ape, relation: point_distance_error_ratio}"),
+            "c.yaml:4: ape: relation = point_distance_error_ratio: is of motions: use rpe");
+  EXPECT_NE(refusal("{metric: segments, lengths: 8 apples}"), "");
+  EXPECT_EQ(refusal("{metric: rpe, pairs: tum}"),
+            "c.yaml:4: rpe: pairs = tum: looks at whole files; only a protocol can ask for it");
+  EXPECT_EQ(refusal("{metric: rpe, pairs: tum}", "protocol: tum\n"), "");
+  EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: s}"), "");
+}
+
+}  // namespace
+}  // namespace loopbench

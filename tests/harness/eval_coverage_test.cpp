@@ -1,0 +1,95 @@
+// How much of a trajectory `eval` judged, and what it says when that is little.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/commands/judgement.hpp"
+#include "tests/support/eval_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A spiral at `speed`, poses every `step` from `begin` to `end`, with an error that waves.
+std::string spiral(double begin, double end, double step, double speed, double error) {
+  std::string out;
+  for (int i = 0; begin + i * step <= end; ++i) {
+    const double t = begin + i * step;
+    const double radius = 20.0 + 0.1 * t;
+    const double angle = speed * t / 20.0;
+    out += std::to_string(t) + " " + std::to_string(radius * std::cos(angle)) + " " +
+           std::to_string(radius * std::sin(angle)) + " " +
+           std::to_string(error * std::sin(7.0 * t)) + " 0 0 " +
+           std::to_string(std::sin(0.5 * angle)) + " " + std::to_string(std::cos(0.5 * angle)) +
+           "\n";
+  }
+  return out;
+}
+
+class EvalCoverage : public testing::Test {
+ protected:
+  std::string written(const std::string& name, const std::string& text) const {
+    return folder_.file(name, text).string();
+  }
+
+  TemporaryFolder folder_;
+  std::string reference_ = written("reference.txt", spiral(0.0, 100.0, 0.1, 1.0, 0.0));
+  std::string whole_ = written("whole.txt", spiral(0.0, 100.0, 0.1, 1.0, 0.3));
+  std::string short_ = written("short.txt", spiral(40.0, 40.45, 0.1, 1.0, 0.01));
+};
+
+TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
+  const std::vector<std::string> both{reference_, whole_, short_};
+  const Json judged = eval_json(both, kExitSomeCellsFailed);
+  EXPECT_EQ(judged[0]["status"], "ok");
+  EXPECT_EQ(judged[1]["status"], "incomplete");
+  EXPECT_EQ(judged[1]["coverage"], 1.0);  // all of its own five poses
+  EXPECT_LT(judged[1]["span"], 0.01);
+  EXPECT_EQ(judged[1]["why"],
+            "judged 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
+            "% that another estimate covers");
+  const std::string table = eval(both, kExitSomeCellsFailed);
+  EXPECT_THAT(table, HasSubstr("| poses [%] | time [%] |"));
+  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: judged 5 of 5 poses over 0.4 %"));
+
+  std::vector<std::string> accepted = both;
+  accepted.push_back("--min-coverage=0");
+  EXPECT_EQ(eval_json(accepted)[1]["status"], "ok");
+  eval({reference_, short_});  // alone there is nothing to compare with
+}
+
+TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
+  eval({reference_, short_, "--min-coverage=0.5"}, kExitSomeCellsFailed);
+  eval({reference_, whole_, "--min-coverage=0.5"});
+}
+
+TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
+  EXPECT_THAT(eval({reference_, whole_, whole_}), HasSubstr("| rpe 1 s pairs |"));
+}
+
+TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {
+  const std::string few = written("few.txt", spiral(10.0, 10.35, 0.1, 5.0, 0.1));
+  EXPECT_THAT(eval({reference_, few}),
+              HasSubstr("note       few pairs: 4 pairs have 12 coordinates, and alignment se3 fits "
+                        "6 parameters to them: the errors come out about 29 % too small"));
+  EXPECT_THAT(eval({reference_, few, "--align=none"}), Not(HasSubstr("few pairs")));
+  EXPECT_THAT(eval({reference_, whole_}), Not(HasSubstr("few pairs")));
+}
+
+TEST_F(EvalCoverage, AssociationThatCostsAccuracyIsNoted) {
+  const std::string fast = written("fast.txt", spiral(0.0, 100.0, 0.04, 15.0, 0.0));
+  const std::string perfect = written("perfect.txt", spiral(0.013, 100.0, 0.1, 15.0, 0.0));
+  const std::string text = eval({fast, perfect});
+  EXPECT_THAT(text,
+              HasSubstr("note       association: the stamps of the pairs differ by up to 0.0"));
+  EXPECT_THAT(text, HasSubstr("association interpolate avoids it"));
+  EXPECT_THAT(eval({fast, perfect, "--association=interpolate"}), Not(HasSubstr("note ")));
+  EXPECT_EQ(eval_json({fast, perfect})["notes"].size(), 1u);
+  EXPECT_TRUE(eval_json({reference_, whole_})["notes"].empty());
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,110 @@
+/// Baselines as files, reports of the gate as text.
+#include <gtest/gtest.h>
+
+#include "datasets/core/error.hpp"
+#include "harness/export/gate.hpp"
+#include "tests/support/gate_snapshot.hpp"
+#include "tests/support/refusal_of.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace gate_snapshot;
+
+TEST(BaselineFile, ReadsBackWhatWasWritten) {
+  Baseline before = baseline();
+  before.snapshot.cells[0].scores.clear();
+  before.snapshot.cells[0].status = "failed";
+  before.snapshot.cells[2].scores[0].status = "declined";
+  before.snapshot.cells[2].scores[0].pairs = 0;
+  before.snapshot.cells[2].scores[0].values.clear();
+  rmse(before.snapshot, 1) = 1.0 / 3.0;
+  before.snapshot.cells[3].method = "a\"b\n<c>";
+  const std::string text = json(before);
+  const Baseline read = parse_baseline(text, "b.json");
+  EXPECT_EQ(json(read), text);
+  EXPECT_EQ(rmse(const_cast<Baseline&>(read).snapshot, 1), 1.0 / 3.0);
+  EXPECT_TRUE(check(before, read.snapshot).findings.empty());
+  EXPECT_EQ(read.made_by, before.made_by);
+  EXPECT_EQ(read.limits[0].alpha, before.limits[0].alpha);
+}
+
+TEST(BaselineFile, IsRefusedWithItsPlace) {
+  const std::string good = json(baseline());
+  const auto refusal = [](const std::string& text) {
+    return refusal_of([&] { parse_baseline(text, "b.json"); });
+  };
+  EXPECT_EQ(refusal(""), refusal(""));
+  EXPECT_EQ(refusal("{\n\"sweep\": \n]").find("b.json:3: is not JSON: "), 0u)
+      << refusal("{\n\"sweep\": \n]");
+  EXPECT_EQ(refusal("").find("b.json:1: is not JSON: "), 0u);
+  EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
+  EXPECT_EQ(refusal("{}"), "b.json: loopbench_baseline: is missing");
+  EXPECT_EQ(
+      refusal("{\"loopbench_baseline\": 9}"),
+      "b.json: loopbench_baseline: found format 9, expected 3: it does not hold what format 3 "
+      "compares; look at the results, then write it anew with --update (limits are kept)");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return refusal(text.replace(at, from.size(), to));
+  };
+  EXPECT_EQ(changed("\"rmse\":[1.0]", "\"rmse\":[\"1\"]"),
+            "b.json: cells[0].rmse[0]: expected a number, found \"1\"");
+  EXPECT_EQ(changed("\"pairs\":[400]", "\"pairs\":[]"),
+            "b.json: cells[0].pairs: expected a list of 1, as scores");
+  EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[3]"),
+            "b.json: limits[0].values: expected a list of statistics, found [3]");
+  EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
+            "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
+  EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
+            "b.json: limits[0].relative: expected a number, not negative, found -1");
+  EXPECT_EQ(changed("\"sequence\":\"room\"", "\"sequence\":3"),
+            "b.json: cells[0].sequence: expected text, found 3");
+}
+
+TEST(GateText, IsMarkdownAndJUnit) {
+  const GateReport report = after([](Snapshot& now) {
+    rmse(now, 3) *= 2.0;
+    now.cells[0].method = "ra<w>&\"";
+  });
+  const std::string text = markdown(report, "quick");
+  EXPECT_EQ(text.find("### quick: FAILS\n\n| cell "), 0u) << text;
+  EXPECT_NE(text.find("| room / raw                |"), std::string::npos) << text;
+  EXPECT_NE(text.find("- 2 regressions, 0 improvements, 1 new cell in 16 cells and 15 scores\n"),
+            std::string::npos)
+      << text;
+  const std::string xml = junit(report, "quick");
+  EXPECT_NE(xml.find("<testsuite name=\"loopbench check quick\" tests=\"16\" failures=\"2\""),
+            std::string::npos)
+      << xml;
+  EXPECT_NE(
+      xml.find("<testcase classname=\"quick\" name=\"room (repeat 1) / uniform\">\n"
+               "    <failure message=\"1 regression\">ate translation 3d, dense, loopbench: "),
+      std::string::npos)
+      << xml;
+  Baseline odd = baseline();
+  odd.snapshot.cells[0].method = "ra<w>&\"";
+  EXPECT_NE(junit(check(odd, sweep()), "q").find("name=\"room / ra&lt;w&gt;&amp;&quot;\""),
+            std::string::npos);
+  EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
+            "### quick: passes\n\n"
+            "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n");
+}
+
+TEST(BaselineFile, KeepsTheLimitsOfFormat2AndComparesMaximaToo) {
+  const TemporaryFolder folder;
+  const auto file =
+      folder.file("old.json",
+                  "{\"loopbench_baseline\": 2, \"limits\": [{\"where\": [], \"value\": \"rmse\", "
+                  "\"relative\": 0.5, \"absolute\": 0, \"tie\": 0}]}");
+  const std::vector<Tolerance> limits = read_limits(file);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].values, (std::vector<std::string>{"rmse", "max"}));
+  EXPECT_EQ(limits[0].relative, 0.5);
+}
+
+}  // namespace
+}  // namespace loopbench

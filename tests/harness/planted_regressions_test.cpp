@@ -1,0 +1,210 @@
+/// Regressions planted into a sweep that its baseline must not let pass, each caught and named.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "datasets/core/error.hpp"
+#include "harness/export/gate.hpp"
+#include "tests/support/gate_sweep.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace gate_sweep;
+
+/// The report as text, or the reason why the baseline does not apply; empty: passes.
+std::string caught(const Snapshot& now, const Baseline& before = baseline()) {
+  std::string out;
+  try {
+    // By way of its file: what is not written is not held.
+    const GateReport report = check(parse_baseline(json(before), "b.json"), now);
+    if (!report.passes()) out = markdown(report, "quick");
+  } catch (const InputError& error) {
+    out = error.what();
+  }
+  return out;
+}
+
+std::string caught_records(const std::function<void(Record&)>& plant) {
+  std::vector<Record> now = records();
+  for (Record& record : now) plant(record);
+  return caught(snapshot_of(now));
+}
+
+std::string caught_definition(const std::function<void(Snapshot&)>& plant) {
+  Snapshot now = snapshot_of(records());
+  plant(now);
+  return caught(now);
+}
+
+void expect_named(const std::string& report, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    EXPECT_NE(report.find(name), std::string::npos) << name << " is not in:\n" << report;
+  }
+}
+
+TEST(PlantedRegression, NothingPlantedPasses) { EXPECT_EQ(caught(snapshot_of(records())), ""); }
+
+TEST(PlantedRegression, AllScoresALittleWorseOnEveryRun) {
+  const std::string report = caught_records([](Record& r) {
+    r.statistics.rmse *= 1.00095;
+    r.statistics.max *= 1.00095;
+  });
+  expect_named(report,
+               {"| raw ", "| uniform ", "worse over 8 runs, by 0.095 % on average: p = 0.0039"});
+}
+
+TEST(PlantedRegression, OneMethodALittleWorseInOneScore) {
+  const std::string report = caught_records([](Record& r) {
+    if (r.method == "uniform" && r.metric == "rpe") r.statistics.rmse *= 1.0005;
+  });
+  expect_named(report, {"| uniform ", "rpe translation 3d, dense, loopbench", "rmse worse over 8"});
+  EXPECT_EQ(report.find("| raw "), std::string::npos) << report;
+}
+
+TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
+  expect_named(
+      caught_definition([](Snapshot& now) { now.metrics["rpe"] = "rpe, delta=10.0, unit=frames"; }),
+      {"another metric 'rpe'", "delta=1.0", "delta=10.0"});
+  expect_named(caught_records([](Record& r) {
+                 if (r.label == "ate") r.metric = "ape";
+               }),
+               {"is the metric 'ape', was 'ate'"});
+}
+
+TEST(PlantedRegression, AnHonestMethodReplacedByAnOracleUnderItsLabel) {
+  expect_named(caught_definition([](Snapshot& now) { now.methods["uniform"] = "paper_oracle"; }),
+               {"another method 'uniform'", "'paper_oracle'"});
+  expect_named(
+      caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
+      {"room / uniform", "oracle: the method or its data is shown the reference, was not"});
+}
+
+TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
+  expect_named(caught_definition([](Snapshot& now) {
+                 now.methods["uniform"] = "uniform, rotation=none, weights=time";
+               }),
+               {"another method 'uniform'", "'rotation=slerp'", "'rotation=none'"});
+}
+
+TEST(PlantedRegression, AnIncompleteCellWithAThousandTimesTheError) {
+  std::vector<Record> before = records();
+  before[2].status = "incomplete";
+  Baseline incomplete = baseline();
+  incomplete.snapshot = snapshot_of(before);
+  EXPECT_EQ(caught(snapshot_of(before), incomplete), "");
+  std::vector<Record> now = before;
+  now[2].statistics.rmse *= 1000.0;
+  expect_named(caught(snapshot_of(now), incomplete), {"room / uniform", "rmse 500 m, was 0.5"});
+}
+
+TEST(PlantedRegression, ACellThatBecameIncomplete) {
+  expect_named(caught_records([](Record& r) {
+                 if (r.cell == 3) r.status = "incomplete";
+               }),
+               {"room (repeat 1) / uniform", "was ok, is incomplete"});
+}
+
+TEST(PlantedRegression, RpeOverFewerPairs) {
+  expect_named(caught_records([](Record& r) {
+                 if (r.metric == "rpe" && r.cell == 1) r.statistics.count = 1;
+               }),
+               {"room / uniform", "rpe translation", "statistics over 1 errors, was 400"});
+}
+
+TEST(PlantedRegression, AWorseMaximumWithEqualRmse) {
+  expect_named(caught_records([](Record& r) {
+                 if (r.cell == 1) r.statistics.max *= 1.01;
+               }),
+               {"room / uniform", "max 1.01 m, was 1 (+1 %"});
+}
+
+TEST(PlantedRegression, AMethodOrASequenceThatVanished) {
+  std::vector<Record> now = records();
+  std::erase_if(now, [](const Record& r) { return r.method == "uniform"; });
+  expect_named(caught(snapshot_of(now)), {"room (repeat 7) / uniform", "vanished"});
+  now = records();
+  std::erase_if(now, [](const Record& r) { return r.repeat == 3; });
+  expect_named(caught(snapshot_of(now)), {"room (repeat 3) / raw", "vanished"});
+}
+
+TEST(PlantedRegression, AScoreThatVanished) {
+  std::vector<Record> now = records();
+  std::erase_if(now, [](const Record& r) { return r.metric == "rpe"; });
+  expect_named(caught(snapshot_of(now)), {"rpe translation 3d, dense, loopbench", "vanished"});
+}
+
+TEST(PlantedRegression, ACellThatFailsNow) {
+  std::vector<Record> now = records();
+  std::erase_if(now, [](const Record& r) { return r.cell == 5 && r.metric == "rpe"; });
+  for (Record& r : now) {
+    if (r.cell != 5) continue;
+    r.metric = r.label = "";
+    r.status = "crashed";
+  }
+  expect_named(caught(snapshot_of(now)), {"room (repeat 2) / uniform", "was ok, is crashed"});
+}
+
+TEST(PlantedRegression, AScoreThatIsNoNumber) {
+  expect_named(caught_records([](Record& r) {
+                 if (r.cell == 1) r.statistics.rmse = std::numeric_limits<double>::quiet_NaN();
+               }),
+               {"room / uniform", "rmse nan m, was 0.5"});
+}
+
+TEST(PlantedRegression, AChangedProtocol) {
+  expect_named(caught_definition([](Snapshot& now) {
+                 now.protocols["loopbench [2]"] = "align=sim3, max_diff=0.02";
+               }),
+               {"another protocol 'loopbench [2]'", "'align=se3'", "'align=sim3'"});
+}
+
+TEST(PlantedRegression, OtherContentOfTheDataset) {
+  expect_named(caught_definition([](Snapshot& now) {
+                 now.sequences["room"] = "simulated: path=room, seed=1; a.txt 3 cafe";
+               }),
+               {"another sequence 'room'", "a.txt 3 beef", "a.txt 3 cafe"});
+  std::vector<Record> now = records();
+  Baseline hashed = baseline();
+  hashed.snapshot.contents = {{"room", "beef"}};
+  Snapshot other = snapshot_of(now);
+  other.contents = {{"room", "cafe"}};
+  expect_named(caught(other, hashed), {"other content of the sequence 'room'", "beef", "cafe"});
+  other.machine = "another CPU";  // where last digits may differ
+  EXPECT_EQ(caught(other, hashed), "");
+  expect_named(markdown(check(hashed, other), "quick"), {"contents of sequences are not compared"});
+}
+
+TEST(PlantedRegression, ClosuresMeasuredInTheReference) {
+  expect_named(caught_records([](Record& r) { r.oracle_closures = true; }),
+               {"room / raw", "oracle: closures are measured in the reference, was not"});
+}
+
+TEST(PlantedRegression, LessOfTheTrajectoryJudged) {
+  expect_named(caught_records([](Record& r) {
+                 if (r.cell == 1) r.pairs = 399;
+               }),
+               {"room / uniform", "judged 399 pose pairs, was 400"});
+  expect_named(caught_records([](Record& r) {
+                 if (r.cell == 1) r.possible = 4000;
+               }),
+               {"room / uniform", "judged 400 of 4000 possible pose pairs, was 400 of 400"});
+}
+
+TEST(PlantedRegression, AnotherUnitOrDirection) {
+  expect_named(caught_records([](Record& r) { r.unit = "cm"; }), {"unit 'cm', was 'm'"});
+  expect_named(caught_records([](Record& r) { r.better = Better::higher; }),
+               {"best value: higher, was: lower"});
+}
+
+TEST(PlantedRegression, ABaselineOfAnUncommittedBuild) {
+  EXPECT_FALSE(is_dirty(baseline().made_by));
+  EXPECT_TRUE(is_dirty({{"source", "dirty"}}));
+  EXPECT_TRUE(is_dirty({{"source", "clean\ndirty"}}));  // cells of two builds
+}
+
+}  // namespace
+}  // namespace loopbench

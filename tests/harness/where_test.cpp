@@ -1,0 +1,41 @@
+/// Rules and lists that people type, with labels that hold commas.
+#include "harness/export/where.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench {
+namespace {
+
+bool keeps(const std::string& rule, const std::string& method) {
+  Record record;
+  record.metric = "ate";
+  record.method = method;
+  return where({rule})(record);
+}
+
+TEST(Where, SelectsLabelsWithCommas) {
+  EXPECT_TRUE(keeps("method=\"a, b=2\"", "a, b=2"));
+  EXPECT_FALSE(keeps("method=\"a, b=2\"", "a"));
+  EXPECT_TRUE(keeps("method!=\"a, b\",metric=ate", "a"));
+  EXPECT_FALSE(keeps("method!=\"a, b\",metric=ate", "a, b"));
+  EXPECT_TRUE(keeps("method~\"a, b\"", "x a, b y"));
+  EXPECT_TRUE(keeps("metric=ate,method=\"a, b\"", "a, b"));
+  EXPECT_TRUE(keeps("method=5\" wheel", "5\" wheel"));  // a quote inside is no quote
+  EXPECT_TRUE(keeps("method=dm (x=1, y=2)", "dm (x=1, y=2)"));
+}
+
+TEST(Where, NamesAQuoteThatIsNotClosed) {
+  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': a quote is not closed");
+}
+
+TEST(SplitList, KeepsWhatBracketsAndQuotesHold) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(split_list("a,b"), (Words{"a", "b"}));
+  EXPECT_EQ(split_list("dm (x=1, y=2),raw"), (Words{"dm (x=1, y=2)", "raw"}));
+  EXPECT_EQ(split_list("\"a, b\",c"), (Words{"a, b", "c"}));
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,77 @@
+// Dynamic covariance scaling and switchable constraints at their defaults.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "datasets/simulated/simulated.hpp"
+#include "methods/correctors/pose_graph.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr Loss kBounded[] = {Loss::dcs, Loss::switchable};
+
+Sequence driving(std::int64_t seed, double false_share) {
+  SimulatedOptions options;
+  options.path = SimulatedPath::driving;
+  options.planar = true;
+  options.seed = seed;
+  options.closures.max = 20;
+  options.closures.false_share = false_share;
+  return load_simulated(options);
+}
+
+/// Root mean square distance of positions [m]; the first pose is shared.
+double error(const Sequence& sequence, const PoseGraphOptimizer::Options& options) {
+  Report report;
+  const Trajectory out = PoseGraphOptimizer(options).correct(sequence.problem, report);
+  double sum = 0.0;
+  std::size_t j = 0;
+  for (const StampedPose& k : out) {
+    const Trajectory& truth = sequence.reference;
+    while (j + 1 < truth.size() && truth[j].stamp < k.stamp - 1e-6) ++j;
+    sum += (k.world_from_body.translation - truth[j].world_from_body.translation).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(out.size()));
+}
+
+TEST(BoundedLosses, KeepTrueClosuresOnADriveWithThreeInTenFalse) {
+  for (const Loss loss : kBounded) {
+    double without = 0.0, robust = 0.0, narrow = 0.0;
+    for (int seed = 1; seed <= 5; ++seed) {
+      without += error(driving(seed, 0.0), {});
+      robust += error(driving(seed, 0.3), {.loss = loss});
+      narrow += error(driving(seed, 0.3), {.loss = loss, .loss_width = 1.0, .anneal = false});
+    }
+    EXPECT_GT(narrow, 2.0 * without) << to_text(loss);  // hardly better than no correction
+    EXPECT_LT(robust, 1.25 * without) << to_text(loss);
+  }
+}
+
+TEST(BoundedLosses, CostLittleWhenAllClosuresAreTrue) {
+  for (const Loss loss : kBounded) {
+    double plain = 0.0, robust = 0.0;
+    for (int seed = 1; seed <= 5; ++seed) {
+      plain += error(driving(seed, 0.0), {});
+      robust += error(driving(seed, 0.0), {.loss = loss});
+    }
+    EXPECT_LT(robust, 1.1 * plain) << to_text(loss);
+  }
+}
+
+TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
+  for (const Loss loss : kBounded) {
+    for (int seed = 1; seed <= 3; ++seed) {
+      const Problem problem = driving(seed, 0.3).problem;
+      const auto cost = [&](bool anneal) {
+        Report report;
+        PoseGraphOptimizer({.loss = loss, .anneal = anneal}).correct(problem, report);
+        return std::ranges::find(report.counts, "cost", &Count::name)->value;
+      };
+      EXPECT_LE(cost(true), cost(false) * (1.0 + 1e-9)) << to_text(loss);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace loopbench

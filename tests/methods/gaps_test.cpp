@@ -1,0 +1,164 @@
+// Smoothers at gaps, pairs and large steps: the fallback is a chord there, and only there.
+#include <gtest/gtest.h>
+
+#include "datasets/core/interpolate.hpp"
+#include "methods/smoothers/b_spline.hpp"
+#include "methods/smoothers/cubic_spline.hpp"
+#include "methods/smoothers/gaussian_process.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
+#include "methods/smoothers/stretches.hpp"
+#include "tests/support/counts.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+/// Two loops of a hand-held camera, `gap` seconds apart.
+Problem with_gap(double gap) {
+  Problem out;
+  out.keyframes = hand_held_truth(40);
+  const double begin = out.keyframes.back().stamp + gap;
+  for (const StampedPose& pose : hand_held_truth(40)) {
+    out.keyframes.push_back(pose);
+    out.keyframes.back().stamp += begin - out.keyframes.front().stamp;
+  }
+  return out;
+}
+
+/// Largest distance from the straight line and the great arc within interval `i` [m], [rad].
+std::pair<double, double> off_chord(const Curve& curve, const Trajectory& poses, std::size_t i) {
+  const auto& [begin, a] = poses[i];
+  const auto& [end, b] = poses[i + 1];
+  const Pose from = curve.at(begin), to = curve.at(end);
+  std::pair<double, double> out{0.0, 0.0};
+  for (int k = 1; k < 20; ++k) {
+    const double u = k / 20.0;
+    const Pose chord = interpolate(from, to, u);
+    const Pose here = curve.at(std::lerp(begin, end, u));
+    out.first = std::max(out.first, (here.translation - chord.translation).norm());
+    out.second = std::max(out.second, angle_between(here.rotation, chord.rotation));
+  }
+  return out;
+}
+
+constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
+                                              GaussianProcess::Prior::acceleration};
+
+TEST(Stretches, AreCutWhereAsked) {
+  EXPECT_EQ(stretches(5, [](std::size_t i) { return i == 1 || i == 3; }),
+            (std::vector<Stretch>{{0, 1}, {2, 3}, {4, 4}}));
+  EXPECT_EQ(stretches(1, [](std::size_t) { return true; }), (std::vector<Stretch>{{0, 0}}));
+}
+
+TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
+  const Problem problem = with_gap(1000.0);
+  for (const auto prior : kPriors) {
+    Report report;
+    const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
+    EXPECT_EQ(count(report, "chords"), 1.0);
+    ASSERT_EQ(report.notes.size(), 1u);
+    const auto [metres, radians] = off_chord(*curve, problem.keyframes, 39);
+    EXPECT_LT(metres, 1e-9);
+    EXPECT_LT(radians, 1e-9);
+    EXPECT_GT(off_chord(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
+    for (const StampedPose& pose : problem.keyframes) {
+      EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 0.02, 0.02));
+    }
+  }
+}
+
+TEST(GaussianProcess, AnythingBelowTheLongestIntervalIsSmoothed) {
+  const double median = median_interval(hand_held_truth(40));
+  for (const auto prior : kPriors) {
+    for (const double gap : {10.0 * median, 49.0 * median, 0.055 * median}) {
+      Report report;
+      const auto curve = GaussianProcess({.prior = prior}).smooth(with_gap(gap), report);
+      EXPECT_TRUE(report.notes.empty()) << gap;
+      EXPECT_TRUE(is_finite(curve->at(curve->end())));
+    }
+  }
+}
+
+TEST(GaussianProcess, APairOneMicrosecondApartIsTaken) {
+  Problem problem;
+  problem.keyframes = hand_held_truth(60);
+  problem.keyframes.insert(problem.keyframes.begin() + 31, problem.keyframes[30]);
+  problem.keyframes[31].stamp += 1e-6;
+  for (const auto prior : kPriors) {
+    Report report;
+    const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
+    EXPECT_EQ(count(report, "chords"), 1.0);
+    for (const StampedPose& pose : problem.keyframes) {
+      EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 0.02, 0.02));
+    }
+  }
+}
+
+/// Keyframe 30 on turned by another 150 degrees.
+Problem with_large_step() {
+  Problem problem;
+  problem.keyframes = hand_held_truth(60);
+  const Rotation step = exp_so3(Vector3(0.0, 0.0, 150.0 / 180.0 * std::numbers::pi));
+  for (std::size_t i = 30; i < 60; ++i) {
+    Rotation& rotation = problem.keyframes[i].world_from_body.rotation;
+    rotation = rotation * step;
+  }
+  return problem;
+}
+
+void expect_one_great_arc(const Smoother& smoother) {
+  const Problem problem = with_large_step();
+  Problem plain;
+  plain.keyframes = hand_held_truth(60);
+  Report report, other;
+  const auto curve = smoother.smooth(problem, report);
+  const auto smooth = smoother.smooth(plain, other);
+  EXPECT_EQ(count(report, "great_arcs"), 1.0);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_LT(off_chord(*curve, problem.keyframes, 29).second, 1e-9);
+  int bent = 0, bent_before = 0;
+  for (std::size_t i = 0; i + 1 < 60; ++i) {
+    bent += off_chord(*curve, problem.keyframes, i).second > 1e-6;
+    bent_before += off_chord(*smooth, plain.keyframes, i).second > 1e-6;
+  }
+  EXPECT_GE(bent, bent_before - 1);
+  for (const StampedPose& pose : problem.keyframes) {
+    EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 1e-9, 1e-9));
+  }
+}
+
+TEST(CubicSpline, AStepOf150DegreesIsOneGreatArc) { expect_one_great_arc(CubicSpline({})); }
+
+TEST(BSpline, AStepOf150DegreesIsOneGreatArc) { expect_one_great_arc(BSplineThrough({})); }
+
+TEST(Dm, AGapWithoutFramesIsAChord) {
+  const Problem problem = with_gap(30.0);
+  for (const int planar : {4, 5}) {
+    Report report;
+    const auto curve = Dm({.planar = planar}).smooth(problem, report);
+    EXPECT_EQ(count(report, "chords"), 1.0);
+    EXPECT_LT(off_chord(*curve, problem.keyframes, 39).first, 1e-9);
+    EXPECT_GT(off_chord(*curve, problem.keyframes, 20).first, 1e-4);
+    Report never;
+    const auto literal = Dm({.planar = planar, .chord_above = std::nullopt}).smooth(problem, never);
+    EXPECT_GT(off_chord(*literal, problem.keyframes, 39).first, 0.5);
+  }
+}
+
+TEST(Dm, AGapWithFramesIsFilled) {
+  Problem problem = with_gap(30.0);
+  const auto& [begin, a] = problem.keyframes[39];
+  const auto& [end, b] = problem.keyframes[40];
+  for (int k = 1; k < 300; ++k) {
+    problem.frames.push_back({std::lerp(begin, end, k / 300.0), interpolate(a, b, k / 300.0)});
+  }
+  Report report;
+  const auto curve = Dm({}).smooth(problem, report);
+  for (const Count& each : report.counts) EXPECT_NE(each.name, "chords");
+  EXPECT_GT(count(report, "quasi_keyframes"), 20.0);
+}
+
+}  // namespace
+}  // namespace loopbench

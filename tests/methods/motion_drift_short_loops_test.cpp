@@ -1,0 +1,143 @@
+// What motion_drift makes of loops that cover next to nothing of the chain.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "datasets/derive/poses_at.hpp"
+#include "datasets/trajectory_dataset.hpp"
+#include "methods/correctors/motion_drift/drift_reach.hpp"
+#include "methods/correctors/motion_drift/large_moves.hpp"
+#include "methods/correctors/motion_drift/motion_drift.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+double largest_distance(const Trajectory& a, const Trajectory& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    out =
+        std::max(out, (a[i].world_from_body.translation - b[i].world_from_body.translation).norm());
+  }
+  return out;
+}
+
+/// A car that drives 300 m, stands for ten keyframes and drives on for as long; keyframes every
+/// half second, 5 m apart. While it stands, odometry jitters by a centimetre and a milliradian, and
+/// a closure with its usual noise joins the first and the last of these keyframes.
+Problem with_a_stop() {
+  Problem out;
+  Matrix6 information = Matrix6::Zero();
+  information.diagonal() << Vector3::Constant(1e4), Vector3::Constant(4e4);
+  out.keyframes.push_back({0.0, {}});
+  for (std::size_t i = 0; i < 130; ++i) {
+    const bool stands = i >= 60 && i < 70;
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const Pose step = stands ? Pose{exp_so3({0.0, 0.0, 0.001 * sign}), {0.01 * sign, 0.0, 0.0}}
+                             : Pose{exp_so3({0.0, 0.0, 0.02}), {5.0, 0.0, 0.0}};
+    out.odometry.push_back({i, i + 1, step, information});
+    out.keyframes.push_back({0.5 * static_cast<double>(i + 1),
+                             normalized(out.keyframes.back().world_from_body * step)});
+  }
+  const Pose gap{exp_so3({0.004, -0.003, 0.005}), {0.03, -0.02, 0.04}};
+  information.diagonal() << Vector3::Constant(2500.0), Vector3::Constant(1e4);
+  out.closures.push_back({60, 70, gap, information});
+  return out;
+}
+
+TEST(MotionDriftShortLoops, ALoopWhileStandingDoesNotBendTheDrive) {
+  const Problem problem = with_a_stop();
+  Report report;
+  const Trajectory out = MotionDrift({}).correct(problem, report);
+  // 7 mrad over 300 m are 2 m; before, all keyframes were moved by tens of metres.
+  EXPECT_LT(largest_distance(out, problem.keyframes), 3.0);
+  EXPECT_TRUE(report.notes.empty());
+}
+
+TEST(MotionDriftShortLoops, AStopOnKitti05CostsNothing) {
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  if (root == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
+  TrajectoryOptions options;
+  options.estimate = "kitti/05/kiss_icp_open.txt";
+  options.reference = "kitti/05/gt_poses.txt";
+  options.keyframes = {KeyframeRule::every, 5};
+  try {
+    Sequence sequence = load_trajectory(options, {{root}});
+    Problem& problem = sequence.problem;
+    const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), {});
+    Matrix6 information = Matrix6::Zero();
+    information.diagonal() << Vector3::Constant(2500.0), Vector3::Constant(1e4);
+    const Pose exact = normalized(truth[465]->inverse() * *truth[475]);
+    problem.closures = {{465, 475, exact, information}};
+    Report report;
+    const Trajectory out = MotionDrift({}).correct(problem, report);
+    EXPECT_LT(largest_distance(out, problem.keyframes), 1.0);  // before: tens of metres
+  } catch (const DataMissing& missing) {
+    GTEST_SKIP() << missing.what();
+  }
+}
+
+TEST(MotionDriftShortLoops, DriftReachesAsFarBeyondLoopsAsTheyAreLong) {
+  Problem problem = with_a_stop();
+  problem.closures.front().from = 20;
+  problem.closures.front().to = 40;
+  std::vector<EdgeMotion> moved = motions(problem);
+  limit_drift(moved, problem, 0.525);
+  const auto part = [&](Growth growth, std::size_t edge) {
+    return moved[edge].drift_part[static_cast<std::size_t>(growth)];
+  };
+  // Twenty edges of 0.5 s and 5 m inside, ten and a half beyond either end.
+  for (const Growth growth : {Growth::edge, Growth::time, Growth::distance, Growth::rotation}) {
+    EXPECT_EQ(part(growth, 8), 0.0);
+    EXPECT_NEAR(part(growth, 9), 0.5, 1e-9);
+    EXPECT_EQ(part(growth, 10), 1.0);
+    EXPECT_EQ(part(growth, 30), 1.0);
+    EXPECT_EQ(part(growth, 49), 1.0);
+    EXPECT_NEAR(part(growth, 50), 0.5, 1e-9);
+    EXPECT_EQ(part(growth, 51), 0.0);
+  }
+}
+
+TEST(MotionDriftShortLoops, ALoopAtTheStandstillReachesNoMetreFurther) {
+  const Problem problem = with_a_stop();
+  std::vector<EdgeMotion> moved = motions(problem);
+  limit_drift(moved, problem, 1.0);
+  const auto by_distance = static_cast<std::size_t>(Growth::distance);
+  EXPECT_EQ(moved[65].drift_part[by_distance], 1.0);
+  EXPECT_NEAR(moved[70].drift_part[by_distance], 0.1 / 5.0, 1e-9);  // ten times a centimetre
+  EXPECT_EQ(moved[71].drift_part[by_distance], 0.0);
+}
+
+TEST(MotionDriftShortLoops, ALargeMoveIsReported) {
+  const Problem problem = with_a_stop();
+  MotionDrift::Options steady{.fit = false};
+  steady.drift[1][1] = 0.01;  // [rad/s]
+  steady.prior.drift_reach = 1e9;
+  Report report;
+  const Trajectory out = MotionDrift(steady).correct(problem, report);
+  ASSERT_GT(largest_distance(out, problem.keyframes), 10.0);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_NE(report.notes[0].find("extrapolated far beyond the loops"), std::string::npos)
+      << report.notes[0];
+}
+
+TEST(MotionDriftShortLoops, AGapExplainsItsLengthAndItsAngleAtTheFarEnd) {
+  const Problem problem = test::circle();  // 10 m across, closed from its first to its last
+  Eigen::VectorXd gap = Eigen::VectorXd::Zero(6);
+  gap << 3.0, 0.0, 4.0, 0.0, 0.0, 0.1;
+  Trajectory moved = problem.keyframes;
+  moved[7].world_from_body.translation.z() += 2.5;
+  const LargestMove move = largest_move(problem, gap, moved);
+  EXPECT_NEAR(move.moved, 2.5, 1e-12);
+  double far = 0.0;
+  for (const StampedPose& k : problem.keyframes) {
+    far = std::max(
+        far,
+        (k.world_from_body.translation - problem.keyframes.back().world_from_body.translation)
+            .norm());
+  }
+  EXPECT_NEAR(move.explained, 5.0 + 0.1 * far, 1e-12);
+}
+
+}  // namespace
+}  // namespace loopbench

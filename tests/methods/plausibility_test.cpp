@@ -1,0 +1,84 @@
+// chi2 per degree of freedom as dual and pose_graph report it.
+#include "methods/correctors/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/simulated/simulated.hpp"
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "tests/support/counts.hpp"
+
+namespace loopbench {
+namespace {
+
+using test::count;
+
+Problem simulated(SimulatedPath path, bool planar, std::int64_t seed) {
+  SimulatedOptions options;
+  options.path = path;
+  options.planar = planar;
+  options.seed = seed;
+  options.closures.max = 10;
+  return load_simulated(options).problem;
+}
+
+/// The problem with all covariances multiplied by `factor`.
+Problem with_covariances(Problem problem, double factor) {
+  for (std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) edge.information /= factor;
+  }
+  return problem;
+}
+
+TEST(Plausibility, SimulatedDatasetsStateTheirOwnNoise) {
+  for (const auto& [path, planar] : {std::pair{SimulatedPath::driving, true},
+                                     std::pair{SimulatedPath::driving, false},
+                                     std::pair{SimulatedPath::room, false}}) {
+    double mean = 0.0;
+    constexpr int kSeeds = 8;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      Report report;
+      Dual({}).correct(simulated(path, planar, seed), report);
+      mean += count(report, "chi2_per_dof") / kSeeds;
+      EXPECT_TRUE(report.notes.empty()) << report.notes.front();
+    }
+    EXPECT_NEAR(mean, 1.0, 0.25) << to_text(path) << (planar ? ", planar" : "");
+  }
+}
+
+TEST(Plausibility, DualAndPoseGraphReportTheSameChi2) {
+  for (const bool planar : {true, false}) {
+    const Problem problem = simulated(SimulatedPath::driving, planar, 3);
+    Report dual, graph;
+    Dual({}).correct(problem, dual);
+    PoseGraphOptimizer({}).correct(problem, graph);
+    EXPECT_NEAR(count(dual, "chi2_per_dof"), count(graph, "chi2_per_dof"), 1e-6);
+  }
+}
+
+TEST(Plausibility, ImplausibleCovariancesAreNoted) {
+  const Problem problem = simulated(SimulatedPath::room, false, 2);
+  for (const double factor : {1e-2, 1e2}) {
+    const Problem wrong = with_covariances(problem, factor);
+    Report dual, graph;
+    Dual({}).correct(wrong, dual);
+    PoseGraphOptimizer({}).correct(wrong, graph);
+    for (const Report& report : {dual, graph}) {
+      ASSERT_EQ(report.notes.size(), 1u) << factor;
+      EXPECT_NE(report.notes[0].find(factor < 1.0 ? "too small" : "too large"), std::string::npos)
+          << report.notes[0];
+    }
+  }
+}
+
+TEST(Plausibility, FewDegreesOfFreedomMayBeFarFromOne) {
+  Report report;
+  report_chi2(0.5, 6, report);  // 0.8 % quantile of chi2 with 6 degrees of freedom
+  EXPECT_TRUE(report.notes.empty());
+  EXPECT_NEAR(count(report, "chi2_per_dof"), 0.5 / 6.0, 1e-15);
+  report_chi2(5.0, 60, report);
+  EXPECT_EQ(report.notes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,65 @@
+#include "methods/smoothers/tracked_frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/correctors/uniform.hpp"
+#include "methods/pipeline.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using namespace test;
+
+std::unique_ptr<const Method> tracked(std::unique_ptr<const Corrector> corrector = nullptr) {
+  return compose(std::move(corrector), std::make_unique<TrackedFrames>(TrackedFrames::Options{}));
+}
+
+TEST(TrackedFrames, AreTheEstimateBetweenKeyframes) {
+  const Problem problem = hand_held();
+  Report report;
+  const auto curve = tracked()->estimate(problem, report);
+  for (const Trajectory* part : {&problem.keyframes, &problem.frames}) {
+    for (const auto& [stamp, pose] : *part) {
+      EXPECT_TRUE(is_close(curve->at(stamp), pose, 0.0, 0.0)) << stamp;
+    }
+  }
+  ASSERT_FALSE(report.counts.empty());
+  EXPECT_EQ(report.counts.front().name, "frames");
+  EXPECT_EQ(report.counts.front().value, static_cast<double>(problem.frames.size()));
+}
+
+TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
+  const Problem problem = hand_held();
+  const Uniform uniform{Uniform::Options{}};
+  Report report;
+  const Trajectory corrected = uniform.correct(problem, report);
+  const Problem carried = with_keyframes(problem, corrected);
+  const auto curve =
+      tracked(std::make_unique<Uniform>(Uniform::Options{}))->estimate(problem, report);
+  for (const auto& [stamp, pose] : corrected) {
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 0.0, 0.0)) << stamp;
+  }
+  ASSERT_EQ(carried.frames.size(), problem.frames.size());
+  double moved = 0.0;
+  for (std::size_t i = 0; i < carried.frames.size(); ++i) {
+    const auto& [stamp, pose] = carried.frames[i];
+    EXPECT_TRUE(is_close(curve->at(stamp), pose, 0.0, 0.0)) << stamp;
+    moved =
+        std::max(moved, (pose.translation - problem.frames[i].world_from_body.translation).norm());
+  }
+  EXPECT_GT(moved, 0.1);
+}
+
+TEST(TrackedFrames, DeclineAProblemWithoutFrames) {
+  const TrackedFrames method{TrackedFrames::Options{}};
+  EXPECT_EQ(method.declines(circle()), "no tracked frames between the keyframes");
+  Problem outside = circle();
+  outside.frames.push_back({outside.keyframes.back().stamp + 1.0, Pose{}});
+  EXPECT_EQ(method.declines(outside), "no tracked frames between the keyframes");
+  EXPECT_EQ(method.declines(short_circle(0)), "no keyframes");
+  EXPECT_EQ(method.declines(hand_held()), std::nullopt);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,65 @@
+/// What evo stored for public KITTI estimates; needs the data, which is not kept here.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "datasets/formats/kitti.hpp"
+#include "metrics/printed_motion.hpp"
+#include "metrics/protocols.hpp"
+#include "metrics/rpe.hpp"
+#include "support.hpp"
+
+namespace loopbench::test {
+namespace {
+
+/// RPE over 10 m of path, consecutive pairs, with the files' digits or with rotations made of them.
+Statistics over_ten_metres(const std::filesystem::path& reference,
+                           const std::filesystem::path& estimate,
+                           bool with_digits) {
+  const PrintedPoses printed{read_kitti_matrices(reference), read_kitti_matrices(estimate)};
+  const Trajectory truth = read_trajectory(reference), poses = read_trajectory(estimate);
+  Evaluation judged = evaluate(truth, poses, named_protocol("evo").rules);
+  judged.context.reference = &truth;
+  judged.context.estimate = &poses;
+  if (with_digits) judged.context.printed = &printed;
+  EXPECT_EQ(printed_for_evo(judged).has_value(), with_digits);
+  return find(rpe(judged, {.delta = 10.0, .unit = DeltaUnit::m}), "translation", "3d");
+}
+
+TEST(EvoOnKitti, TakesTheDigitsOfTheFiles) {
+  const char* data = std::getenv("LOOPBENCH_DATA");
+  const std::filesystem::path folder =
+      data != nullptr ? std::filesystem::path(data) / "kitti/00" : std::filesystem::path();
+  if (data == nullptr || !std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "$LOOPBENCH_DATA names no folder with kitti/00";
+  }
+  const auto truth = folder / "gt_poses.txt", sptam = folder / "sptam_stereo_open.txt";
+  const Statistics exact = over_ten_metres(truth, sptam, true);
+  EXPECT_EQ(exact.count, 355u);
+  EXPECT_NEAR(exact.rmse, 0.27607109043606004, 1e-12);
+  EXPECT_GT(std::abs(over_ten_metres(truth, sptam, false).rmse - exact.rmse), 1e-8);
+}
+
+TEST(EvoOnKitti, OtherPairsThanPoseByPoseHaveNoDigits) {
+  const std::string golden = std::string(LOOPBENCH_TEST_DATA) + "/golden/";
+  const PrintedPoses printed{read_kitti_matrices(golden + "kitti_gt.txt"),
+                             read_kitti_matrices(golden + "kitti_est.txt")};
+  const Trajectory truth = read_trajectory(golden + "kitti_gt.txt");
+  const Trajectory poses = read_trajectory(golden + "kitti_est.txt");
+  const auto uses_digits = [&](const NamedProtocol& protocol) {
+    Evaluation judged = evaluate(truth, poses, protocol.rules);
+    judged.context.reference = &truth;
+    judged.context.estimate = &poses;
+    judged.context.printed = &printed;
+    return printed_for_evo(judged).has_value();
+  };
+  EXPECT_TRUE(uses_digits(named_protocol("evo")));
+  EXPECT_TRUE(uses_digits(named_protocol("evo", {{"align", std::string("sim3")}})));
+  EXPECT_FALSE(uses_digits(named_protocol("evo", {{"offset", 0.1}})));
+  EXPECT_FALSE(uses_digits(named_protocol("evo", {{"project", std::string("xy")}})));
+  EXPECT_FALSE(uses_digits(named_protocol("loopbench")));
+}
+
+}  // namespace
+}  // namespace loopbench::test

@@ -1,0 +1,95 @@
+/// How many pairs a relative error is made of, and what its axes are.
+#include <gtest/gtest.h>
+
+#include "metrics/metric.hpp"
+#include "metrics/protocols.hpp"
+#include "metrics/rpe.hpp"
+#include "support.hpp"
+
+namespace loopbench::test {
+namespace {
+
+const RpeOptions kSecond{.delta = 1.0, .unit = DeltaUnit::s};
+
+/// 70 keyframes 0.7 s apart, but for two that are 1 s apart.
+Trajectory sparse(std::mt19937_64& random) {
+  Trajectory out = random_walk(random, 70);
+  double stamp = 0.0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].stamp = stamp;
+    stamp += i == 33 ? 1.0 : 0.7;
+  }
+  return out;
+}
+
+TEST(RpePairs, OnePairOfManyPosesIsNoNumber) {
+  std::mt19937_64 random(11);
+  const Trajectory reference = sparse(random);
+  const Trajectory estimate = noisy(random, reference, 0.1, 0.1);
+  const Evaluation judged = evaluate(reference, estimate, Protocol{});
+  EXPECT_EQ(judged.coverage.pairs, 70u);
+  EXPECT_EQ(why<Undefined>([&] { rpe(judged, kSecond); }),
+            "rpe: found 1 pair 1.0 s apart among 70 poses, fewer than min_pairs = 10");
+
+  RpeOptions any = kSecond;
+  any.min_pairs = 1.0;
+  EXPECT_EQ(find(rpe(judged, any), "translation", "3d").count, 1u);
+  RpeOptions wide = kSecond;
+  wide.tolerance = 0.5;
+  EXPECT_EQ(find(rpe(judged, wide), "translation", "3d").count, 69u);
+}
+
+TEST(RpePairs, OtherToolsTakeAnyNumber) {
+  for (const ProtocolEntry& entry : protocols()) {
+    EXPECT_EQ(entry.protocol.min_pairs, entry.name == "loopbench" ? 10 : 1) << entry.name;
+  }
+}
+
+TEST(RpePairs, ConsecutiveSecondsAreThoseAskedFor) {
+  std::mt19937_64 random(12);
+  Trajectory reference = random_walk(random, 301);
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    reference[i].stamp = static_cast<double>(i) / 15.0;  // 15 Hz
+  }
+  const Trajectory estimate = noisy(random, reference, 0.1, 0.1);
+  const Evaluation judged = evaluate(reference, estimate, named_protocol("evo").rules);
+  const auto of = [&](double delta) { return rpe(judged, {.delta = delta, .unit = DeltaUnit::s}); };
+  EXPECT_EQ(why<Undefined>([&] { of(0.1); }), "rpe: none of 301 poses is 0.1 s before another");
+  EXPECT_EQ(find(of(0.2), "translation", "3d").count, 100u);
+}
+
+TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
+  std::mt19937_64 random(13);
+  const Trajectory reference = random_walk(random, 200);
+  const Trajectory estimate = noisy(random, reference, 0.2, 0.5);
+  for (const char* name : {"loopbench", "evo", "tum", "kitti"}) {
+    Params same_length{{"align", std::string("se3")}};
+    const Evaluation judged =
+        evaluate(reference, estimate, named_protocol(name, same_length).rules);
+    const auto scores = rpe(judged, {.delta = 5.0});
+    const Statistics whole = find(scores, "translation", "3d");
+    double squares = 0.0;
+    for (const char* axis : {"x", "y", "z"}) {
+      const Statistics part = find(scores, "translation", axis);
+      EXPECT_LE(part.rmse, whole.rmse) << name;
+      squares += part.rmse * part.rmse;
+    }
+    EXPECT_NEAR(squares, whole.rmse * whole.rmse, 1e-12) << name;
+  }
+}
+
+TEST(RpeAxes, TheListSaysWhatTheyAre) {
+  for (const MetricEntry& entry : metrics()) {
+    if (entry.name != "rpe") continue;
+    for (const OptionInfo& option : entry.options) {
+      if (option.name != "frame") continue;
+      EXPECT_EQ(option.value, Param(std::string("body")));
+      EXPECT_NE(option.help.find("components of the error transform"), std::string::npos);
+      return;
+    }
+  }
+  FAIL() << "rpe has no option frame";
+}
+
+}  // namespace
+}  // namespace loopbench::test

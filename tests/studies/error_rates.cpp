@@ -1,0 +1,90 @@
+#include "tests/studies/error_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/export/pivot.hpp"
+
+namespace loopbench::synthetic {
+namespace {
+
+const MethodVerdict* verdict_of(const Comparison& c, std::size_t method) {
+  const auto found =
+      std::ranges::find(c.methods, "m" + std::to_string(method), &MethodVerdict::method);
+  return found == c.methods.end() ? nullptr : &*found;
+}
+
+/// The only method with the lowest effect; the number of methods when several share it.
+std::size_t truly_best(const Truth& truth) {
+  const auto least = std::ranges::min_element(truth.effects);
+  if (std::ranges::count(truth.effects, *least) > 1) return truth.effects.size();
+  return static_cast<std::size_t>(least - truth.effects.begin());
+}
+
+/// Whether the letters claim an order that does not hold: methods without a common letter are
+/// claimed to differ, the first in order being better.
+bool has_false_claim(const Comparison& c, const Truth& truth) {
+  const auto effect = [&](const MethodVerdict& m) {
+    return truth.effects[static_cast<std::size_t>(std::stoi(m.method.substr(1)))];
+  };
+  for (std::size_t i = 0; i < c.methods.size(); ++i) {
+    for (std::size_t j = i + 1; j < c.methods.size(); ++j) {
+      const bool is_claimed =
+          c.methods[i].letters.find_first_of(c.methods[j].letters) == std::string::npos;
+      if (is_claimed && effect(c.methods[i]) >= effect(c.methods[j])) return true;
+    }
+  }
+  return false;
+}
+
+/// The method that a table of the records marks as best; the number of methods for none.
+std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
+  const Table table = pivot(all, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    for (const TableCell& cell : table.cells[row]) {
+      if (cell.mark == Mark::best)
+        return static_cast<std::size_t>(std::stoi(table.rows[row].substr(1)));
+    }
+  }
+  return methods;
+}
+
+}  // namespace
+
+ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
+  std::mt19937_64 bits(seed);
+  ErrorRates out;
+  const std::size_t best = truly_best(truth);
+  for (int i = 0; i < repeats; ++i) {
+    const std::vector<Record> all = records(truth, shape, bits);
+    const Comparison c = compare(all, {.baseline = "m0"}).at(0);
+    const bool is_right = c.is_best_proven && c.methods[0].method == "m" + std::to_string(best);
+    out.found += is_right ? 1.0 : 0.0;
+    out.false_best += c.is_best_proven && !is_right ? 1.0 : 0.0;
+    out.false_better += has_false_claim(c, truth) ? 1.0 : 0.0;
+    const std::size_t mark = marked(all, truth.effects.size());
+    out.marked_wrong += mark != truth.effects.size() && mark != best ? 1.0 : 0.0;
+  }
+  for (double* rate : {&out.found, &out.false_best, &out.false_better, &out.marked_wrong}) {
+    *rate /= repeats;
+  }
+  return out;
+}
+
+Coverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
+  std::mt19937_64 bits(seed);
+  const double ratio = std::exp(truth.effects[1] - truth.effects[0]);
+  int given = 0;
+  int held = 0;
+  for (int i = 0; i < repeats; ++i) {
+    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
+    const MethodVerdict* method = verdict_of(c, 1);
+    if (method == nullptr || !method->has_interval) continue;
+    ++given;
+    held += method->ratio->low <= ratio && ratio <= method->ratio->high ? 1 : 0;
+  }
+  return {given > 0 ? static_cast<double>(held) / given : 1.0,
+          1.0 - static_cast<double>(given) / repeats};
+}
+
+}  // namespace loopbench::synthetic

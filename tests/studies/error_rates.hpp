@@ -1,0 +1,27 @@
+/// How often verdicts on synthetic records are wrong, and intervals miss.
+#pragma once
+
+#include "harness/compare/compare.hpp"
+#include "tests/studies/synthetic_records.hpp"
+
+namespace loopbench::synthetic {
+
+struct ErrorRates {
+  double false_best = 0.0;    ///< a method is called best that is not
+  double false_better = 0.0;  ///< any pair is ordered that is equal, or the other way round
+  double found = 0.0;         ///< the truly best method is called best
+  double marked_wrong = 0.0;  ///< a table marks a method as best that is not
+};
+
+/// Over `repeats` draws. Effects that are equal are true ties: none of them is best.
+ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
+
+struct Coverage {
+  double covered = 0.0;   ///< share of the given intervals that hold the true ratio
+  double declined = 0.0;  ///< share of comparisons without an interval
+};
+
+/// Of the interval of method 1 against the baseline.
+Coverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
+
+}  // namespace loopbench::synthetic

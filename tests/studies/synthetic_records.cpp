@@ -1,0 +1,100 @@
+#include "tests/studies/synthetic_records.hpp"
+
+#include <cmath>
+
+namespace loopbench::synthetic {
+namespace {
+
+double uniform(std::mt19937_64& bits) {
+  return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53;
+}
+
+double normal(std::mt19937_64& bits) {
+  return std::sqrt(-2.0 * std::log(uniform(bits))) * std::cos(6.283185307179586 * uniform(bits));
+}
+
+double exponential(std::mt19937_64& bits) { return -std::log(uniform(bits)); }
+
+double laplace(std::mt19937_64& bits) {
+  const double size = exponential(bits);
+  return uniform(bits) < 0.5 ? size : -size;
+}
+
+double student(std::mt19937_64& bits) {
+  double squares = 0.0;
+  for (int i = 0; i < 3; ++i) squares += std::pow(normal(bits), 2);
+  return normal(bits) / std::sqrt(squares / 3.0);
+}
+
+double gamma4(std::mt19937_64& bits) {
+  double sum = 0.0;
+  for (int i = 0; i < 4; ++i) sum += exponential(bits);
+  return sum;
+}
+
+double half_ties(std::mt19937_64& bits) {
+  const bool is_tie = uniform(bits) < 0.5;
+  return is_tie ? 0.0 : 1.0 + 0.6 * normal(bits);
+}
+
+Record score(std::size_t method, std::size_t group, std::size_t run) {
+  Record out;
+  out.sequence = "sequence " + std::to_string(group) + "." + std::to_string(run);
+  out.method = "m" + std::to_string(method);
+  out.protocol = "loopbench";
+  out.times = "dense";
+  out.metric = "ate";
+  out.relation = "translation";
+  out.axis = "3d";
+  out.unit = "m";
+  return out;
+}
+
+}  // namespace
+
+std::vector<Shape> shapes() {
+  return {{"normal", 0.0, normal},
+          {"uniform", 0.5, uniform},
+          {"laplace", 0.0, laplace},
+          {"student 3", 0.0, student},
+          {"gamma 4", 4.0, gamma4},
+          {"exponential", 1.0, exponential},
+          {"half ties", 0.5, half_ties}};
+}
+
+std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937_64& bits) {
+  std::vector<Record> out;
+  const std::size_t methods = truth.effects.size();
+  std::vector<double> shared(methods);
+  for (std::size_t group = 0; group < truth.groups; ++group) {
+    for (double& deviation : shared) deviation = shape.draw(bits) - shape.mean;
+    for (std::size_t run = 0; run < truth.runs_in_group; ++run) {
+      const double size = std::exp(2.0 * normal(bits));
+      const std::size_t begin = out.size();
+      for (std::size_t m = 0; m < methods; ++m) {
+        const double own = shape.draw(bits) - shape.mean;
+        double deviation = truth.shared * shared[m] + (1.0 - truth.shared) * own;
+        if (m == 0 && truth.baseline_is_fixed) deviation = 0.0;
+        Record r = score(m, group, run);
+        if (truth.states_groups && truth.runs_in_group > 1) r.group = std::to_string(group);
+        r.content = r.sequence;
+        r.statistics.rmse = size * std::exp(truth.effects[m] + truth.spread * deviation);
+        const bool fails = !truth.failures.empty() && uniform(bits) < truth.failures[m];
+        if (fails) {
+          r.status = "failed";
+          r.metric.clear();
+        }
+        out.push_back(std::move(r));
+      }
+      if (uniform(bits) >= truth.copies) continue;
+      for (std::size_t m = 0; m < methods; ++m) {
+        Record copy = out[begin + m];
+        copy.sequence += " again";
+        out.push_back(std::move(copy));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench::synthetic

@@ -1,0 +1,92 @@
+/// Measures how often a verdict is false and how often intervals hold the truth, on synthetic
+/// records. Prints Markdown; exits with 1 where a rate is above its limit. Usage: [repeats].
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/studies/error_rates.hpp"
+
+namespace {
+
+using namespace loopbench;             // NOLINT
+using namespace loopbench::synthetic;  // NOLINT
+
+struct Scene {
+  std::string name;
+  Truth truth;
+};
+
+std::vector<Scene> scenes() {
+  const std::vector<double> four_equal(4, 0.0);
+  return {
+      {"2 equal methods, 8 runs", {.effects = {0.0, 0.0}, .groups = 8}},
+      {"4 equal methods, 8 runs", {.effects = four_equal, .groups = 8}},
+      {"4 equal methods, 30 runs", {.effects = four_equal, .groups = 30}},
+      {"10 equal methods, 15 runs", {.effects = std::vector<double>(10, 0.0), .groups = 15}},
+      {"2 equal methods, 8 groups of 5 runs, correlation 0.9",
+       {.effects = {0.0, 0.0}, .groups = 8, .runs_in_group = 5, .shared = 0.75}},
+      {"4 equal methods, 12 groups of 5 runs, correlation 0.9",
+       {.effects = four_equal, .groups = 12, .runs_in_group = 5, .shared = 0.75}},
+      {"4 equal methods, 10 runs, each twice",
+       {.effects = four_equal, .groups = 10, .copies = 1.0}},
+      {"4 equal methods that fail on 0, 10, 10 and 30 %, 20 runs",
+       {.effects = four_equal, .groups = 20, .failures = {0.0, 0.1, 0.1, 0.3}}},
+      {"2 equal methods, the baseline without deviation, 20 runs",
+       {.effects = {0.0, 0.0}, .groups = 20, .baseline_is_fixed = true}},
+      {"2 best of 4, 20 runs", {.effects = {0.0, -0.3, -0.3, 0.1}, .groups = 20}},
+      {"best of 4 by 30 %, 20 runs", {.effects = {0.0, -0.35, 0.0, 0.1}, .groups = 20}},
+      {"best of 4 by 30 %, fails on 10 %, 20 runs",
+       {.effects = {0.0, -0.35, 0.0, 0.1}, .groups = 20, .failures = {0.0, 0.1, 0.0, 0.0}}},
+  };
+}
+
+/// Four standard errors of a rate of 5 % above it.
+double limit(int repeats) { return 0.05 + 4.0 * std::sqrt(0.05 * 0.95 / repeats); }
+
+bool print_error_rates(int repeats) {
+  bool is_good = true;
+  fmt::print(
+      "| records | logarithms | false best [%] | any false claim [%] | wrong mark [%] | best found "
+      "[%] |\n| --- | --- | ---: | ---: | ---: | ---: |\n");
+  for (const Scene& scene : scenes()) {
+    for (const Shape& shape : shapes()) {
+      const ErrorRates r = error_rates(scene.truth, shape, repeats, 7);
+      fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n",
+                 scene.name,
+                 shape.name,
+                 100.0 * r.false_best,
+                 100.0 * r.false_better,
+                 100.0 * r.marked_wrong,
+                 100.0 * r.found);
+      is_good = is_good && r.false_best <= limit(repeats) && r.marked_wrong <= limit(repeats);
+    }
+  }
+  return is_good;
+}
+
+bool print_coverage(int repeats) {
+  bool is_good = true;
+  fmt::print(
+      "\n| logarithms | n | 95 % intervals that hold the ratio [%] | declined [%] |\n"
+      "| --- | ---: | ---: | ---: |\n");
+  for (const Shape& shape : shapes()) {
+    for (const std::size_t n : {4u, 5u, 6u, 8u, 10u, 15u, 30u}) {
+      const Truth truth{.effects = {0.0, -0.2}, .groups = n, .baseline_is_fixed = true};
+      const Coverage c = coverage(truth, shape, repeats, 9);
+      fmt::print(
+          "| {} | {} | {:.1f} | {:.1f} |\n", shape.name, n, 100.0 * c.covered, 100.0 * c.declined);
+      is_good = is_good && c.covered >= 0.93 - 4.0 * std::sqrt(0.07 * 0.93 / repeats);
+    }
+  }
+  return is_good;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const int repeats = count > 1 ? std::atoi(arguments[1]) : 2000;
+  const bool rates = print_error_rates(repeats);
+  const bool intervals = print_coverage(repeats);
+  return rates && intervals ? 0 : 1;
+}
