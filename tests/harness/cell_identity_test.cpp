@@ -33,8 +33,9 @@ class CellIdentity : public TinyStore {
     known_.datasets.push_back(dataset<PairOptions>("pair", "two files", load_pair));
   }
   std::vector<std::string> hashes() const {
+    const std::vector<InputFile> inputs = read_inputs(file_).at("f");
     std::vector<std::string> out;
-    for (const InputFile& input : read_inputs(file_).at("f")) out.push_back(input.hash);
+    for (const InputFile& input : inputs) out.push_back(input.hash);
     return out;
   }
   double rmse() const { return read_records(file_).at(0).statistics.rmse; }
