@@ -23,7 +23,7 @@ inline constexpr const char* kSchema = R"sql(
     PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- what it is, and how much of it a method is given
     sequence_key TEXT PRIMARY KEY,     -- hash of asked, of the content of its inputs and the build
-    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options
+    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options, and group
     options TEXT NOT NULL,             -- dataset: all of its options, defaults included
     keyframes INTEGER NOT NULL,
     odometry INTEGER NOT NULL,         -- edges

@@ -123,6 +123,16 @@ TEST_F(CellIdentity, ARetryIsRecordedWithItsMachine) {
   EXPECT_EQ(read_provenance(file_).at("commit"), "on another machine");
 }
 
+TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
+  for (const std::string group : {"one", "two", "one"}) {
+    run("datasets: [{dataset: line, label: f, group: " + group +
+        "}, {dataset: line, label: g, group: other}]\nmethods: [straight]\nmetrics: [ate]\n");
+    const std::vector<Record> records = read_records(file_);
+    EXPECT_EQ(records.front().group, "group:" + group);
+    EXPECT_EQ(records.back().group, "group:other");
+  }
+}
+
 TEST_F(CellIdentity, ProvenanceIsThatOfTheCellsWhichAreShown) {
   folder_.file("bias", "0.1");
   run(kFile);
