@@ -68,7 +68,8 @@ TEST(Where, RefusesByName) {
   EXPECT_EQ(refusal_of([] { where({"metrc=ate"}); }),
             "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
   EXPECT_EQ(refusal_of([] { where({"ate"}); }),
-            "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate");
+            "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
+            "method=\"a, b\"");
   EXPECT_EQ(refusal_of([] { where({"method~("}); }),
             "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");

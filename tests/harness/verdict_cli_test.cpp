@@ -135,7 +135,7 @@ TEST_F(VerdictCli, ATableKeepsTheRowsItsConfigAsksFor) {
 TEST_F(VerdictCli, TheGateLooksAtTimesWhenTold) {
   ASSERT_EQ(run("check r --baseline t.json --update --time 0.5").exit_code, 0);
   EXPECT_TRUE(
-      has(read("t.json"), "{\"where\":[\"metric=time\"],\"value\":\"rmse\",\"relative\":0.5"));
+      has(read("t.json"), "{\"where\":[\"metric=time\"],\"values\":[\"rmse\"],\"relative\":0.5"));
   EXPECT_TRUE(has(read("t.json"), "\"metric\":\"time\""));
   EXPECT_EQ(run("check r --baseline t.json").exit_code, 0);
   std::string other = read("t.json");

@@ -48,6 +48,7 @@ TEST(GncOutliers, ThreeInTenCostAtMostATenthOnSimulatedChains) {
       options.path = path;
       options.planar = path == SimulatedPath::driving;
       options.seed = seed;
+      options.stream = "shared";  // the same chain and true closures with and without false ones
       options.closures.max = 20;
       without += error_of(load_simulated(options), Gnc::off);
       options.closures.false_share = 0.3;
