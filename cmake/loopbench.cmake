@@ -43,7 +43,7 @@ function(loopbench_test name)
     set(ARG_SHARDS 1)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE loopbench_warnings GTest::gtest_main ${ARG_LINK})
+  target_link_libraries(${name} PRIVATE loopbench_warnings GTest::gtest_main GTest::gmock ${ARG_LINK})
   target_precompile_headers(${name} REUSE_FROM loopbench_test_headers)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   target_compile_definitions(${name} PRIVATE

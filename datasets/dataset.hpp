@@ -38,8 +38,9 @@ struct DatasetEntry {
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. What no
-/// field can refuse alone is refused by `void check_combination(const Options&)`, where there is
-/// one.
+/// field can refuse alone is refused by `void check_combination(const Options&)`, or by
+/// `void check_combination(const Options&, const Params& given)`, which also receives the options
+/// that a config states, where there is one.
 template <class Options, class Load>
 DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
@@ -47,7 +48,11 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           describe(Options{}),
           [](const Params& given) {
             const Options options = with(Options{}, given);
-            if constexpr (requires { check_combination(options); }) check_combination(options);
+            if constexpr (requires { check_combination(options, given); }) {
+              check_combination(options, given);
+            } else if constexpr (requires { check_combination(options); }) {
+              check_combination(options);
+            }
           },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);

@@ -7,6 +7,7 @@
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/compose.hpp"
 #include "datasets/derive/graph_parts.hpp"
+#include "datasets/disabled_options.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -63,32 +64,52 @@ Trajectory read_truth(const std::filesystem::path& file,
   return of_estimate_body(std::move(truth), o.reference_body);
 }
 
-std::string told(const PoseGraphOptions& o, const PoseGraph& graph, std::size_t count) {
+std::uint64_t identity(const PoseGraphOptions& o, const Trajectory& keyframes) {
+  if (!o.stream.empty()) return noise_identity(o.stream);
+  return noise_identity(identity_text("pose_graph", o, names_data), keyframes);
+}
+
+std::string told(const PoseGraphOptions& o,
+                 const PoseGraph& graph,
+                 std::size_t count,
+                 std::size_t false_closures) {
   std::string text = "none";
   if (o.closures == GraphClosures::edges) {
     text =
         fmt::format("edges of {} ({})", std::filesystem::path(o.path).filename().string(), count);
-    if (!o.true_list.empty()) text += ", only those in " + o.true_list;
+    if (!o.true_list.empty()) text += ", only those that are true according to " + o.true_list;
     if (o.skip_placeholders) text += ", without placeholders";
   }
-  if (o.false_closures.share > 0.0) {
-    text += fmt::format(", {:.0f} % of them false and added", 100.0 * o.false_closures.share);
-  }
+  text += false_closures_text(o.false_closures, false_closures, count);
   if (graph.similarity) text += "; Sim(3) chain: keyframes are its rigid part";
   return text;
 }
 
 }  // namespace
 
-void check_combination(const PoseGraphOptions& o) {
+void check_combination(const PoseGraphOptions& o, const Params& given) {
   if (o.path.empty()) throw OptionError("path", "path: names no file");
   pose_of(o.reference_body);  // refuses what is no pose
+  if (o.truth.empty()) {
+    reject_disabled_by_missing(given, "reference_body.", "truth");
+    reject_disabled_by_missing(given, "truth_axes", "truth");
+  }
+  if (o.closures == GraphClosures::none) {
+    reject_disabled(given,
+                    {"closures.max", "closures.skip_placeholders", "closures.true_list"},
+                    "closures.source = none",
+                    "edges");
+    if (o.false_closures.share > 0.0) {
+      reject_disabled(given, {"false_closures.share"}, "closures.source = none", "edges");
+    }
+  }
 }
 
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& o,
                        const std::filesystem::path& file,
-                       const std::filesystem::path& true_list) {
+                       const std::filesystem::path& true_list,
+                       std::size_t* false_closures) {
   GraphParts parts = parts_of(graph, file);
   const Trajectory poses = initial_poses(graph, o.period);
   std::vector<Edge>& closures = parts.closures;
@@ -115,12 +136,14 @@ Problem derive_problem(const PoseGraph& graph,
       kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
   problem.planar = graph.planar;
-  add_false_closures(problem, o.false_closures);
+  const std::size_t added =
+      add_false_closures(problem, o.false_closures, identity(o, problem.keyframes));
+  if (false_closures != nullptr) *false_closures = added;
   return problem;
 }
 
 Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
-  check_combination(o);
+  check_combination(o, {});
   const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
   Sequence sequence;
   auto& inputs = sequence.provenance.inputs;
@@ -130,10 +153,12 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   };
   const std::filesystem::path file = open(o.path, "path");
   const PoseGraph graph = read_g2o(file, o.turns);
-  sequence.problem =
-      derive_problem(graph, o, file, open(lists ? o.true_list : "", "closures.true_list"));
+  std::size_t false_closures = 0;
+  sequence.problem = derive_problem(
+      graph, o, file, open(lists ? o.true_list : "", "closures.true_list"), &false_closures);
   if (!o.truth.empty()) {
-    sequence.reference = read_truth(open(o.truth, "truth"), stamps_of(graph, o.period), o);
+    sequence.provenance.reference = open(o.truth, "truth");
+    sequence.reference = read_truth(sequence.provenance.reference, stamps_of(graph, o.period), o);
   }
 
   const std::filesystem::path path(o.path);
@@ -143,7 +168,8 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);
-  sequence.provenance.closures = told(o, graph, sequence.problem.closures.size());
+  sequence.provenance.closures = told(o, graph, sequence.problem.closures.size(), false_closures);
+  sequence.provenance.oracle_closures = lists;
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");
   return sequence;

@@ -42,6 +42,7 @@ struct PoseGraphOptions {
   bool skip_placeholders = false;
   std::string true_list;
   FalseClosures false_closures;
+  std::string stream;  ///< shared noise; empty: noise of its own
   std::string sensor;
   std::string licence;
 };
@@ -66,22 +67,24 @@ void fields(PoseGraphOptions& o, Visit visit) {
         "drop closures measured as exactly the identity (robust_slam's unmeasured ones)");
   visit("closures.true_list", o.true_list, "file with `id id` a line: keep only these; empty: all");
   false_closure_fields(o.false_closures, visit);
+  noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "free text for the results");
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
-/// Throws OptionError.
-void check_combination(const PoseGraphOptions& options);
+/// No option is `given` that another one disables. Throws OptionError that names both.
+void check_combination(const PoseGraphOptions& options, const Params& given);
 
 /// Consecutive poses need an edge each where poses are left out between keyframes or the file has
 /// no vertices; otherwise the graph may have gaps. Keyframes are every k-th pose, the last one and
 /// both ends of every closure taken; odometry between them is composed from the file's edges. The
-/// poses between become frames. `true_list` is the found file, or empty. Throws InputError. O(poses
-/// + edges).
+/// poses between become frames. `true_list` is the found file, or empty. `false_closures`, if any,
+/// receives how many were added. Throws InputError. O(poses + edges).
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& options,
                        const std::filesystem::path& file,
-                       const std::filesystem::path& true_list = {});
+                       const std::filesystem::path& true_list = {},
+                       std::size_t* false_closures = nullptr);
 
 /// Throws OptionError, InputError.
 Sequence load_pose_graph(const PoseGraphOptions& options, const DataRoot& root);

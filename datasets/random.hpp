@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "datasets/core/se3.hpp"
+#include "datasets/noise_stream.hpp"
 
 namespace loopbench {
 
@@ -16,11 +17,13 @@ enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures 
 
 class Random {
  public:
-  Random(std::int64_t seed, Purpose purpose) {
-    const auto bits = static_cast<std::uint64_t>(seed);
+  Random(const NoiseStream& stream, Purpose purpose) {
+    const auto bits = static_cast<std::uint64_t>(stream.seed);
     std::seed_seq sequence{static_cast<std::uint32_t>(bits),
                            static_cast<std::uint32_t>(bits >> 32),
-                           static_cast<std::uint32_t>(purpose)};
+                           static_cast<std::uint32_t>(purpose),
+                           static_cast<std::uint32_t>(stream.identity),
+                           static_cast<std::uint32_t>(stream.identity >> 32)};
     bits_.seed(sequence);
   }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "datasets/disabled_options.hpp"
+
 namespace loopbench {
 namespace {
 
@@ -73,9 +75,54 @@ void require(bool holds, const std::string& option, const std::string& wanted) {
   if (!holds) throw OptionError(option, option + ": " + wanted);
 }
 
+std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
+  if (!o.stream.empty()) return noise_identity(o.stream);
+  return noise_identity(identity_text("trajectory", o, names_data), keyframes);
+}
+
+bool same_bits(const Trajectory& a, const Trajectory& b) {
+  return std::ranges::equal(a, b, [](const StampedPose& x, const StampedPose& y) {
+    return x.stamp == y.stamp && x.world_from_body.translation == y.world_from_body.translation &&
+           x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
+  });
+}
+
+void check_disabled(const TrajectoryOptions& o, const Params& given) {
+  const std::string source = "closures.source = " + to_text(o.closures);
+  const bool measured =
+      o.closures == ClosureSource::reference || o.closures == ClosureSource::estimate;
+  if (!measured) {
+    reject_disabled(given,
+                    {"closures.radius",
+                     "closures.angle",
+                     "closures.min_gap",
+                     "closures.max",
+                     "closures.max_interval"},
+                    source,
+                    "reference or estimate");
+  }
+  if (o.closures == ClosureSource::none) {
+    reject_disabled(given,
+                    {"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
+                    source,
+                    "file, reference or estimate");
+  }
+  if (o.closures == ClosureSource::none || o.closures == ClosureSource::reference) {
+    reject_disabled(given, {"closures.file"}, source, "file or estimate");
+  }
+  if (o.closures == ClosureSource::none && o.false_closures.share > 0.0) {
+    reject_disabled(given, {"false_closures.share"}, source, "file, reference or estimate");
+  }
+  if (o.reference.empty()) reject_disabled_by_missing(given, "reference_", "reference");
+  if (o.keyframes.rule == KeyframeRule::all) {
+    reject_disabled(
+        given, {"keyframes.value"}, "keyframes.rule = all", "every, seconds, metres or count");
+  }
+}
+
 }  // namespace
 
-void check_combination(const TrajectoryOptions& o) {
+void check_combination(const TrajectoryOptions& o, const Params& given) {
   require(!o.estimate.empty(), "estimate", "names no file");
   const bool takes_file =
       o.closures == ClosureSource::file || o.closures == ClosureSource::estimate;
@@ -89,9 +136,12 @@ void check_combination(const TrajectoryOptions& o) {
           "closures.scale",
           "local compares with another run, and closures.source is not estimate");
   pose_of(o.reference_body);  // refuses what is no pose
+  check_disabled(o, given);
 }
 
-Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
+Problem derive_problem(const TrajectoryInputs& in,
+                       const TrajectoryOptions& o,
+                       std::size_t* false_closures) {
   std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);
   std::vector<Edge> closures;
   if (o.closures == ClosureSource::file) {
@@ -111,8 +161,10 @@ Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
   problem.frames =
       in.frames.empty() ? std::move(poses.frames) : frames_between(problem.keyframes, in.frames);
   problem.odometry = odometry_edges(problem.keyframes, o.odometry);
+  const std::uint64_t noise = identity(o, problem.keyframes);
   if (o.closures == ClosureSource::reference) {
-    closures = with_noise(in_run(problem.keyframes, in.reference, o), o.closures_noise, o.seed);
+    closures =
+        with_noise(in_run(problem.keyframes, in.reference, o), o.closures_noise, {o.seed, noise});
   } else if (o.closures == ClosureSource::estimate) {
     closures = in_run(problem.keyframes, in.other_run, o);
     if (o.closures_scale == ClosureScale::local) {
@@ -122,12 +174,13 @@ Problem derive_problem(const TrajectoryInputs& in, const TrajectoryOptions& o) {
     }
   }
   problem.closures = std::move(closures);
-  add_false_closures(problem, o.false_closures);
+  const std::size_t added = add_false_closures(problem, o.false_closures, noise);
+  if (false_closures != nullptr) *false_closures = added;
   return problem;
 }
 
 Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
-  check_combination(o);
+  check_combination(o, {});
   Sequence sequence;
   const auto open = [&](const std::string& path, const std::string& option) {
     return sequence.provenance.inputs.emplace_back(InputPath{root.find(path), option}).path;
@@ -145,27 +198,30 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   TrajectoryInputs in;
   in.estimate = read(o.estimate, "estimate", o.format);
   in.frames = read(o.frames, "frames", o.format);
-  in.reference =
-      of_estimate_body(read(o.reference, "reference", o.reference_format), o.reference_body);
+  in.reference = read(o.reference, "reference", o.reference_format);
+  if (!o.reference.empty()) sequence.provenance.reference = sequence.provenance.inputs.back().path;
   if (o.closures == ClosureSource::estimate) {
     in.other_run = read(o.closures_file, "closures.file", o.format);
   }
+  const bool run_is_reference = o.closures == ClosureSource::estimate && !in.reference.empty() &&
+                                same_bits(in.other_run, in.reference);
+  in.reference = of_estimate_body(std::move(in.reference), o.reference_body);
   if (o.closures == ClosureSource::file) {
     in.closures = read_closure_file(open(o.closures_file, "closures.file"), o.closures_noise);
   }
 
   sequence.name = o.name.empty() ? default_name(o.estimate) : o.name;
-  sequence.problem = derive_problem(in, o);
+  std::size_t false_closures = 0;
+  sequence.problem = derive_problem(in, o, &false_closures);
   sequence.reference = std::move(in.reference);
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);
-  sequence.provenance.closures = told(o, sequence.problem.closures.size());
-  if (o.false_closures.share > 0.0) {
-    sequence.provenance.closures +=
-        fmt::format(", {:.0f} % of them false and added", 100.0 * o.false_closures.share);
-  }
-  sequence.provenance.oracle_closures = o.closures == ClosureSource::reference;
+  const std::size_t all = sequence.problem.closures.size();
+  sequence.provenance.closures = told(o, all) +
+                                 (run_is_reference ? ", which is the reference" : "") +
+                                 false_closures_text(o.false_closures, false_closures, all);
+  sequence.provenance.oracle_closures = o.closures == ClosureSource::reference || run_is_reference;
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");
   return sequence;

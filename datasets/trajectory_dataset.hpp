@@ -52,6 +52,7 @@ struct TrajectoryOptions {
   Reach reach;
   FalseClosures false_closures;
   std::int64_t seed = 1;
+  std::string stream;  ///< shared noise; empty: noise of its own
   std::string sensor;
   std::string licence;
 };
@@ -116,13 +117,15 @@ void fields(TrajectoryOptions& o, Visit visit) {
         "longest gap interpolated in reference or other run [s]",
         Between{0.0, 1e9});
   false_closure_fields(o.false_closures, visit);
-  visit("seed", o.seed, "of the noise on closures from the reference");
+  visit("seed", o.seed, "seed of the noise on closures from the reference");
+  noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "free text for the results");
   visit("licence", o.licence, "of the data, free text for the results");
 }
 
-/// Files that are needed are named, and fit what else is asked. Throws OptionError.
-void check_combination(const TrajectoryOptions& options);
+/// Files that are needed are named, and no option is `given` that another one disables. Throws
+/// OptionError that names both.
+void check_combination(const TrajectoryOptions& options, const Params& given);
 
 /// The files' content, read.
 struct TrajectoryInputs {
@@ -137,8 +140,11 @@ struct TrajectoryInputs {
 /// reference carry seeded noise; those from another run are that run's measurement as it is. A run
 /// of another scale (path lengths differ by a quarter or more: monocular) is refused, or with
 /// closures.scale local gives closures of Sim(3) (with_local_scale); closures.radius is in its
-/// unit. Throws OptionError, InputError. O(n log n).
-Problem derive_problem(const TrajectoryInputs& inputs, const TrajectoryOptions& options);
+/// unit. `false_closures`, if any, receives how many were added. Throws OptionError, InputError.
+/// O(n log n).
+Problem derive_problem(const TrajectoryInputs& inputs,
+                       const TrajectoryOptions& options,
+                       std::size_t* false_closures = nullptr);
 
 /// Throws OptionError, InputError.
 Sequence load_trajectory(const TrajectoryOptions& options, const DataRoot& root);

@@ -20,11 +20,20 @@ struct Choice {
 struct DatasetChoice {
   std::string label;  ///< name, plus the swept options
   Choice dataset;
+  std::string group = {};  ///< runs that are not independent, by name; empty: see source_of()
+};
+
+/// What a calibration file was learnt from; empty without one.
+struct TrainingData {
+  std::string calibration;           ///< the file
+  std::vector<std::string> labels;   ///< of the datasets
+  std::vector<std::string> sources;  ///< of their references or noise, see source_of()
 };
 
 struct MethodChoice {
   std::string label;
   std::vector<Choice> stages;  ///< one method; or corrector, smoother, or both in that order
+  TrainingData trained_on = {};
 };
 
 struct MetricChoice {
@@ -32,7 +41,8 @@ struct MetricChoice {
   Choice metric;
 };
 
-/// Cells whose sequence and method labels both match are left out (each a Pattern, of the whole label).
+/// Cells whose sequence and method labels both match are left out (each a Pattern, of the whole
+/// label).
 struct Exclusion {
   std::string dataset = ".*";
   std::string method = ".*";

@@ -19,12 +19,14 @@ struct InputPath {
 struct Provenance {
   std::string sensor;                   ///< "RGB-D", "stereo", "simulated"; empty: unknown
   std::string closures;                 ///< where the loop closures were taken from
-  bool oracle_closures = false;         ///< the closures were measured in the reference
+  bool oracle_closures = false;         ///< the reference measured or selected the closures
   std::string licence;                  ///< of the data; empty: unknown
   std::vector<InputPath> inputs;        ///< every file read
   std::vector<std::string> notes = {};  ///< what a user should know: skipped images, lost tracking
   /// Where the reference's own body was taken to sit, body_from_reference; empty: nobody could say.
   std::optional<Pose> body_from_reference = {};
+  std::filesystem::path reference = {};  ///< which of the inputs is the reference; empty: none
+  std::string noise = {};  ///< simulated data: stream and seed of all draws; empty: measured data
 };
 
 /// What a place recogniser thought of one pair of keyframes, accepted or not.

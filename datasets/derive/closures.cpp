@@ -50,8 +50,8 @@ std::vector<Edge> closures_in_run(const Trajectory& keyframes,
 
 std::vector<Edge> with_noise(std::vector<Edge> edges,
                              const ClosureNoise& noise,
-                             std::int64_t seed) {
-  Random random(seed, Purpose::closures);
+                             const NoiseStream& stream) {
+  Random random(stream, Purpose::closures);
   for (Edge& edge : edges) {
     const Twist error = random.normal_twist(noise.sigma_t, noise.sigma_r);
     edge.from_from_to = normalized(edge.from_from_to * exp_se3(error));

@@ -6,6 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 #include "datasets/derive/poses_at.hpp"
+#include "datasets/noise_stream.hpp"
 #include "datasets/revisits.hpp"
 
 namespace loopbench {
@@ -27,7 +28,9 @@ std::vector<Edge> closures_in_run(const Trajectory& keyframes,
                                   const ClosureNoise& noise);
 
 /// measured = true * exp(e), e ~ N(0, diag(sigma_t^2, sigma_r^2)), drawn in the order of edges.
-std::vector<Edge> with_noise(std::vector<Edge> edges, const ClosureNoise& noise, std::int64_t seed);
+std::vector<Edge> with_noise(std::vector<Edge> edges,
+                             const ClosureNoise& noise,
+                             const NoiseStream& stream);
 
 /// The run's path length over the estimate's, both through the stamps they share; 1 when there are
 /// fewer than two. Monocular runs have a scale each: then this is far from 1.

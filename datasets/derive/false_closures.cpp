@@ -1,5 +1,8 @@
 #include "datasets/derive/false_closures.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "datasets/derive/closures.hpp"
@@ -7,14 +10,24 @@
 
 namespace loopbench {
 
-std::size_t add_false_closures(Problem& problem, const FalseClosures& options) {
+std::size_t add_false_closures(Problem& problem,
+                               const FalseClosures& options,
+                               std::uint64_t noise_identity) {
+  constexpr std::size_t kLeastApart = 2;  // keyframes: neighbours are joined by odometry
   const std::size_t n = problem.keyframes.size();
   const std::size_t given = problem.closures.size();
-  if (given == 0 || n < 40) return 0;
+  if (given == 0 || options.share == 0.0) return 0;
+  if (n <= kLeastApart) {
+    throw InputError(
+        fmt::format("false_closures.share = {}: found {} keyframes, expected at least {}",
+                    options.share,
+                    n,
+                    kLeastApart + 1));
+  }
   const auto wanted = static_cast<std::size_t>(
       std::llround(static_cast<double>(given) * options.share / (1.0 - options.share)));
-  Random random(options.seed, Purpose::false_closures);
-  const std::size_t apart = n / 20;
+  Random random({options.seed, noise_identity}, Purpose::false_closures);
+  const std::size_t apart = std::max(kLeastApart, n / 20);
   for (std::size_t added = 0; added < wanted;) {
     const auto [from, to] = std::minmax({random.index(n), random.index(n)});
     Edge edge = problem.closures[random.index(given)];
@@ -26,6 +39,11 @@ std::size_t add_false_closures(Problem& problem, const FalseClosures& options) {
   }
   sort_closures(problem.closures);
   return wanted;
+}
+
+std::string false_closures_text(const FalseClosures& options, std::size_t added, std::size_t all) {
+  if (options.share == 0.0) return "";
+  return fmt::format(", {} of {} false and added", added, all);
 }
 
 }  // namespace loopbench

@@ -13,7 +13,8 @@
 namespace loopbench {
 
 /// `automatic` recognises the format by content, never by extension. Stamps of tum are seconds, or
-/// nanoseconds where they are 1e16 or more.
+/// nanoseconds where they are 1e16 or more, or where the first two are whole numbers at least 1e5
+/// apart (clocks of simulators start at 0).
 enum class Format { automatic, tum, kitti, euroc, g2o };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},

@@ -18,7 +18,31 @@ bool is_nanoseconds(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
+/// `50000000`, or `50000000.000000` as ORB-SLAM3 prints it.
+std::optional<std::int64_t> whole_stamp(std::string_view word) {
+  std::int64_t out = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), out);
+  const std::string_view tail(rest, static_cast<std::size_t>(word.data() + word.size() - rest));
+  const bool is_whole = error == std::errc{} && tail.find_first_not_of(".0") == tail.npos;
+  return is_whole ? std::optional(out) : std::nullopt;
+}
+
 }  // namespace
+
+bool has_small_nanoseconds(const TextFile& file) {
+  constexpr std::int64_t kShortestStep = 100'000;  // [ns]
+  TextFile again(file.name());
+  std::optional<std::int64_t> before;
+  for (int i = 0; i < 2; ++i) {
+    Line line;
+    if (!again.next(line)) return false;
+    const auto stamp = whole_stamp(Columns(again, line).word());
+    if (!stamp || *stamp < 0) return false;
+    if (before) return *stamp - *before >= kShortestStep;
+    before = stamp;
+  }
+  return false;
+}
 
 std::optional<Format> guess(const TextFile& file, const Line& line) {
   const std::string_view first = Columns(file, line).word();
@@ -40,7 +64,10 @@ Line first_line(TextFile& file) {
 
 Format recognise(TextFile& file) {
   const Line line = first_line(file);
-  if (is_nanoseconds(Columns(file, line).word()) && count_columns(file, line) == 8 &&
+  const std::string_view stamp = Columns(file, line).word();
+  const bool is_whole = stamp.find_first_not_of("0123456789") == stamp.npos;
+  const bool is_small = is_whole && has_small_nanoseconds(file);
+  if ((is_small || is_nanoseconds(stamp)) && count_columns(file, line) == 8 &&
       line.text.find(',') == std::string_view::npos) {
     throw file.error(
         line.number,
@@ -48,6 +75,7 @@ Format recognise(TextFile& file) {
         "qx qy qz qw (ORB-SLAM3's) or qw qx qy qz (EuRoC's), expected to be told format "
         "tum or euroc");
   }
+  if (is_small && count_columns(file, line) >= 8) return Format::euroc;
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShown = 40;
   const std::size_t count = count_columns(file, line);

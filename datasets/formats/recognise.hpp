@@ -16,6 +16,10 @@ std::optional<Format> guess(const TextFile& file, const Line& line);
 /// shows none, saying what it looks like and what is known.
 Format recognise(TextFile& file);
 
+/// Whether the first two stamps are whole numbers at least 1e5 apart: nanoseconds of a clock that
+/// starts near 0, as simulators write them, at 10 kHz or less. In seconds that is more than a day.
+bool has_small_nanoseconds(const TextFile& file);
+
 /// The line that next() will give. Refuses a file without one.
 Line first_line(TextFile& file);
 

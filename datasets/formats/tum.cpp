@@ -22,9 +22,9 @@ InputError wrong_row(const TextFile& file, const Line& line) {
 }
 
 /// Nanoseconds, as ORB-SLAM3 writes them in place of seconds, are whole or end in zeros.
-double stamp_of(const TextFile& file, const Line& line, double number) {
+double stamp_of(const TextFile& file, const Line& line, double number, bool small_nanoseconds) {
   constexpr double kNanoseconds = 1e16, kBeyond = 9e18;  // 1970 + 115 days, + 285 years
-  if (number < kNanoseconds || number > kBeyond) return number;
+  if (number > kBeyond || (number < kNanoseconds && !small_nanoseconds)) return number;
   const std::string_view word = Columns(file, line).word();
   std::int64_t whole = 0;
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
@@ -34,7 +34,7 @@ double stamp_of(const TextFile& file, const Line& line, double number) {
   return is_whole ? seconds_of(whole) : 1e-9 * number;
 }
 
-Trajectory read_tum_part(TextFile& file, Repeats repeats) {
+Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
   InOrder order(file, repeats);
@@ -46,7 +46,7 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats) {
       v[i] = columns.number(kTumColumns[i]);
     }
     if (!columns.done()) throw wrong_row(file, line);
-    v[0] = stamp_of(file, line, v[0]);
+    v[0] = stamp_of(file, line, v[0], small_nanoseconds);
     const Rotation rotation = unit_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
     order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
@@ -56,9 +56,10 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats) {
 }  // namespace
 
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
+  const bool small_nanoseconds = has_small_nanoseconds(file);
   return joined(read_in_parts(
       file,
-      [&](TextFile& part) { return read_tum_part(part, options.repeats); },
+      [&](TextFile& part) { return read_tum_part(part, options.repeats, small_nanoseconds); },
       [](const Trajectory& a, const Trajectory& b) { return a.back().stamp < b.front().stamp; }));
 }
 

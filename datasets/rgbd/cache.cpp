@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 
 namespace loopbench {
 namespace {

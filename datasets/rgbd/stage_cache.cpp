@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 
 namespace loopbench {
 namespace {

@@ -54,7 +54,7 @@ std::vector<Edge> measure_closures(const Trajectory& truth,
   const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
   std::vector<Edge> out;
 
-  Random noise(options.seed, Purpose::closures);
+  Random noise(noise_stream(options), Purpose::closures);
   const std::vector<Revisit> pairs =
       evenly(find_revisits(truth, same), static_cast<std::size_t>(closures.max));
   for (const auto& [from, to] : pairs) {
@@ -66,7 +66,7 @@ std::vector<Edge> measure_closures(const Trajectory& truth,
   const double share = closures.false_share;
   const auto wrong = static_cast<std::size_t>(
       std::llround(static_cast<double>(pairs.size()) * share / (1.0 - share)));
-  Random confusion(options.seed, Purpose::false_closures);
+  Random confusion(noise_stream(options), Purpose::false_closures);
   for (std::size_t k = 0; k < wrong; ++k) {
     const auto [from, to] = strangers(truth, same, confusion);
     // What a recogniser believes: here again, about as far off as true revisits are.

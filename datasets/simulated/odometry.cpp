@@ -49,7 +49,7 @@ Odometry measure_odometry(const Trajectory& truth,
                           const std::vector<std::size_t>& keyframes,
                           const SimulatedOptions& options) {
   const OdometryNoise& noise = options.noise;
-  Random random(options.seed, Purpose::odometry);
+  Random random(noise_stream(options), Purpose::odometry);
   const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
 
   Odometry out;
@@ -68,7 +68,7 @@ Odometry measure_odometry(const Trajectory& truth,
     const double sigma_t = sigma(noise.translation, noise.gain, step);
     const double sigma_r = sigma(noise.rotation, noise.gain, step);
     const Twist error = kept.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
-    const Twist bias = drift_of(options.drift, before_from_after, step);
+    const Twist bias = kept.cwiseProduct(drift_of(options.drift, before_from_after, step));
     const Pose measured = before_from_after * exp_se3(bias) * exp_se3(error);
 
     const Pose& before = out.frames.back().world_from_body;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/noise_stream.hpp"
 
 namespace loopbench {
 
@@ -64,6 +65,7 @@ struct SimulatedClosures {
 struct SimulatedOptions {
   SimulatedPath path = SimulatedPath::room;
   std::int64_t seed = 1;
+  std::string stream;  ///< shared noise; empty: noise of its own
   std::int64_t laps = 1;
   std::int64_t keyframes = 0;
   double frame_rate = 0.0;
@@ -78,7 +80,8 @@ struct SimulatedOptions {
 template <class Visit>
 void fields(SimulatedOptions& o, Visit visit) {
   visit("path", o.path, "closed-form path to follow");
-  visit("seed", o.seed, "of all random draws; each purpose has its own stream", Between{0});
+  visit("seed", o.seed, "seed of all random draws", Between{0});
+  noise_stream_field(o.stream, visit);
   visit("laps", o.laps, "how often the path is run through", Between{1});
   visit("keyframes", o.keyframes, "how many, evenly in time; 0: the path's own a lap", Between{0});
   visit("frame_rate", o.frame_rate, "of tracked frames [Hz]; 0: the path's own", Between{0, 1e4});
@@ -120,5 +123,15 @@ void fields(SimulatedOptions& o, Visit visit) {
   visit("closures.sigma_r", c.sigma_r, "noise [rad]", Between{0, 1});
   visit("closures.false_share", c.false_share, "false ones among all [-]", Between{0, 0.95});
 }
+
+/// Throws OptionError for options of which one disables another.
+void check_combination(const SimulatedOptions& options);
+
+/// Where all noise of the dataset comes from. Datasets that differ in any option but the seed draw
+/// independent noise, unless they name the same `stream`.
+NoiseStream noise_stream(const SimulatedOptions& options);
+
+/// The same in words: datasets with equal text share their noise.
+std::string noise_text(const SimulatedOptions& options);
 
 }  // namespace loopbench

@@ -52,7 +52,7 @@ void shake(Trajectory& poses, const SimulatedOptions& options) {
   const auto [sigma_t, sigma_r] = options.shake;
   if (sigma_t == 0.0 && sigma_r == 0.0) return;
   const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
-  Random random(options.seed, Purpose::shake);
+  Random random(noise_stream(options), Purpose::shake);
   for (auto& [stamp, pose] : poses) {
     const Twist noise = kept.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
     pose = normalized(pose * exp_se3(noise));
@@ -62,6 +62,7 @@ void shake(Trajectory& poses, const SimulatedOptions& options) {
 }  // namespace
 
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
+  check_combination(options);
   const Path path = path_of(options.path);
   const double seconds = path.duration * static_cast<double>(options.laps);
   const double frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
@@ -93,6 +94,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.provenance.sensor = "simulated";
   out.provenance.closures = out.problem.closures.empty() ? "none" : "simulated";
   out.provenance.licence = "none needed";
+  out.provenance.noise = noise_text(options);
   return out;
 }
 

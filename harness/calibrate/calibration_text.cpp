@@ -38,10 +38,13 @@ std::string calibration_yaml(const Calibration& c) {
   std::string out = fmt::format(
       "# Written by loopbench {} calibrate {}. Take it over in a config:\n"
       "#   - {{method: motion_drift, calibration: THIS_FILE}}\n"
-      "trained_on: {}\nnot_trained_on: {}\nedges_as_one: {}\n",
+      "trained_on: {}\n"
+      "# By these, results on the same references or noise are marked as an oracle's.\n"
+      "trained_on_sources: {}\nnot_trained_on: {}\nedges_as_one: {}\n",
       kVersion,
       c.config,
       list(trained),
+      list(c.sources),
       list(c.not_trained_on),
       c.every);
 

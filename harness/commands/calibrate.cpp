@@ -64,6 +64,8 @@ int calibrate(const CalibrateArguments& arguments) {
   for (const Cell& cell : wanted) {
     loaded.push_back(sequences.get(cell));
     labels.push_back(sweep.datasets[cell.dataset].label);
+    const std::string& source = sequences.facts(cell)->source;
+    if (std::ranges::count(out.sources, source) == 0) out.sources.push_back(source);
   }
   out.sequences = residuals_of(loaded, labels, out.every);
   if (out.sequences.empty()) {

@@ -7,12 +7,28 @@
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
+namespace {
 
-std::map<std::string, std::vector<Setting>> read_calibration(
-    const std::string& calibration,
-    const std::vector<std::string>& methods,
-    const std::string& config,
-    std::size_t line) {
+/// The list of words under a key; empty without it.
+std::vector<std::string> words(const YamlNode& root, const char* key, const std::string& file) {
+  const YamlNode* node = root.type == YamlNode::Type::map ? root.find(key) : nullptr;
+  std::vector<std::string> out;
+  if (node == nullptr) return out;
+  for (const YamlNode& item : node->list) {
+    if (item.type != YamlNode::Type::scalar) {
+      throw input_error(file, item.line, std::string(key) + ": expected a list of words");
+    }
+    out.push_back(item.text);
+  }
+  return out;
+}
+
+}  // namespace
+
+LearntSettings read_calibration(const std::string& calibration,
+                                const std::vector<std::string>& methods,
+                                const std::string& config,
+                                std::size_t line) {
   const auto refuse = [&](const std::string& what) {
     return input_error(config, line, "calibration: " + what);
   };
@@ -25,7 +41,10 @@ std::map<std::string, std::vector<Setting>> read_calibration(
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const YamlNode root = parse_yaml(text, path.string());
 
-  std::map<std::string, std::vector<Setting>> out;
+  LearntSettings out;
+  out.trained_on = {calibration,
+                    words(root, "trained_on", path.string()),
+                    words(root, "trained_on_sources", path.string())};
   std::string wanted;
   for (const std::string& method : methods) {
     wanted += (wanted.empty() ? "" : " or ") + method;
@@ -35,10 +54,10 @@ std::map<std::string, std::vector<Setting>> read_calibration(
       if (value.type != YamlNode::Type::scalar) {
         throw input_error(path.string(), value.line, name + ": expected a number");
       }
-      out[method].push_back({name, value.scalar, line, value.text});
+      out.by_method[method].push_back({name, value.scalar, line, value.text});
     }
   }
-  if (out.empty()) throw refuse(path.string() + " has no values for " + wanted);
+  if (out.by_method.empty()) throw refuse(path.string() + " has no values for " + wanted);
   return out;
 }
 

@@ -6,16 +6,21 @@
 #include <vector>
 
 #include "harness/config/grid.hpp"
+#include "harness/sweep.hpp"
 
 namespace loopbench {
+
+struct LearntSettings {
+  TrainingData trained_on;
+  std::map<std::string, std::vector<Setting>> by_method;
+};
 
 /// The settings under each of the `methods` that the calibration file has; at least one of them.
 /// The file is looked for beside the config, then as given. The settings' line is that of the
 /// config, so that a refusal tells where the file was named. Throws InputError `config:line:`.
-std::map<std::string, std::vector<Setting>> read_calibration(
-    const std::string& calibration,
-    const std::vector<std::string>& methods,
-    const std::string& config,
-    std::size_t line);
+LearntSettings read_calibration(const std::string& calibration,
+                                const std::vector<std::string>& methods,
+                                const std::string& config,
+                                std::size_t line);
 
 }  // namespace loopbench

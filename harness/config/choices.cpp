@@ -122,12 +122,17 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
                                            const Catalogue& catalogue) {
   const auto [name, label] = named(entry, "dataset", file);
   const DatasetEntry& known = found(find_dataset, catalogue, name, file, entry.line);
+  const YamlNode* group = entry.find("group");
+  if (group != nullptr && group->type != YamlNode::Type::scalar) {
+    throw input_error(file, group->line, "group: expected a word");
+  }
   std::vector<DatasetChoice> out;
-  for (GridPoint& point : spread(entry, {"dataset", "label"}, file)) {
+  for (GridPoint& point : spread(entry, {"dataset", "label", "group"}, file)) {
     keep_text(point.settings, known.options);
     const Params options = to_params(point.settings);
     located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
-    out.push_back({label_of(name, label, point), {name, options}});
+    out.push_back(
+        {label_of(name, label, point), {name, options}, group == nullptr ? "" : group->text});
   }
   return out;
 }
@@ -163,7 +168,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   if (const std::string why = refuses_stages(stages); !why.empty()) {
     throw input_error(file, entry.line, text + ": " + why);
   }
-  std::map<std::string, std::vector<Setting>> calibrated;
+  LearntSettings calibrated;
   if (const YamlNode* node = entry.find("calibration")) {
     if (node->type != YamlNode::Type::scalar) {
       throw input_error(file, node->line, "calibration: expected the name of a file");
@@ -182,10 +187,11 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       setting.value = own.front().value;
       by_stage[stage].push_back(own.front());
     }
-    MethodChoice choice{label_of(text, label, point), {}};
+    MethodChoice choice{label_of(text, label, point), {}, calibrated.trained_on};
     for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      for (const Setting& learnt : calibrated[stages[i]->name]) {  // what the entry says goes first
+      for (const Setting& learnt :
+           calibrated.by_method[stages[i]->name]) {  // what the entry says goes first
         if (std::ranges::count(by_stage[i], learnt.name, &Setting::name) == 0) {
           by_stage[i].push_back(learnt);
         }

@@ -12,6 +12,7 @@
 #include "harness/isolate/pack_result.hpp"
 #include "harness/isolate/worker_process.hpp"
 #include "harness/run/loading.hpp"
+#include "harness/run/oracle_method.hpp"
 
 namespace loopbench {
 namespace {
@@ -226,6 +227,7 @@ class IsolatedSweep {
   void finish(CellResult& result, std::size_t cell) {
     const std::size_t group = queue_.group_of(cell);
     result.facts = facts_[group];
+    flag_trained_on_judged(result, context_.sweep);
     if (queue_.finish(cell)) facts_[group].reset();  // nobody asks again
     finished_(result);
   }
@@ -260,10 +262,8 @@ class IsolatedSweep {
       if (loading && !idle) result.why += ", while loading its sequence";
     }
     result.worker = {true, context_.sweep.serial, context_.sweep.serial};
-    const std::vector<Choice>& stages = context_.sweep.methods[cell.method].stages;
-    result.oracle_method = std::ranges::any_of(stages, [&](const Choice& stage) {
-      return find_oracle(context_.catalogue, stage.name) != nullptr;
-    });
+    result.oracle_method =
+        is_shown_reference(context_.sweep.methods[cell.method], context_.catalogue);
     finish(result, first.cell);
   }
 

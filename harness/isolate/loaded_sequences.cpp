@@ -26,7 +26,7 @@ const LoadedSequences::Entry* LoadedSequences::find(const Cell& cell) {
 
 const LoadedSequences::Entry& LoadedSequences::load(const Cell& cell) {
   Sequence sequence = load_sequence(cell, context_.sweep, context_.catalogue, context_.root);
-  SequenceFacts facts = sequence_facts(sequence, context_.sweep.traces);
+  SequenceFacts facts = facts_of(sequence, cell, context_.sweep);
   entries_.push_front({cell.dataset, cell.repeat, std::move(sequence), std::move(facts)});
   std::size_t total = 0;
   for (auto entry = entries_.begin(); entry != entries_.end();) {

@@ -41,7 +41,7 @@ template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, SequenceFacts>
 void walk(Archive& a, T& facts) {
   a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
-  a(facts.content)(facts.group);
+  a(facts.content)(facts.source)(facts.group);
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 

@@ -82,6 +82,7 @@ const std::string& CellKeys::asked(const Cell& cell) {
   const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
+  if (!choice.group.empty()) fields.add(choice.group);  // it is kept with the sequence
   return place->second = fields.hashed();
 }
 

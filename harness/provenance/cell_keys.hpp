@@ -23,7 +23,7 @@ class CellKeys {
   /// The sweep and the catalogue must live as long.
   CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build);
 
-  /// What the config asks of a cell's sequence: a hash of dataset, options and seed.
+  /// What the config asks of a cell's sequence: a hash of dataset, options, seed and group.
   const std::string& asked(const Cell& cell);
 
   /// The same in words: "simulated: closures.angle=30.0, ...", every option, defaults included.

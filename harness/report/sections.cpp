@@ -86,8 +86,8 @@ std::string summary_html(const ReportContent& content) {
   }
   for (const std::string& name : measured) {
     out += "<p class=\"warning\">" + html_text(name) +
-           ": loop closures were measured in the reference (oracle), better than any "
-           "detector's.</p>\n";
+           ": loop closures were measured in the reference or selected by it (oracle), better than "
+           "any detector's.</p>\n";
   }
   return out;
 }

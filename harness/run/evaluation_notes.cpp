@@ -106,11 +106,12 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
                                                tracked_stamps(problem));
         const Coverage& covered = evaluation.coverage;
         if (covered.least() < kLittle) {
-          note_once(out,
-                   fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",
-                               covered.pairs,
-                               covered.possible,
-                               100.0 * covered.span));
+          note_once(
+              out,
+              fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",
+                          covered.pairs,
+                          covered.possible,
+                          100.0 * covered.span));
         }
         for (const std::string& note : evaluation_notes(sequence.reference, evaluation)) {
           note_once(out, note);

@@ -74,7 +74,7 @@ struct CellResult {
   std::optional<std::int64_t> allocations;   ///< calls for memory in one run of the verb
   Report report;                             ///< of the last timed run
   std::vector<ScoreResult> scores;
-  bool oracle_method = false;  ///< it was shown the reference
+  bool oracle_method = false;  ///< it was shown the reference, or was trained on it
   CellTrace trace;             ///< under the first protocol, dense if the sweep judges densely
   std::shared_ptr<const SequenceFacts> facts;  ///< null when its sequence never finished loading
 };

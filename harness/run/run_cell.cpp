@@ -9,6 +9,7 @@
 #include "harness/run/allocations.hpp"
 #include "harness/run/finite_output.hpp"
 #include "harness/run/incomplete.hpp"
+#include "harness/run/oracle_method.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 #include "metrics/losses.hpp"
@@ -203,9 +204,7 @@ CellResult run_cell(const Cell& cell,
   CellResult result;
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];
-  result.oracle_method = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
-    return find_oracle(catalogue, stage.name) != nullptr;
-  });
+  result.oracle_method = is_shown_reference(choice, catalogue);
   fenced(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <thread>
 
+#include "harness/run/oracle_method.hpp"
 #include "harness/run/run_cell.hpp"
 
 namespace loopbench {
@@ -61,6 +62,7 @@ void run_sweep(const Sweep& sweep,
     const auto sequence = sequences.get(cells[i]);
     CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
     result.facts = sequences.facts(cells[i]);
+    flag_trained_on_judged(result, sweep);
     if (jobs > 1) {  // the process is more than this cell
       result.cpu_seconds.clear();
       result.peak_memory = result.added_memory = result.allocations = std::nullopt;

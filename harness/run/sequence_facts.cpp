@@ -1,7 +1,11 @@
 #include "harness/run/sequence_facts.hpp"
 
+#include <fmt/format.h>
+
 #include "datasets/derive/poses_at.hpp"
 #include "harness/provenance/hash.hpp"
+#include "harness/run/oracle_closures.hpp"
+#include "harness/run/sequence_identity.hpp"
 #include "metrics/body_offset.hpp"
 #include "metrics/loop_detection.hpp"
 #include "metrics/position_only.hpp"
@@ -24,6 +28,23 @@ std::string reference_of_other_body(const Sequence& sequence) {
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
   const std::string text = offset ? other_body(*offset, stated.value_or(Pose{})) : "";
   return text.empty() || !stated ? text : text + "; reference_body of the dataset takes it in";
+}
+
+/// Closures that are the reference's own, whatever file they come from, are an oracle's.
+void flag_oracle_closures(SequenceFacts& out, const Sequence& sequence) {
+  if (out.oracle_closures) return;
+  const std::size_t all = sequence.problem.closures.size();
+  const std::size_t equal = closures_equal_to_reference(sequence);
+  if (!are_oracle_closures(equal, all)) return;
+  out.oracle_closures = true;
+  out.closures += fmt::format("; {} of {} equal the reference", equal, all);
+}
+
+std::string hash_of_reference(const Sequence& sequence, const std::vector<InputFile>& inputs) {
+  for (const InputFile& file : inputs) {
+    if (file.path == sequence.provenance.reference.string()) return file.hash;
+  }
+  return "";
 }
 
 }  // namespace
@@ -53,6 +74,10 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
               count(problem.closures),
               count(problem.frames),
               count(sequence.reference)};
+  flag_oracle_closures(out, sequence);
+  out.content = content_of(sequence);
+  out.source = source_of(sequence, hash_of_reference(sequence, out.inputs));
+  out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back(to_text(judge_detection(sequence, {})));

@@ -29,15 +29,16 @@ struct SequenceSize {
 struct SequenceFacts {
   std::vector<InputFile> inputs;
   std::string closures;          ///< where the loop closures came from
-  bool oracle_closures = false;  ///< they were measured in the reference
+  bool oracle_closures = false;  ///< the reference measured or selected them
   SequenceSize size;
-  std::string content;             ///< hash of problem and reference as they were loaded; or empty
-  std::string group;               ///< runs of one group are not independent; empty: its own
+  std::string content;  ///< hash of problem and reference: equal content is one observation
+  std::string source;   ///< recording or noise, see source_of()
+  std::string group;    ///< runs of one group are not independent: the source, or `group:NAME`
   std::vector<std::string> notes;  ///< what a user should know of how it was made
   SequenceTrace trace;             ///< empty when the sweep keeps no traces
 };
 
-/// Reads the inputs again to hash them. Throws InputError.
+/// Reads the inputs again to hash them. `group` is the source. Throws InputError.
 SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
 
 /// The files with their sizes and hashes; `missing` for one that is not there and that its sequence

@@ -55,11 +55,7 @@ std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
   if (!slot.sequence) {
     slot.sequence =
         std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
-    SequenceFacts facts = sequence_facts(*slot.sequence, sweep_.traces);
-    for (std::string& note : evaluation_notes(*slot.sequence, sweep_)) {
-      facts.notes.push_back(std::move(note));
-    }
-    slot.facts = std::make_shared<const SequenceFacts>(std::move(facts));
+    slot.facts = std::make_shared<const SequenceFacts>(facts_of(*slot.sequence, cell, sweep_));
     tell(sweep_.datasets[cell.dataset].label, slot.facts->notes);
   }
   return slot.sequence;
@@ -75,6 +71,14 @@ void Sequences::done(const Cell& cell) {
   Slot& slot = slots_.at({cell.dataset, cell.repeat});
   const std::lock_guard lock(slot.mutex);
   if (--slot.waiting == 0) slot.sequence.reset();
+}
+
+SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
+  SequenceFacts out = sequence_facts(sequence, sweep.traces);
+  const std::string& group = sweep.datasets[cell.dataset].group;
+  if (!group.empty()) out.group = "group:" + group;
+  for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));
+  return out;
 }
 
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat) {

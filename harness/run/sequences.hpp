@@ -24,6 +24,10 @@ Sequence load_sequence(const Cell& cell,
                        const Catalogue& catalogue,
                        const DataRoot& root);
 
+/// What is kept about the sequence of a cell; its dataset's `group` goes before the source. Throws
+/// InputError.
+SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep);
+
 /// The dataset's options in full, defaults included, with the seed of this repeat.
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
 

@@ -23,7 +23,7 @@ inline constexpr const char* kSchema = R"sql(
     PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- what it is, and how much of it a method is given
     sequence_key TEXT PRIMARY KEY,     -- hash of asked, of the content of its inputs and the build
-    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options
+    asked TEXT NOT NULL,               -- hash of a dataset's name and of all its options, and group
     options TEXT NOT NULL,             -- dataset: all of its options, defaults included
     keyframes INTEGER NOT NULL,
     odometry INTEGER NOT NULL,         -- edges
@@ -49,8 +49,8 @@ inline constexpr const char* kSchema = R"sql(
     dataset_options TEXT NOT NULL,     -- those that differ from the defaults
     method_options TEXT NOT NULL,
     closures TEXT NOT NULL,            -- where the loop closures were taken from
-    oracle_closures INTEGER NOT NULL,  -- 1: they were measured in the reference
-    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference
+    oracle_closures INTEGER NOT NULL,  -- 1: measured in the reference, or selected by it
+    oracle INTEGER NOT NULL,           -- 1: the method was shown the reference or trained on it
     worker TEXT NOT NULL,              -- isolated | in process, then serial, pinned where it was
     runs INTEGER NOT NULL,             -- timed runs of the method's verb
     seconds_median REAL NOT NULL,      -- wall time of one

@@ -106,7 +106,7 @@ void bend(Trajectory& poses, const Edge& loop, const std::vector<double>& shares
     Pose& pose = poses[i].world_from_body;
     const Rotation part = exp_so3(shares[i] * phi);
     pose = normalized(
-        {part * pose.rotation, part * (pose.translation - pivot) + pivot + shares[i] * shift});
+        Pose{part * pose.rotation, part * (pose.translation - pivot) + pivot + shares[i] * shift});
   }
 }
 

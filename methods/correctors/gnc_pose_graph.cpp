@@ -11,13 +11,16 @@
 namespace loopbench {
 namespace {
 
+/// Rough solutions of one minimum differ by less: the first of them is kept. [-]
+constexpr double kLower = 0.999;
+
 /// Closures whose weights are one half at most are rejected.
-std::size_t kept(const std::vector<double>& weights) {
+std::size_t kept_count(const std::vector<double>& weights) {
   return static_cast<std::size_t>(
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
 }
 
-bool changes_scale(const Problem& problem) {
+bool any_edge_has_scale(const Problem& problem) {
   const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
   return std::ranges::any_of(problem.odometry, scaled) ||
          std::ranges::any_of(problem.closures, scaled);
@@ -27,7 +30,7 @@ bool changes_scale(const Problem& problem) {
 std::vector<std::size_t> agreeing(const Problem& problem) {
   const Consistency rules;
   if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
-  if (!chain_fault(problem).empty() || changes_scale(problem)) return {};
+  if (!chain_fault(problem).empty() || any_edge_has_scale(problem)) return {};
   std::vector<std::size_t> found = consistent_closures(problem, rules).kept;
   if (found.size() < 2) found.clear();
   return found;
@@ -90,8 +93,10 @@ class GncRuns {
     out.weights = result.weights;
     out.rounds = result.rounds;
     const double cost = cost_of(out.poses);
+    // From a rough solution a fine solver stops early: its first step hardly lowers the cost.
+    out.poses = std::move(start.poses);
     const int iterations = best_.iterations + out.iterations;
-    if (cost < least_) {
+    if (cost < kLower * least_) {
       best_ = std::move(out);
       least_ = cost;
     }
@@ -124,15 +129,17 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
   const GncSolution out = report.time("graduate", [&] {
     GncRuns runs(of);
     if (!consistent.empty()) runs.from_consistent(consistent);
-    if (2 * kept(runs.best().weights) < closures || consistent.empty()) {
+    if (2 * kept_count(runs.best().weights) < closures || consistent.empty()) {
       runs.from_all(of.initial(of.problem));
     }
-    if (consistent.empty() && of.consistent) runs.from_all(tree_values(of.problem));
+    const bool rejects = kept_count(runs.best().weights) < closures;
+    if (consistent.empty() && of.consistent && rejects) runs.from_all(tree_values(of.problem));
     return runs.best();
   });
-  if (2 * kept(out.weights) < closures) {
-    report.notes.push_back("graduated non-convexity kept " + std::to_string(kept(out.weights)) +
-                           " of " + std::to_string(closures) +
+  if (2 * kept_count(out.weights) < closures) {
+    report.notes.push_back("graduated non-convexity kept " +
+                           std::to_string(kept_count(out.weights)) + " of " +
+                           std::to_string(closures) +
                            " closures: odometry covariances that are too small have this effect, "
                            "too");
   }

@@ -7,7 +7,7 @@ namespace loopbench {
 namespace {
 
 constexpr double kStiffest = 1e6;
-constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kStiffSlack = 1.0 + 1e-9;
 
 /// The bound on each diagonal entry of a closure's information; none without odometry.
 Twist bound_of(const Problem& problem) {
@@ -25,7 +25,7 @@ Twist bound_of(const Problem& problem) {
 
 bool is_stiff(const Problem& problem) {
   if (problem.odometry.empty()) return false;
-  const Twist bound = kRounding * bound_of(problem);
+  const Twist bound = kStiffSlack * bound_of(problem);
   return std::ranges::any_of(problem.closures, [&](const Edge& closure) {
     return (closure.information.diagonal().array() > bound.array()).any();
   });

@@ -48,9 +48,12 @@ LeverEstimate estimate_at(const std::vector<LeverEquation>& all, double sigma, d
   return {factor.solve(right), square * factor.solve(first).topRows<3>()};
 }
 
-/// Keeps of c what is sure along the axes of its covariance.
+/// Keeps of c what is sure along the axes of its covariance. An axis is left out where rotation
+/// tells a thousand times less of it than of the best one: a planar motion has no height, and what
+/// little its attitude errs would be divided by next to nothing.
 LeverFit sure_part(const LeverEstimate& found) {
-  constexpr double kSure = 3.0;  // deviations
+  constexpr double kSure = 3.0;   // deviations
+  constexpr double kWorst = 1e3;  // deviations of the best axis
   const Eigen::SelfAdjointEigenSolver<Matrix3> axes(found.covariance);
   Vector3 sure = Vector3::Zero();
   Vector3 variance = Vector3::Zero();
@@ -59,6 +62,7 @@ LeverFit sure_part(const LeverEstimate& found) {
     const double square = std::max(0.0, axes.eigenvalues()[i]);
     const double along = axis.dot(found.x.head<3>());
     if (along * along < kSure * kSure * square) continue;
+    if (square > kWorst * kWorst * std::max(0.0, axes.eigenvalues()[0])) continue;
     sure += along * axis;
     variance += square * axis.cwiseAbs2();
   }

@@ -74,7 +74,7 @@ TEST(MeasuredClosures, SkipKeyframesTheRunDoesNotKnow) {
 
 TEST(MeasuredClosures, NoiseHasTheStatedSizeAndSeed) {
   const std::vector<Edge> exact(20000, Edge{0, 1, {}, Matrix6::Identity()});
-  const auto noisy = with_noise(exact, {0.05, 0.02}, 7);
+  const auto noisy = with_noise(exact, {0.05, 0.02}, {7});
   Twist variance = Twist::Zero();
   for (const Edge& edge : noisy) {
     variance += log_se3(edge.from_from_to).cwiseAbs2() / static_cast<double>(noisy.size());
@@ -82,8 +82,8 @@ TEST(MeasuredClosures, NoiseHasTheStatedSizeAndSeed) {
   // Relative standard error of a variance: sqrt(2 / 20000) = 0.01.
   for (int i = 0; i < 6; ++i)
     EXPECT_NEAR(std::sqrt(variance[i]) / (i < 3 ? 0.05 : 0.02), 1.0, 0.02);
-  const auto again = with_noise(exact, {0.05, 0.02}, 7);
-  const auto other = with_noise(exact, {0.05, 0.02}, 8);
+  const auto again = with_noise(exact, {0.05, 0.02}, {7});
+  const auto other = with_noise(exact, {0.05, 0.02}, {8});
   EXPECT_EQ(noisy[99].from_from_to.translation, again[99].from_from_to.translation);
   EXPECT_NE(noisy[99].from_from_to.translation, other[99].from_from_to.translation);
 }

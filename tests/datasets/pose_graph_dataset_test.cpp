@@ -218,6 +218,19 @@ TEST(PoseGraphDataset, LoadsAPlanarGraphWithATruthOfEdges) {
   EXPECT_EQ(sequence.problem.closures[0].from, 0u);
 }
 
+TEST(PoseGraphDataset, ClosuresSelectedByATrueListAreOracles) {
+  const TemporaryFolder folder;
+  folder.file("vo.g2o", kSquare);
+  folder.file("true.txt", "3 0\n");
+  Params given{{"path", "vo.g2o"}, {"closures.true_list", "true.txt"}};
+  const Sequence sequence = load(folder.path(), given);
+  EXPECT_TRUE(sequence.provenance.oracle_closures);
+  EXPECT_EQ(sequence.provenance.closures,
+            "edges of vo.g2o (1), only those that are true according to true.txt");
+  given["closures.source"] = "none";
+  EXPECT_FALSE(load(folder.path(), given).provenance.oracle_closures);
+}
+
 TEST(PoseGraphDataset, TurnsKittiCameraTruthIntoVehicleAxes) {
   const TemporaryFolder folder;
   folder.file("vo.g2o", kSquare);

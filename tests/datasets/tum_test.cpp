@@ -115,6 +115,44 @@ TEST(Tum, StampsInNanosecondsAreSeconds) {
   EXPECT_EQ(read_trajectory(whole, told)[0].world_from_body.rotation.z(), 0.8);
 }
 
+TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
+  const Scratch scratch;
+  // Starts at 0, 20 Hz; qw comes first.
+  const auto csv = scratch.file("a.csv",
+                                "#timestamp,px,py,pz,qw,qx,qy,qz\n"
+                                "0,1,2,3,0.8,0,0,0.6\n50000000,4,5,6,0.8,0,0,0.6\n");
+  EXPECT_EQ(recognise(csv), Format::euroc);
+  const Trajectory poses = read_trajectory(csv);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[1].stamp, 0.05);
+  EXPECT_EQ(poses[1].world_from_body.rotation.w(), 0.8);
+  const auto wide = scratch.file("b.csv",
+                                 "1000000000,1,2,3,0.8,0,0,0.6,0,0,0\n"
+                                 "1005000000,4,5,6,0.8,0,0,0.6,0,0,0\n");
+  EXPECT_EQ(read_trajectory(wide)[1].stamp, 1.005);
+  const auto blanks = scratch.file("c.txt", "0 1 2 3 0 0 0.6 0.8\n50000000 4 5 6 0 0 0.6 0.8\n");
+  EXPECT_NE(refusal([&] { read_trajectory(blanks); }).find("whole nanoseconds"), std::string::npos);
+  ReadOptions told;
+  told.format = Format::tum;
+  EXPECT_EQ(read_trajectory(blanks, told)[1].stamp, 0.05);
+  // As ORB-SLAM3 prints them.
+  const auto zeros =
+      scratch.file("d.txt", "0.000000 1 2 3 0 0 0.6 0.8\n50000000.000000 4 5 6 0 0 0.6 0.8\n");
+  EXPECT_EQ(read_trajectory(zeros)[1].stamp, 0.05);
+}
+
+TEST(Tum, WholeSecondsStaySeconds) {
+  const Scratch scratch;
+  for (const char* text : {"0,1,2,3,0,0,0.6,0.8\n1,4,5,6,0,0,0.6,0.8\n",
+                           "1403636579 1 2 3 0 0 0.6 0.8\n1403636580 4 5 6 0 0 0.6 0.8\n"}) {
+    const auto file = scratch.file("a.csv", text);
+    EXPECT_EQ(recognise(file), Format::tum);
+    const Trajectory poses = read_trajectory(file);
+    EXPECT_EQ(poses[1].stamp - poses[0].stamp, 1.0);
+    EXPECT_EQ(poses[1].world_from_body.rotation.w(), 0.8);
+  }
+}
+
 TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
   const Scratch scratch;
   const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n");

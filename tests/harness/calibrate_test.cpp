@@ -149,6 +149,7 @@ TEST(Calibrate, WritesWhatAConfigTakesOver) {
   Calibration calibration;
   calibration.config = "c.yaml";
   calibration.sequences = {drawn(1, 40, 4e-4, 1e-4, 2e-3)};
+  calibration.sources = {"reference:01", "noise:02"};
   calibration.not_trained_on = {"other \"one\""};
   calibration.rungs = climb(calibration.sequences);
   for (const Rung& r : calibration.rungs) {
@@ -169,6 +170,9 @@ TEST(Calibrate, WritesWhatAConfigTakesOver) {
   EXPECT_EQ(options.size(), options_of(calibration.rungs.back()).size());
   EXPECT_TRUE(sweep.methods[0].stages[1].options.empty());
   EXPECT_EQ(sweep.methods[0].label, "motion_drift + polyline (noise.t.per_metre=0.5)");
+  EXPECT_EQ(sweep.methods[0].trained_on.calibration, "learnt.yaml");
+  EXPECT_EQ(sweep.methods[0].trained_on.labels, std::vector<std::string>{"drawn 1"});
+  EXPECT_EQ(sweep.methods[0].trained_on.sources, calibration.sources);
 
   const auto why = [&](const std::string& entry) -> std::string {
     try {

@@ -33,8 +33,9 @@ class CellIdentity : public TinyStore {
     known_.datasets.push_back(dataset<PairOptions>("pair", "two files", load_pair));
   }
   std::vector<std::string> hashes() const {
+    const std::vector<InputFile> inputs = read_inputs(file_).at("f");
     std::vector<std::string> out;
-    for (const InputFile& input : read_inputs(file_).at("f")) out.push_back(input.hash);
+    for (const InputFile& input : inputs) out.push_back(input.hash);
     return out;
   }
   double rmse() const { return read_records(file_).at(0).statistics.rmse; }
@@ -120,6 +121,16 @@ TEST_F(CellIdentity, ARetryIsRecordedWithItsMachine) {
   EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee\non another machine");
   run(text, Retry::all);
   EXPECT_EQ(read_provenance(file_).at("commit"), "on another machine");
+}
+
+TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
+  for (const std::string group : {"one", "two", "one"}) {
+    run("datasets: [{dataset: line, label: f, group: " + group +
+        "}, {dataset: line, label: g, group: other}]\nmethods: [straight]\nmetrics: [ate]\n");
+    const std::vector<Record> records = read_records(file_);
+    EXPECT_EQ(records.front().group, "group:" + group);
+    EXPECT_EQ(records.back().group, "group:other");
+  }
 }
 
 TEST_F(CellIdentity, ProvenanceIsThatOfTheCellsWhichAreShown) {

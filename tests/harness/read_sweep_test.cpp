@@ -166,7 +166,12 @@ TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
   EXPECT_EQ(refusal("dataset: pose_graph, truth: gt.g2o"),
             "c.yaml:2: pose_graph: path: names no file");
   EXPECT_EQ(refusal("dataset: rgbd, label: room"), "c.yaml:2: rgbd: path: names no folder");
-  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {x: 1}"), "");
+  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference: r.txt, "
+                    "reference_body: {x: 1}"),
+            "");
+  EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {x: 1}"),
+            "c.yaml:2: trajectory: reference_body.x: has no effect without reference, which names "
+            "no file");
 }
 
 }  // namespace

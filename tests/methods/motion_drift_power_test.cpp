@@ -70,7 +70,7 @@ TEST(MotionDriftPower, NoiseByDistanceGainsWhatTheBridgeOfVariancesSays) {
   double dual = 0.0;
   const int seeds = 300;
   for (int seed = 1; seed <= seeds; ++seed) {
-    Random random(seed, Purpose::odometry);
+    Random random({seed}, Purpose::odometry);
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(random.normal3().x() * 0.1 * std::sqrt(step));
     const Problem problem = walk_along_x(steps, errors);
@@ -112,7 +112,7 @@ TEST(MotionDriftPower, SteadyDriftGainsWhatItsPosteriorSays) {
   double dual = 0.0;
   const int seeds = 300;
   for (int seed = 1; seed <= seeds; ++seed) {
-    Random random(seed, Purpose::odometry);
+    Random random({seed}, Purpose::odometry);
     const double rate = 0.01 * random.normal3().x();
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(rate * step + 0.01 * random.normal3().x());
@@ -134,7 +134,7 @@ struct Laps {
 };
 
 Laps laps(int seed, double drift) {
-  Random random(seed, Purpose::odometry);
+  Random random({seed}, Purpose::odometry);
   Laps out;
   const double step = 2.0 * std::numbers::pi / 40.0;
   const Pose true_step{exp_so3({0, 0, step}), Vector3(20.0 * step, 0, 0)};

@@ -63,6 +63,41 @@ TEST(MotionDriftWeakClosures, ChangeNoAverageOverTheLoops) {
   }
 }
 
+/// The prior medians with all terms, with default options.
+MotionModel medians_of(const Problem& problem) {
+  const MotionModel terms{{Cause::noise, Half::translation, Growth::distance},
+                          {Cause::noise, Half::rotation, Growth::time},
+                          {Cause::stated, Half::rotation, Growth::edge},
+                          {Cause::closures, Half::translation, Growth::edge, 1.0},
+                          {Cause::closures, Half::rotation, Growth::edge, 1.0}};
+  return prior_of(terms, {}, problem, motions(problem), gap_of(problem)).hypotheses.back().medians;
+}
+
+TEST(MotionDriftWeakClosures, DoNotShrinkTheCovarianceOfTheOthers) {
+  const Problem problem = drive();
+  const MotionModel without = medians_of(problem);
+  const MotionModel with = medians_of(with_weak_closure(problem, 1e5));
+  ASSERT_EQ(without.size(), with.size());
+  for (std::size_t j = 0; j < with.size(); ++j) {
+    EXPECT_NEAR(with[j].value, without[j].value, 0.1 * without[j].value) << name_of(with[j]);
+  }
+  EXPECT_EQ(with[3].value, 1.0);  // before: 1e-8, as if all closures were stated in another unit
+}
+
+TEST(MotionDriftWeakClosures, SigmasInAnotherUnitLeaveTheNoiseWhereTheGapsAre) {
+  const Problem problem = drive();
+  Problem scaled = problem;
+  for (std::vector<Edge>* edges : {&scaled.odometry, &scaled.closures}) {
+    for (Edge& edge : *edges) edge.information *= 1e-6;
+  }
+  const MotionModel stated = medians_of(problem);
+  const MotionModel found = medians_of(scaled);
+  for (std::size_t j = 0; j < 2; ++j) {  // before: a million times as much
+    EXPECT_LT(found[j].value, 100.0 * stated[j].value) << name_of(stated[j]);
+    EXPECT_GT(found[j].value, 0.01 * stated[j].value) << name_of(stated[j]);
+  }
+}
+
 TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
   Problem problem = drive();
   const std::vector<EdgeMotion> moved = motions(problem);

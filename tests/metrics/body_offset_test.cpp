@@ -146,6 +146,24 @@ TEST(BodyOffset, IsNotSteadyDrift) {
 }
 
 // Who looks at a thing while going round it moves as a lever would.
+/// Turning in a plane says nothing of the height, which pitch drift once put 10^4 m below it.
+TEST(BodyOffset, HasNoHeightInAPlane) {
+  const Pose pitch = exp_se3(twist(Vector3::Zero(), {0.0, 5e-4, 0.0}));
+  Trajectory truth, estimate;
+  Pose pose, pitched;
+  for (int i = 0; i < 600; ++i) {
+    truth.push_back({0.1 * i, pose});
+    estimate.push_back({0.1 * i, pitched});
+    const Pose step = exp_se3(twist({0.5, 0.0, 0.0}, {0.0, 0.0, 0.05 * (i / 40 % 3 - 0.7)}));
+    pose = normalized(pose * step);
+    pitched = normalized(pitched * step * pitch);
+  }
+  const auto offset = body_offset(truth, estimate, {});
+  ASSERT_TRUE(offset);
+  EXPECT_LT(offset->fit.body_from_reference.translation.norm(), 1.0);
+  EXPECT_EQ(other_body(*offset, {}), "");
+}
+
 TEST(BodyOffset, IsNotTheUnitOfLength) {
   std::mt19937_64 random(5);
   for (const double unit : {0.5, 0.9, 1.1, 2.0}) {

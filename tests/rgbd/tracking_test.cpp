@@ -19,7 +19,7 @@ const Pose kTruth{exp_so3({0.1, -0.2, 0.3}), {0.2, -0.1, 0.4}};
 
 /// Points before the camera at kTruth, seen without error, every `wrong`-th elsewhere.
 std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
-  Random random(5, Purpose::odometry);
+  Random random({5}, Purpose::odometry);
   const Camera camera;
   std::vector<Observation> out;
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ TEST(CameraPose, InformationTellsTheScatterOfThePose) {
   // Measured again and again with the noise that the options state, e' information e has mean 6.
   PoseOptions options;
   options.information_scale = 1.0;
-  Random random(9, Purpose::odometry);
+  Random random({9}, Purpose::odometry);
   double sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
@@ -129,7 +129,7 @@ TEST(NormalisedGap, IsTheGapOverItsVarianceWorkedByHand) {
 }
 
 TEST(NormalisedGap, IsOneOnAverageWhenTheInformationIsRight) {
-  Random random(3, Purpose::odometry);
+  Random random({3}, Purpose::odometry);
   const auto noise = [&] { return twist(0.01 * random.normal3(), 0.01 * random.normal3()); };
   const Matrix6 information = Matrix6::Identity() * 1e4;
   const Pose step{exp_so3({0.1, 0.2, -0.1}), {0.3, 0.1, -0.2}};

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "datasets/hash.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
-#include "datasets/rgbd/hash.hpp"
 
 namespace loopbench {
 namespace {
@@ -88,6 +88,7 @@ class FolderSource final : public RgbdSource {
       out.inputs.push_back({pair.depth});
     }
     out.notes = recording_.notes;
+    out.reference = recording_.reference_file;
     return out;
   }
 

@@ -76,6 +76,7 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
     return out;
   }
   out.lists.push_back(truth);
+  out.reference_file = truth;
   ReadOptions how;
   how.format = Format::tum;
   for (const StampedPose& pose : read_trajectory(truth, how)) {

@@ -16,6 +16,7 @@ struct Recording {
   Camera camera = {};
   std::vector<ImagePair> frames = {};
   Trajectory reference = {};                      ///< world_from_camera; may be empty
+  std::filesystem::path reference_file = {};      ///< empty: none, or a file for each frame
   std::vector<std::filesystem::path> lists = {};  ///< every text file read
   std::vector<std::string> notes = {};
 };

@@ -64,6 +64,7 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
     how.format = Format::tum;
     how.repeats = Repeats::keep_first;
     out.reference = read_trajectory(truth, how);
+    out.reference_file = truth;
   } else {
     out.notes.emplace_back("no groundtruth.txt: nothing can be judged against a reference");
   }

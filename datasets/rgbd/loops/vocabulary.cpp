@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 
 namespace loopbench {
 namespace {

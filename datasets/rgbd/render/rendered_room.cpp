@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "datasets/core/params.hpp"
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 #include "datasets/rgbd/render/render.hpp"
 #include "datasets/rgbd/render/scene.hpp"
 #include "datasets/rgbd/render/sensor.hpp"
@@ -74,6 +74,8 @@ class RenderedRoom final : public RgbdSource {
     Provenance out;
     out.sensor = "RGB-D, rendered";
     out.licence = "none needed";
+    // Room, textures and noise are drawn from the seed alone, so that other settings see the same.
+    out.noise = "rendered_room; seed " + std::to_string(options_.seed);
     return out;
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 
 namespace loopbench {
 namespace {

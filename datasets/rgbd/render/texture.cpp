@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/rgbd/hash.hpp"
+#include "datasets/hash.hpp"
 
 namespace loopbench {
 namespace {

@@ -100,8 +100,8 @@ void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, R
   report.count("chance.steady", steady);
 }
 
-/// One solve of the average costs as much as every model's dense factorisation: with more closures
-/// the models differ less, and fewer do.
+/// An iteration of the average factorises one dense matrix per model. With many closures the models
+/// differ less, and fewer suffice.
 std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::size_t closures) {
   constexpr std::size_t kFewClosures = 16;
   constexpr std::size_t kEnough = 64;
@@ -117,7 +117,8 @@ void note_large_move(const LargestMove& move, Report& report) {
   report.count("largest_move", move.moved);
   report.count("explained_move", move.explained);
   if (!(move.moved > kLarge * move.explained + 1e-6)) return;
-  const auto rounded = [](double metres) {
+  const auto rounded = [](double metres) -> std::string {
+    if (metres < 0.005) return "0.00";
     const double unit = std::pow(10.0, std::floor(std::log10(metres)) - 1.0);
     std::string text = std::to_string(std::round(metres / unit) * unit);
     return text.substr(0, text.find('.') + (metres < 10.0 ? 3 : 0));

@@ -1,0 +1,27 @@
+#include "datasets/noise_stream.hpp"
+
+#include "datasets/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::uint64_t kNamed = 1;
+constexpr std::uint64_t kOwn = 2;
+
+}  // namespace
+
+std::uint64_t noise_identity(const std::string& stream) { return mixed(kNamed, stream); }
+
+std::uint64_t noise_identity(const std::string& text, const Trajectory& poses) {
+  std::uint64_t out = mixed(kOwn, text);
+  for (const auto& [stamp, pose] : poses) {
+    const Vector3& t = pose.translation;
+    const Rotation& q = pose.rotation;
+    for (const double value : {stamp, t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()}) {
+      out = mixed(out, std::bit_cast<std::uint64_t>(value));
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,79 @@
+#include "harness/run/oracle_method.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "harness/config/read_sweep.hpp"
+#include "harness/isolate/isolated_sweep.hpp"
+#include "harness/run/run_sweep.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+SequenceFacts with_source(const std::string& source) {
+  SequenceFacts out;
+  out.source = source;
+  out.group = "group:other";
+  return out;
+}
+
+TEST(OracleMethod, IsOneTrainedOnTheJudgedReference) {
+  MethodChoice method{"learnt", {}, {"c.yaml", {"kitti 06"}, {"reference:06", "reference:07"}}};
+  const auto why = [&](const std::string& label, const std::string& source) {
+    return trained_on_judged(method, {label, {}}, with_source(source));
+  };
+  EXPECT_EQ(why("another name", "reference:07"),
+            "c.yaml was trained on the reference of this sequence");
+  EXPECT_EQ(why("kitti 06", "reference:00"), "");  // the name alone says nothing
+  method.trained_on.sources.clear();               // a file of an older version
+  EXPECT_EQ(why("kitti 06", "reference:00"), "c.yaml was trained on a dataset with this label");
+  EXPECT_EQ(why("another name", "reference:06"), "");
+  method.trained_on = {};
+  EXPECT_EQ(why("kitti 06", "reference:06"), "");
+}
+
+TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
+  const TemporaryFolder folder;
+  const Catalogue known = catalogue({});
+  const auto sweep_with = [&](const std::string& sources) {
+    folder.file("learnt.yaml",
+                "trained_on: [\"a\"]\ntrained_on_sources: [" + sources +
+                    "]\nmotion_drift:\n  noise.t.per_metre: 0.001\n");
+    return parse_sweep(
+        "datasets: [{dataset: simulated, keyframes: 40}]\n"
+        "methods: [raw, {method: motion_drift, label: learnt, calibration: learnt.yaml}]\n"
+        "metrics: [ate]\nrepeats: 2\n",
+        folder.path() / "c.yaml",
+        known);
+  };
+  Sweep sweep = sweep_with("");
+  const std::vector<Cell> all = cells(sweep, seeded(sweep, known), "");
+  const std::string source =
+      facts_of(load_sequence(all[0], sweep, known, {}), all[0], sweep).source;
+  sweep = sweep_with("\"" + source + "\"");
+  ASSERT_EQ(sweep.methods[1].trained_on.sources, std::vector{source});
+
+  const std::atomic<bool> stop = false;
+  const auto check_all = [&](const auto& run) {
+    std::size_t seen = 0;
+    run([&](const CellResult& result) {
+      ++seen;
+      const bool trained = result.cell.method == 1 && result.cell.repeat == 0;
+      EXPECT_EQ(result.oracle_method, trained) << result.cell.index;
+      const auto& notes = result.report.notes;
+      const bool noted = !notes.empty() && notes.back().starts_with("oracle: learnt.yaml");
+      EXPECT_EQ(noted, trained);
+    });
+    EXPECT_EQ(seen, 4u);
+  };
+  check_all([&](const auto& finished) {
+    Sequences sequences(sweep, known, {}, all);
+    run_sweep(sweep, all, known, sequences, 1, stop, finished);
+  });
+  check_all([&](const auto& finished) { run_isolated(sweep, all, known, {}, 1, stop, finished); });
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,186 @@
+#include "harness/run/sequence_identity.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "harness/catalogue.hpp"
+#include "harness/config/read_sweep.hpp"
+#include "harness/run/oracle_closures.hpp"
+#include "harness/run/sequences.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Sweep sweep_of(const std::string& datasets, const TemporaryFolder& folder) {
+  return parse_sweep("datasets:\n" + datasets + "methods: [raw]\nmetrics: [ate]\nrepeats: 3\n",
+                     folder.path() / "c.yaml",
+                     catalogue({}));
+}
+
+SequenceFacts facts_in(const Sweep& sweep,
+                       const TemporaryFolder& folder,
+                       std::size_t dataset,
+                       int repeat = 0) {
+  const Cell cell{0, dataset, 0, repeat};
+  const Catalogue known = catalogue({});
+  return facts_of(load_sequence(cell, sweep, known, {{folder.path()}}), cell, sweep);
+}
+
+std::string walk(double scale) {
+  std::string out;
+  for (int i = 0; i <= 20; ++i) {
+    out += std::to_string(i) + " " + std::to_string(scale * std::abs(i - 10)) + " " +
+           std::to_string(0.1 * i) + (i == 0 ? " 0 0 0 0.6 0.8\n" : " 0 0 0 0 1\n");
+  }
+  return out;
+}
+
+TEST(SequenceContent, IsEqualWhereNothingRandomActs) {
+  const TemporaryFolder folder;
+  const Sweep sweep = sweep_of(
+      "  - {dataset: simulated, label: silent, noise.gain: 0, closures.sigma_t: 0, "
+      "closures.sigma_r: 0}\n"
+      "  - {dataset: simulated, label: noisy}\n",
+      folder);
+  const auto content = [&](std::size_t dataset, int repeat) {
+    return facts_in(sweep, folder, dataset, repeat).content;
+  };
+  EXPECT_EQ(content(0, 0), content(0, 1));
+  EXPECT_EQ(content(1, 0), content(1, 0));
+  EXPECT_NE(content(1, 0), content(1, 1));
+  EXPECT_NE(content(0, 0), content(1, 0));
+  EXPECT_EQ(content(0, 0).size(), 32u);
+}
+
+TEST(SequenceContent, DependsOnEveryPart) {
+  Sequence base;
+  for (int i = 0; i < 3; ++i) base.problem.keyframes.push_back({double(i), {}});
+  base.problem.odometry = {{0, 1, {}}, {1, 2, {}}};
+  base.problem.closures = {{0, 2, {}}};
+  base.problem.frames = {{0.5, {}}};
+  base.reference = base.problem.keyframes;
+  std::vector<Sequence> all(10, base);
+  all[1].problem.keyframes[1].world_from_body.translation.x() = 1e-300;
+  all[2].problem.odometry[0].information(5, 5) = 2.0;
+  all[3].problem.closures[0].from_from_to.rotation = Rotation(0.0, 1.0, 0.0, 0.0);
+  all[4].problem.closures[0].scale = 1.1;
+  all[5].problem.frames.clear();
+  all[6].problem.planar = true;
+  all[7].problem.common_view = {3, 3};
+  all[8].reference[2].stamp = 2.5;
+  std::swap(all[9].problem.odometry, all[9].problem.closures);
+  std::set<std::string> contents;
+  for (const Sequence& sequence : all) contents.insert(content_of(sequence));
+  EXPECT_EQ(contents.size(), all.size());
+  base.name = base.provenance.licence = "free text";
+  EXPECT_EQ(content_of(base), content_of(all[0]));
+}
+
+TEST(SequenceContent, OfALongSequenceIsStable) {
+  Sequence sequence;
+  for (int i = 0; i < 40000; ++i) sequence.reference.push_back({double(i), {}});
+  const std::string first = content_of(sequence);
+  EXPECT_EQ(content_of(sequence), first);
+  sequence.reference.front().stamp = -1.0;
+  EXPECT_NE(content_of(sequence), first);
+}
+
+TEST(Group, IsTheReferenceFileOfMeasuredData) {
+  const TemporaryFolder folder;
+  folder.file("a.txt", walk(1.01));
+  folder.file("b.txt", walk(1.02));
+  folder.file("gt.txt", walk(1.0));
+  folder.file("copy/gt.txt", walk(1.0));
+  folder.file("other.txt", walk(1.1));
+  const Sweep sweep = sweep_of(
+      "  - {dataset: trajectory, label: a, estimate: a.txt, reference: gt.txt}\n"
+      "  - {dataset: trajectory, label: b, estimate: b.txt, reference: copy/gt.txt, "
+      "reference_body.x: 0.3, closures: {source: reference}}\n"
+      "  - {dataset: trajectory, label: other, estimate: a.txt, reference: other.txt}\n"
+      "  - {dataset: trajectory, label: none, estimate: a.txt}\n"
+      "  - {dataset: trajectory, label: named, estimate: a.txt, reference: other.txt, group: x}\n",
+      folder);
+  const auto group = [&](std::size_t dataset, int repeat = 0) {
+    return facts_in(sweep, folder, dataset, repeat).group;
+  };
+  EXPECT_THAT(group(0), StartsWith("reference:"));
+  EXPECT_EQ(group(0), group(1));     // another odometer on the same recording
+  EXPECT_EQ(group(1), group(1, 2));  // other noise on its closures
+  EXPECT_NE(group(0), group(2));
+  EXPECT_THAT(group(3), StartsWith("estimate:"));
+  EXPECT_EQ(group(4), "group:x");
+  EXPECT_EQ(facts_in(sweep, folder, 4).source, group(2));
+}
+
+TEST(Group, IsTheNoiseOfSimulatedData) {
+  const TemporaryFolder folder;
+  const Sweep sweep = sweep_of(
+      "  - {dataset: simulated, label: room}\n"
+      "  - {dataset: simulated, label: loud, noise.gain: 2}\n"
+      "  - {dataset: simulated, label: s1, stream: s}\n"
+      "  - {dataset: simulated, label: s2, stream: s, noise.gain: 2}\n"
+      "  - {dataset: simulated, label: named, group: room}\n",
+      folder);
+  const auto group = [&](std::size_t dataset, int repeat = 0) {
+    return facts_in(sweep, folder, dataset, repeat).group;
+  };
+  EXPECT_THAT(group(0), StartsWith("noise:"));
+  EXPECT_NE(group(0), group(0, 1));  // every seed is an observation of its own
+  EXPECT_NE(group(0), group(1));
+  EXPECT_EQ(group(2, 1), group(3, 1));  // common random numbers: a pair, not two
+  EXPECT_NE(group(2, 0), group(2, 1));
+  EXPECT_EQ(group(4, 0), group(4, 1));
+}
+
+TEST(OracleClosures, AreFoundByTheirValues) {
+  const TemporaryFolder folder;
+  folder.file("est.txt", walk(1.01));
+  folder.file("gt.txt", walk(1.0));
+  folder.file("exact.txt", "1 19 0 1.8 0 0 0 0 1\n");
+  folder.file("close.txt", "1 19 0.001 1.8 0 0 0 0 1\n");
+  folder.file("placeholder.txt", "1 19 0 0 0 0 0 0 1\n");
+  const std::string common = "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, ";
+  std::string text;
+  for (const char* file : {"exact.txt", "close.txt", "placeholder.txt"}) {
+    text += common + "label: " + file + ", closures: {source: file, file: " + file + "}}\n";
+  }
+  text += common + "label: run, closures: {source: estimate, file: gt.txt}}\n";
+  text += common +
+          "label: some, closures: {source: file, file: exact.txt}, false_closures.share: 0.9}\n";
+  const Sweep sweep = sweep_of(text, folder);
+  const auto facts = [&](std::size_t dataset) { return facts_in(sweep, folder, dataset); };
+  EXPECT_TRUE(facts(0).oracle_closures);
+  EXPECT_THAT(facts(0).closures, HasSubstr("1 of 1 equal the reference"));
+  EXPECT_FALSE(facts(1).oracle_closures);
+  EXPECT_FALSE(facts(2).oracle_closures);
+  EXPECT_TRUE(facts(3).oracle_closures);
+  EXPECT_THAT(facts(3).closures, HasSubstr("which is the reference"));
+  EXPECT_TRUE(facts(4).oracle_closures);
+  EXPECT_FALSE(are_oracle_closures(0, 0));
+}
+
+TEST(OracleClosures, OfASimulatedSensorWithoutNoiseAreNone) {
+  const TemporaryFolder folder;
+  const Sweep sweep =
+      sweep_of("  - {dataset: simulated, closures.sigma_t: 0, closures.sigma_r: 0}\n", folder);
+  EXPECT_FALSE(facts_in(sweep, folder, 0).oracle_closures);
+}
+
+TEST(Group, IsAWordInTheConfig) {
+  const TemporaryFolder folder;
+  try {
+    sweep_of("  - {dataset: simulated, group: [a, b]}\n", folder);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a word"));
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
