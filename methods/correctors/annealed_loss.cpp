@@ -7,6 +7,15 @@ namespace loopbench {
 
 bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
 
+std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared) {
+  const double width = settings.loss_width;
+  for (double& x : squared) {
+    const double root = (settings.loss == Loss::dcs ? 2.0 : 1.0) * width / (width + x);
+    x = std::min(1.0, root * root);
+  }
+  return squared;
+}
+
 double anneal(const std::vector<Edge>& closures,
               const PoseGraphSettings& settings,
               std::vector<ScaledPose>& poses,
@@ -14,7 +23,7 @@ double anneal(const std::vector<Edge>& closures,
   const std::vector<ScaledPose> start = poses;
   const std::vector<double> squared = squared_errors(start, closures, settings);
   const PoseGraphSummary direct = solve(settings);
-  std::vector<ScaledPose> reached = std::exchange(poses, start);
+  poses = start;
   PoseGraphSettings rough = settings;
   rough.max_iterations = std::min(settings.max_iterations, 30);
   rough.tolerance = std::max(settings.tolerance, 1e-6);
@@ -25,7 +34,10 @@ double anneal(const std::vector<Edge>& closures,
     rough.loss_width = width;
     solve(rough);
   }
-  if (!(solve(settings).cost < direct.cost)) poses = std::move(reached);
+  constexpr double kOther = 1e-6;  // of the cost: another minimum, not rounding
+  std::vector<ScaledPose> annealed = poses;
+  const bool is_lower = solve(settings).cost < direct.cost * (1.0 - kOther);
+  poses = is_lower ? std::move(annealed) : start;
   return direct.cost_before;
 }
 

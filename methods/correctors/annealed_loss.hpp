@@ -12,10 +12,13 @@ namespace loopbench {
 /// Losses that are bounded, so that closures with large errors no longer act.
 bool is_bounded(Loss loss);
 
-/// Moves `poses` to the better of two minima of the loss in `settings`: that reached directly, and
-/// that reached through the switchable loss with a width that starts at the largest squared error
-/// and is halved, each solved from the solution before. `solve` minimises from `poses` under the
-/// settings it is given. Returns the cost before.
+/// Derivative of the bounded loss in `settings` by the squared error, of each closure [-].
+std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared);
+
+/// Sets `poses` to the start from which the loss in `settings` has the lower of two minima: where
+/// they are, or the solution under the switchable loss with a width that starts at the largest
+/// squared error and is halved, each solved from the one before. `solve` minimises from `poses`
+/// under the settings it is given. Returns the cost before.
 double anneal(const std::vector<Edge>& closures,
               const PoseGraphSettings& settings,
               std::vector<ScaledPose>& poses,

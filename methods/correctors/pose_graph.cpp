@@ -125,7 +125,16 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     annealed_from =
         report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
+  const std::vector<ScaledPose> near = poses;
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
+  if (annealed_from) {
+    // Under a loss the last steps are short and inexact: the same minimum from the same start, with
+    // the weights that the loss gives there.
+    weights = loss_weights(settings, squared_errors(poses, problem.closures, settings));
+    settings.loss = Loss::none;
+    poses = near;
+    solve(settings);
+  }
   if (options_.gnc == Gnc::off) before = annealed_from.value_or(summary.cost_before);
   report.count("iterations", iterations);
   report.count("cost_before", before);
