@@ -44,7 +44,7 @@ TEST(Projection, KeepsTheAngleAcrossThePlane) {
 Evaluation two_poses(ErrorForm form = ErrorForm::evo) {
   const Trajectory reference{{0.0, {}}, {1.0, {Rotation::Identity(), Vector3(4, 0, 0)}}};
   const Trajectory estimate{{0.0, {}}, {1.0, {turn(0, 0, 60 * kDegree), Vector3(5, 0, 0)}}};
-  return evaluate(reference, estimate, {.align = Align::none, .form = form, .min_pairs = 1});
+  return evaluate(reference, estimate, {.align = Align::none, .min_pairs = 1, .form = form});
 }
 
 TEST(Ape, RelationsByHand) {
