@@ -30,7 +30,7 @@ double anneal(const std::vector<Edge>& closures,
   // Smoother than dcs and as bounded: fewer wrong minima on the way.
   rough.loss = Loss::switchable;
   double width = *std::ranges::max_element(squared);
-  for (; width > 2.0 * settings.loss_width; width *= 0.5) {
+  for (; width > 1.4 * settings.loss_width; width *= 0.7) {
     rough.loss_width = width;
     solve(rough);
   }

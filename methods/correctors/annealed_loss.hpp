@@ -17,8 +17,8 @@ std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<
 
 /// Sets `poses` to the start from which the loss in `settings` has the lower of two minima: where
 /// they are, or the solution under the switchable loss with a width that starts at the largest
-/// squared error and is halved, each solved from the one before. `solve` minimises from `poses`
-/// under the settings it is given. Returns the cost before.
+/// squared error and shrinks by 0.7, each solved from the one before. `solve` minimises from
+/// `poses` under the settings it is given. Returns the cost before.
 double anneal(const std::vector<Edge>& closures,
               const PoseGraphSettings& settings,
               std::vector<ScaledPose>& poses,

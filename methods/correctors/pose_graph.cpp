@@ -129,11 +129,15 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
   if (annealed_from) {
     // Under a loss the last steps are short and inexact: the same minimum from the same start, with
-    // the weights that the loss gives there.
-    weights = loss_weights(settings, squared_errors(poses, problem.closures, settings));
-    settings.loss = Loss::none;
-    poses = near;
-    solve(settings);
+    // the weights that the loss gives there, until they are at rest.
+    constexpr int kRounds = 3;
+    PoseGraphSettings weighted = settings;
+    weighted.loss = Loss::none;
+    for (int round = 0; round < kRounds; ++round) {
+      weights = loss_weights(settings, squared_errors(poses, problem.closures, settings));
+      poses = near;
+      solve(weighted);
+    }
   }
   if (options_.gnc == Gnc::off) before = annealed_from.value_or(summary.cost_before);
   report.count("iterations", iterations);

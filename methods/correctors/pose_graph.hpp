@@ -93,9 +93,8 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         Above{0.0});
   visit("anneal",
         o.anneal,
-        "dcs and switchable: also solve with a width that starts from the largest error and is "
-        "halved, "
-        "and keep the lower cost");
+        "dcs and switchable: also solve with a width that shrinks from the largest error, and keep "
+        "the lower cost");
   visit("gnc", o.gnc, "graduated non-convexity: off, truncated least squares, Geman-McClure");
   visit("gnc_start", o.gnc_start, "closures believed first; consistent: those that agree, if any");
   visit("inlier_chi2",
