@@ -50,14 +50,14 @@ class GncRuns {
   const GncSolution& best() const { return best_; }
 
   void from_consistent(const std::vector<std::size_t>& consistent) {
-    Problem believed{of_.problem.keyframes, of_.problem.odometry, {}, {}, of_.problem.planar};
+    Problem subset{of_.problem.keyframes, of_.problem.odometry, {}, {}, of_.problem.planar};
     std::vector<double> weights(of_.problem.closures.size(), 0.0);
     for (const std::size_t k : consistent) {
-      believed.closures.push_back(of_.problem.closures[k]);
+      subset.closures.push_back(of_.problem.closures[k]);
       weights[k] = 1.0;
     }
     // Past the convex stages, whose purpose is to find a start like this one.
-    run({of_.initial(believed), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
+    run({of_.initial(subset), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
   }
 
   void from_all(std::vector<ScaledPose> poses) {

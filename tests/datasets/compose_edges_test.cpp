@@ -103,7 +103,7 @@ TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
 }
 
 TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {
-  // The second pose's unit of length is two of the first's, so its 0.1 is 0.2 there.
+  // Scale 2: a length of 0.1 in the second pose's unit is 0.2 in the first's.
   Edge exact{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(1e-16, 1e-16)};
   exact.scale = 2.0;
   Edge noisy{1, 2, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
