@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
-#include "metrics/protocols.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench {
 

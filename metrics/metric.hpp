@@ -7,9 +7,9 @@
 
 #include "datasets/core/fields.hpp"
 #include "metrics/better.hpp"
-#include "metrics/evaluation.hpp"
-#include "metrics/statistics.hpp"
-#include "metrics/undefined.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+#include "metrics/evaluation/undefined.hpp"
+#include "metrics/numerics/statistics.hpp"
 
 namespace loopbench {
 

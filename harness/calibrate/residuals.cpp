@@ -2,7 +2,7 @@
 
 #include "datasets/derive/poses_at.hpp"
 #include "methods/correctors/chain.hpp"
-#include "metrics/position_only.hpp"
+#include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench {
 

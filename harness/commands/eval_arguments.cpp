@@ -7,7 +7,7 @@
 
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
-#include "metrics/pairs/stretch.hpp"
+#include "metrics/pairing/pairs/stretch.hpp"
 
 namespace loopbench {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "harness/run/evaluation_notes.hpp"
 #include "harness/run/incomplete.hpp"
-#include "metrics/body_offset.hpp"
-#include "metrics/diagnostics.hpp"
+#include "metrics/checks/body_offset.hpp"
+#include "metrics/checks/diagnostics.hpp"
 
 namespace loopbench {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "datasets/formats/formats.hpp"
-#include "metrics/ape.hpp"
-#include "metrics/protocols.hpp"
+#include "metrics/errors/ape.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench {
 

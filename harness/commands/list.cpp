@@ -6,7 +6,7 @@
 #include "harness/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/suggest.hpp"
-#include "metrics/protocols.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench {
 namespace {

@@ -7,7 +7,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/selection.hpp"
 #include "harness/suggest.hpp"
-#include "metrics/median.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "harness/config/yaml.hpp"
-#include "metrics/protocols.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench {
 

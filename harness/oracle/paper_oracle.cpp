@@ -2,7 +2,7 @@
 
 #include "datasets/core/polyline.hpp"
 #include "harness/oracle/reference_abscissa.hpp"
-#include "metrics/evaluation.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench {
 namespace {

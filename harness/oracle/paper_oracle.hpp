@@ -5,7 +5,7 @@
 
 #include "methods/method.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "metrics/protocol.hpp"
+#include "metrics/protocols/protocol.hpp"
 
 namespace loopbench {
 

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/run/run_cell.hpp"
-#include "metrics/losses.hpp"
+#include "metrics/trajectory/losses.hpp"
 
 namespace loopbench {
 namespace {

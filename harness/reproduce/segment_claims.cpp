@@ -10,7 +10,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/kappa.hpp"
 #include "methods/smoothers/manifold/window_fit.hpp"
-#include "metrics/median.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench {
 namespace {

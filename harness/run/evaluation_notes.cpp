@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "datasets/core/polyline.hpp"
-#include "metrics/association_error.hpp"
-#include "metrics/ate.hpp"
-#include "metrics/losses.hpp"
+#include "metrics/checks/association_error.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/trajectory/losses.hpp"
 
 namespace loopbench {
 namespace {

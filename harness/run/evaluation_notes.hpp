@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/sweep.hpp"
-#include "metrics/evaluation.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "metrics/evaluation.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench {
 

@@ -1,7 +1,7 @@
 #include "harness/run/oracle_closures.hpp"
 
 #include "datasets/derive/poses_at.hpp"
-#include "metrics/position_only.hpp"
+#include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench {
 namespace {

@@ -12,7 +12,7 @@
 #include "harness/run/oracle_method.hpp"
 #include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
-#include "metrics/losses.hpp"
+#include "metrics/trajectory/losses.hpp"
 
 namespace loopbench {
 namespace {

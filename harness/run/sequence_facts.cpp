@@ -6,9 +6,9 @@
 #include "harness/provenance/hash.hpp"
 #include "harness/run/oracle_closures.hpp"
 #include "harness/run/sequence_identity.hpp"
-#include "metrics/body_offset.hpp"
-#include "metrics/loop_detection.hpp"
-#include "metrics/position_only.hpp"
+#include "metrics/checks/body_offset.hpp"
+#include "metrics/correction/loop_detection.hpp"
+#include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench {
 namespace {

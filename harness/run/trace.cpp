@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "metrics/angle.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench {
 namespace {

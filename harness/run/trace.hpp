@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datasets/core/sequence.hpp"
-#include "metrics/evaluation.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench {
 

@@ -1,4 +1,4 @@
-/// One number for many: means. (The median is metrics/median.hpp.)
+/// One number for many: means. (The median is metrics/numerics/median.hpp.)
 #pragma once
 
 #include <span>

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "harness/store/traces.hpp"
-#include "metrics/median.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench {
 namespace {

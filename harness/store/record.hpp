@@ -8,7 +8,7 @@
 
 #include "methods/report.hpp"
 #include "metrics/better.hpp"
-#include "metrics/statistics.hpp"
+#include "metrics/numerics/statistics.hpp"
 
 namespace loopbench {
 

@@ -7,11 +7,11 @@
 #include <map>
 
 #include "datasets/formats/formats.hpp"
-#include "metrics/association.hpp"
-#include "metrics/ate.hpp"
-#include "metrics/axis_error.hpp"
-#include "metrics/rpe.hpp"
-#include "metrics/segments/segments.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/errors/segments.hpp"
+#include "metrics/pairing/association.hpp"
 #include "tests/benchmarks/markdown.hpp"
 
 namespace loopbench {

@@ -1,4 +1,4 @@
-#include "metrics/alignment.hpp"
+#include "metrics/alignment/alignment.hpp"
 
 #include <gtest/gtest.h>
 

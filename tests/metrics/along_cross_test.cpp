@@ -1,9 +1,9 @@
-#include "metrics/along_cross.hpp"
+#include "metrics/errors/along_cross.hpp"
 
 #include <cmath>
 
-#include "metrics/ate.hpp"
-#include "metrics/path_length.hpp"
+#include "metrics/correction/path_length.hpp"
+#include "metrics/errors/ate.hpp"
 #include "support.hpp"
 
 namespace loopbench {

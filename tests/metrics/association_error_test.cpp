@@ -1,9 +1,9 @@
-#include "metrics/association_error.hpp"
+#include "metrics/checks/association_error.hpp"
 
 #include <gtest/gtest.h>
 
-#include "metrics/ate.hpp"
-#include "metrics/protocols.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -1,4 +1,4 @@
-#include "metrics/association.hpp"
+#include "metrics/pairing/association.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "metrics/body_offset.hpp"
+#include "metrics/checks/body_offset.hpp"
 
 #include <numbers>
 

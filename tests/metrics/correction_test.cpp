@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "judged_cell.hpp"
-#include "metrics/closure_residual.hpp"
-#include "metrics/gain_along.hpp"
-#include "metrics/local_shape.hpp"
+#include "metrics/correction/closure_residual.hpp"
+#include "metrics/correction/gain_along.hpp"
+#include "metrics/correction/local_shape.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 

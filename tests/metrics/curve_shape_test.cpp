@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "judged_cell.hpp"
-#include "metrics/jerk.hpp"
-#include "metrics/jumps.hpp"
+#include "metrics/correction/jerk.hpp"
+#include "metrics/correction/jumps.hpp"
 #include "support.hpp"
 
 namespace loopbench {

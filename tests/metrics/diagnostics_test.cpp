@@ -1,4 +1,4 @@
-#include "metrics/diagnostics.hpp"
+#include "metrics/checks/diagnostics.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "datasets/formats/formats.hpp"
-#include "metrics/ate.hpp"
-#include "metrics/axis_error.hpp"
-#include "metrics/position_only.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/trajectory/position_only.hpp"
 #include "support.hpp"
 
 namespace loopbench {

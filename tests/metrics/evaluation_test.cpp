@@ -1,4 +1,4 @@
-#include "metrics/evaluation.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "metrics/graph_cost.hpp"
+#include "metrics/correction/graph_cost.hpp"
 
 #include <gtest/gtest.h>
 

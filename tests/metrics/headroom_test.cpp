@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "datasets/formats/formats.hpp"
-#include "metrics/interpolation_floor.hpp"
-#include "metrics/low_pass.hpp"
-#include "metrics/natural_cubic.hpp"
-#include "metrics/smoothing_headroom.hpp"
+#include "metrics/correction/interpolation_floor.hpp"
+#include "metrics/correction/smoothing_headroom.hpp"
+#include "metrics/numerics/low_pass.hpp"
+#include "metrics/numerics/natural_cubic.hpp"
 #include "support.hpp"
 
 namespace loopbench {

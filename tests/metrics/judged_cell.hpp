@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "datasets/core/polyline.hpp"
-#include "metrics/evaluation.hpp"
-#include "metrics/losses.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+#include "metrics/trajectory/losses.hpp"
 
 namespace loopbench::test {
 

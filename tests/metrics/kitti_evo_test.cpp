@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "datasets/formats/kitti.hpp"
-#include "metrics/printed_motion.hpp"
-#include "metrics/protocols.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/errors/printed_motion.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

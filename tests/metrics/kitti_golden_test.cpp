@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "datasets/formats/kitti.hpp"
-#include "metrics/protocols.hpp"
-#include "metrics/segments/segments.hpp"
+#include "metrics/errors/segments.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -1,5 +1,5 @@
 // Precision and recall of a place recogniser, worked by hand.
-#include "metrics/loop_detection.hpp"
+#include "metrics/correction/loop_detection.hpp"
 
 #include "datasets/core/sequence.hpp"
 

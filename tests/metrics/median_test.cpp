@@ -1,5 +1,5 @@
 /// The median is that of the sorted list, to the bit, whatever the values.
-#include "metrics/median.hpp"
+#include "metrics/numerics/median.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "metrics/statistics.hpp"
+#include "metrics/numerics/statistics.hpp"
 
 namespace loopbench {
 namespace {

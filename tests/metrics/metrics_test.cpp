@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrics/ate.hpp"
-#include "metrics/axis_error.hpp"
-#include "metrics/coverage.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/checks/coverage.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/rpe.hpp"
 #include "support.hpp"
 
 namespace loopbench {

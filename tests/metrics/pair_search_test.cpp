@@ -1,4 +1,4 @@
-#include "metrics/pair_search.hpp"
+#include "metrics/pairing/pair_search.hpp"
 
 #include <gtest/gtest.h>
 

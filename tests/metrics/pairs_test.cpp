@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "metrics/pairs/angle_pairs.hpp"
-#include "metrics/pairs/consecutive.hpp"
-#include "metrics/pairs/python_random.hpp"
-#include "metrics/pairs/tum_motions.hpp"
-#include "metrics/protocols.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/pairing/pairs/angle_pairs.hpp"
+#include "metrics/pairing/pairs/consecutive.hpp"
+#include "metrics/pairing/pairs/python_random.hpp"
+#include "metrics/pairing/pairs/tum_motions.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

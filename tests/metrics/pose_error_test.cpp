@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "metrics/ape.hpp"
-#include "metrics/axis_error.hpp"
-#include "metrics/euler.hpp"
-#include "metrics/projection.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/errors/ape.hpp"
+#include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/numerics/euler.hpp"
+#include "metrics/trajectory/projection.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -1,13 +1,13 @@
-#include "metrics/protocols.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "metrics/angle.hpp"
-#include "metrics/ate.hpp"
-#include "metrics/segments/segments.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/segments.hpp"
+#include "metrics/numerics/angle.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "datasets/formats/formats.hpp"
-#include "metrics/ate.hpp"
-#include "metrics/protocols.hpp"
-#include "metrics/rpe.hpp"
-#include "metrics/segments/segments.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/rpe.hpp"
+#include "metrics/errors/segments.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

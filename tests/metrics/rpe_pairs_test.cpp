@@ -1,9 +1,9 @@
 /// How many pairs a relative error is made of, and what its axes are.
 #include <gtest/gtest.h>
 
+#include "metrics/errors/rpe.hpp"
 #include "metrics/metric.hpp"
-#include "metrics/protocols.hpp"
-#include "metrics/rpe.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -1,13 +1,13 @@
-#include "metrics/segments/segments.hpp"
+#include "metrics/errors/segments.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/protocols.hpp"
-#include "metrics/segments/ends.hpp"
-#include "metrics/segments/lengths.hpp"
+#include "metrics/pairing/segment_ends.hpp"
+#include "metrics/protocols/lengths.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
 namespace loopbench::test {

@@ -1,4 +1,4 @@
-#include "metrics/statistics.hpp"
+#include "metrics/numerics/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "datasets/pose_graph_dataset.hpp"
 #include "datasets/trajectory_dataset.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "metrics/ate.hpp"
+#include "metrics/errors/ate.hpp"
 
 namespace loopbench {
 namespace {

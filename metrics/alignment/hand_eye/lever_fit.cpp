@@ -1,0 +1,128 @@
+#include "metrics/alignment/hand_eye/lever_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace loopbench {
+namespace {
+
+constexpr double kMotionRounding = 1e-18;  // of squared motion: nothing is left to explain
+
+/// The place c, the error s of the scale and the drift k of a stretch.
+using LeverUnknowns = Eigen::Matrix<double, 7, 1>;
+
+Vector3 residual(const LeverEquation& e, const LeverUnknowns& x) {
+  return e.moved - e.turned * x.head<3>() - x[3] * e.way - x.tail<3>();
+}
+
+struct LeverEstimate {
+  LeverUnknowns x;
+  Matrix3 covariance;  ///< of c
+};
+
+/// Least squares at noise `sigma`, with what is believed of s and k before.
+LeverEstimate estimate_at(const std::vector<LeverEquation>& all, double sigma, double way) {
+  constexpr double kScale = 10.0;  // of s: any
+  constexpr double kDrift = 0.05;  // of k, part of the way
+  constexpr double kUntold = 1e-12;
+  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
+  LeverUnknowns right = LeverUnknowns::Zero();
+  Eigen::Matrix<double, 3, 7> row;
+  row.rightCols<3>().setIdentity();
+  for (const auto& [turned, along, moved, weight] : all) {
+    row.leftCols<3>() = turned;
+    row.col(3) = along;
+    information += weight * row.transpose() * row;
+    right += weight * row.transpose() * moved;
+  }
+  const double square = sigma * sigma;
+  information(3, 3) += square / (kScale * kScale);
+  information.diagonal().tail<3>().array() += square / (kDrift * kDrift * way * way);
+  // Directions of c that nothing tells would have no inverse; they come out as far from sure.
+  information.diagonal().head<3>().array() += kUntold * information.topLeftCorner<3, 3>().trace();
+  const Eigen::LDLT<Eigen::Matrix<double, 7, 7>> factor(information);
+  const Eigen::Matrix<double, 7, 3> first = Eigen::Matrix<double, 7, 3>::Identity();
+  return {factor.solve(right), square * factor.solve(first).topRows<3>()};
+}
+
+/// Keeps of c what is sure along the axes of its covariance. An axis is left out where rotation
+/// tells a thousand times less of it than of the best one: a planar motion has no height, and what
+/// little its attitude errs would be divided by next to nothing.
+LeverFit sure_part(const LeverEstimate& found) {
+  constexpr double kSure = 3.0;   // deviations
+  constexpr double kWorst = 1e3;  // deviations of the best axis
+  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(found.covariance);
+  Vector3 sure = Vector3::Zero();
+  Vector3 variance = Vector3::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vector3 axis = axes.eigenvectors().col(i);
+    const double square = std::max(0.0, axes.eigenvalues()[i]);
+    const double along = axis.dot(found.x.head<3>());
+    if (along * along < kSure * kSure * square) continue;
+    if (square > kWorst * kWorst * std::max(0.0, axes.eigenvalues()[0])) continue;
+    sure += along * axis;
+    variance += square * axis.cwiseAbs2();
+  }
+  return {sure, variance.cwiseSqrt(), 0.0};
+}
+
+/// Squares that a place leaves, the scale chosen for it; no drift: the mean counts, too.
+double left_by(const std::vector<LeverEquation>& all, const Vector3& lever, double& scale) {
+  double way = 0.0, across = 0.0, out = 0.0;
+  for (const LeverEquation& e : all) {
+    way += e.weight * e.way.squaredNorm();
+    across += e.weight * e.way.dot(e.moved - e.turned * lever);
+  }
+  scale = way > 0.0 ? across / way : 0.0;
+  for (const LeverEquation& e : all) {
+    out += e.weight * (e.moved - e.turned * lever - scale * e.way).squaredNorm();
+  }
+  return out;
+}
+
+}  // namespace
+
+LeverFit fit_lever(std::vector<LeverEquation> all) {
+  constexpr int kRounds = 20;
+  constexpr double kSettled = 1e-6;
+  constexpr double kHuber = 2.0, kJump = 6.0;  // times the residuals' scale
+  constexpr double kMedianOf3d = 1.54;         // of a standard normal vector's length
+  const auto count = static_cast<double>(all.size());
+  double ways = 0.0;
+  for (const LeverEquation& e : all) ways += e.way.squaredNorm() + e.moved.squaredNorm();
+  const double way = std::sqrt(ways / count);
+  if (!(way > 0.0)) return {};
+  double sigma = way;
+  std::vector<double> lengths(all.size());
+  LeverEstimate found;
+  for (int round = 0; round < kRounds; ++round) {
+    found = estimate_at(all, sigma, way);
+    for (std::size_t k = 0; k < all.size(); ++k) lengths[k] = residual(all[k], found.x).norm();
+    std::vector<double> sorted = lengths;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double last = std::exchange(sigma, std::max(*middle / kMedianOf3d, 1e-9 * way));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      all[k].weight = lengths[k] > kHuber * sigma ? kHuber * sigma / lengths[k] : 1.0;
+    }
+    if (std::abs(sigma - last) <= kSettled * sigma) break;
+  }
+  LeverFit out = sure_part(found);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k].weight = lengths[k] > kJump * sigma ? 0.0 : 1.0;
+  }
+  double scale = 0.0;
+  const double before = left_by(all, Vector3::Zero(), scale);
+  const double after = left_by(all, out.lever, scale);
+  // Nothing there, chance, or an estimate that stands still.
+  if (before <= kMotionRounding * ways || after >= before || scale >= 1.0) return {};
+  out.explained = 1.0 - after / before;
+  out.lever /= 1.0 - scale;
+  out.deviation /= 1.0 - scale;
+  return out;
+}
+
+}  // namespace loopbench

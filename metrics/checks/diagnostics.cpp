@@ -1,0 +1,87 @@
+#include "metrics/checks/diagnostics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/position_only.hpp"
+#include "metrics/trajectory/travel.hpp"
+
+namespace loopbench {
+namespace {
+
+void look_at_pairs(const Evaluation& evaluation, Diagnostics& out) {
+  const Trajectory& reference = evaluation.reference;
+  const Trajectory& estimate = evaluation.estimate;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    for (const Trajectory* poses : {&reference, &estimate}) {
+      const double norm = (*poses)[i].world_from_body.rotation.norm();
+      out.off_unit = std::max(out.off_unit, std::abs(norm - 1.0));
+    }
+    if (i == 0) continue;
+    const double gap = reference[i].stamp - reference[i - 1].stamp;
+    const double ours = estimate[i].stamp - estimate[i - 1].stamp;
+    out.largest_gap = std::max(out.largest_gap, gap);
+    out.repeated += gap == 0.0 || ours == 0.0;
+    out.crossing += gap < 0.0 || ours < 0.0;
+  }
+}
+
+void look_for_losses(const Trajectory& reference,
+                     const Trajectory& estimate,
+                     double offset,
+                     const DiagnosticsOptions& o,
+                     Diagnostics& out) {
+  for (const Loss& loss : losses(reference, stamps(estimate), offset, o.loss, o.standing)) {
+    const double duration = loss.end - loss.begin;
+    ++out.losses;
+    out.lost += duration;
+    out.longest_loss = std::max(out.longest_loss, duration);
+  }
+}
+
+}  // namespace
+
+Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& options) {
+  Diagnostics out;
+  out.matched = evaluation.coverage.pairs;
+  out.possible = evaluation.coverage.possible;
+  out.rank = evaluation.alignment.rank;
+  out.condition = evaluation.alignment.condition;
+  look_at_pairs(evaluation, out);
+  const std::vector<Chord> ways = chords(evaluation.reference, options.window);
+  const auto standing = std::ranges::count_if(
+      ways, [&](const Chord& chord) { return !chord.is_moving(options.standing); });
+  if (!ways.empty())
+    out.standing = static_cast<double>(standing) / static_cast<double>(ways.size());
+  out.position_only_reference = is_position_only(evaluation.reference);
+  out.position_only_estimate = is_position_only(evaluation.estimate);
+  const Context& context = evaluation.context;
+  if (context.reference != nullptr && context.estimate != nullptr) {
+    look_for_losses(*context.reference, *context.estimate, context.protocol.offset, options, out);
+  }
+  return out;
+}
+
+std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOptions& options) {
+  const Diagnostics d = diagnose(evaluation, options);
+  const auto whole = [](const char* name, std::size_t count) {
+    return single(name, "", "1", static_cast<double>(count));
+  };
+  return descriptions({whole("matched", d.matched),
+                       whole("possible", d.possible),
+                       single("largest_gap", "", "s", d.largest_gap),
+                       whole("repeated", d.repeated),
+                       whole("crossing", d.crossing),
+                       single("off_unit", "", "1", d.off_unit),
+                       single("alignment_rank", "", "1", d.rank),
+                       single("alignment_condition", "", "1", d.condition),
+                       single("standing", "", "%", 100.0 * d.standing),
+                       whole("position_only_reference", d.position_only_reference),
+                       whole("position_only_estimate", d.position_only_estimate),
+                       whole("losses", d.losses),
+                       single("lost", "", "s", d.lost),
+                       single("longest_loss", "", "s", d.longest_loss)});
+}
+
+}  // namespace loopbench

@@ -1,0 +1,39 @@
+#include "metrics/correction/closure_residual.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "metrics/numerics/angle.hpp"
+
+namespace loopbench {
+
+std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureResidualOptions&) {
+  const Problem& problem = needed(evaluation.context.problem, "closure_residual", "loop closures");
+  const Trajectory& poses = needed(evaluation.context.estimate, "closure_residual", "keyframes");
+  if (problem.closures.empty()) {
+    throw Undefined("closure_residual: needs loop closures; the sequence has none");
+  }
+  std::vector<double> metres;
+  std::vector<double> degrees;
+  std::vector<double> mahalanobis;
+  for (const Edge& edge : problem.closures) {
+    if (edge.scale != 1.0) {
+      throw Undefined("closure_residual: a closure measures in another unit of length (" +
+                      to_text(edge.scale) + "), so its residual has no metres");
+    }
+    const Pose from_from_to =
+        poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
+    const Pose E = normalized(edge.from_from_to.inverse() * from_from_to);
+    const Twist e = log_se3(E);
+    metres.push_back(E.translation.norm());
+    degrees.push_back(kDegrees * log_so3(E.rotation).norm());
+    mahalanobis.push_back(std::sqrt(e.dot(edge.information * e)));
+  }
+  const int ddof = evaluation.protocol.ddof;
+  // Zero is no merit: closures taken as exact have no residual, false ones neither.
+  return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
+                       {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)},
+                       {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}});
+}
+
+}  // namespace loopbench

@@ -1,0 +1,72 @@
+#include "metrics/correction/graph_cost.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <stdexcept>
+
+namespace loopbench {
+namespace {
+
+double squared(const Twist& e, const Matrix6& information) { return e.dot(information * e); }
+
+/// Delta's translation and, in space, twice its quaternion's vector part; its angle in the plane.
+Twist quaternion_error(const Pose& delta, bool planar) {
+  const double sign = delta.rotation.w() < 0.0 ? -1.0 : 1.0;
+  const Vector3 turn =
+      planar ? log_so3(delta.rotation) : Vector3(2.0 * sign * delta.rotation.vec());
+  return twist(delta.translation, turn);
+}
+
+double chordal_cost(const Pose& delta, const Matrix6& information, bool planar) {
+  const Matrix3 off = delta.rotation.toRotationMatrix() - Matrix3::Identity();
+  const double turned = off.squaredNorm();
+  const double moved = delta.translation.squaredNorm();
+  if (planar) {
+    const Eigen::Matrix2d S = Eigen::Matrix2d(information.topLeftCorner<2, 2>()).inverse();
+    return information(5, 5) * turned + 2.0 / S.trace() * moved;
+  }
+  const Matrix3 S_t = Matrix3(information.topLeftCorner<3, 3>()).inverse();
+  const Matrix3 S_phi = Matrix3(information.bottomRightCorner<3, 3>()).inverse();
+  return 1.5 / S_phi.trace() * turned + 3.0 / S_t.trace() * moved;
+}
+
+double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphError error) {
+  const Pose from_from_to =
+      poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
+  const Pose delta = normalized(edge.from_from_to.inverse() * from_from_to);
+  switch (error) {
+    case GraphError::twist:
+      return squared(log_se3(delta), edge.information);
+    case GraphError::quaternion:
+      return squared(quaternion_error(delta, planar), edge.information);
+    case GraphError::chordal:
+      return chordal_cost(delta, edge.information, planar);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options) {
+  const Problem& problem = needed(evaluation.context.problem, "graph_cost", "edges");
+  const Trajectory& poses = needed(evaluation.context.estimate, "graph_cost", "keyframes");
+  const auto sum = [&](const std::vector<Edge>& edges) {
+    double out = 0.0;
+    for (const Edge& edge : edges) {
+      if (edge.scale != 1.0) {
+        throw std::runtime_error("graph_cost: an edge measures in another unit of length (" +
+                                 to_text(edge.scale) + "); rigid keyframes carry none");
+      }
+      out += cost_of(edge, poses, problem.planar, options.error);
+    }
+    return out;
+  };
+  const double odometry = sum(problem.odometry);
+  const double closures = sum(problem.closures);
+  // The sum is what solvers minimise; its two parts are traded for each other.
+  return {single("chi2", "all", "1", odometry + closures),
+          directed(single("chi2", "odometry", "1", odometry), Better::neither),
+          directed(single("chi2", "closures", "1", closures), Better::neither)};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,92 @@
+#include "metrics/correction/interpolation_floor.hpp"
+
+#include <stdexcept>
+
+#include "datasets/core/interpolate.hpp"
+#include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/natural_cubic.hpp"
+#include "metrics/numerics/stamp_rounding.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Keyframes in a row at which the reference is known.
+std::vector<Trajectory> stretches(const Trajectory& reference,
+                                  const std::vector<double>& keyframe_stamps,
+                                  double max_gap) {
+  std::vector<Trajectory> out(1);
+  std::size_t after = 0;  // first reference pose not before the keyframe
+  for (const double stamp : keyframe_stamps) {
+    while (after < reference.size() && reference[after].stamp < stamp) ++after;
+    const bool is_inside = after < reference.size() && (after > 0 || reference[0].stamp == stamp);
+    if (is_inside && reference[after].stamp == stamp) {
+      out.back().push_back(reference[after]);
+    } else if (is_inside &&
+               reference[after].stamp - reference[after - 1].stamp <= max_gap + kStampRounding) {
+      const auto& [t0, pose0] = reference[after - 1];
+      const auto& [t1, pose1] = reference[after];
+      out.back().push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
+    } else if (!out.back().empty()) {
+      out.emplace_back();
+    }
+  }
+  return out;
+}
+
+struct Floor {
+  std::vector<double> polyline;  ///< [m]
+  std::vector<double> cubic;     ///< [m]
+  std::vector<double> slerp;     ///< [deg]
+  bool has_between = false;      ///< a reference pose that is no keyframe was judged
+};
+
+/// Judges one stretch; `next` is the first reference pose that no earlier stretch has passed.
+void judge(Floor& floor, const Trajectory& nodes, const Trajectory& reference, std::size_t& next) {
+  if (nodes.size() < 2) return;
+  std::vector<Vector3> points;
+  for (const StampedPose& node : nodes) points.push_back(node.world_from_body.translation);
+  const NaturalCubic cubic(stamps(nodes), std::move(points));
+  std::size_t i = 0;
+  for (; next < reference.size() && reference[next].stamp <= nodes.back().stamp; ++next) {
+    const auto& [stamp, truth] = reference[next];
+    if (stamp < nodes.front().stamp) continue;
+    while (i + 2 < nodes.size() && nodes[i + 1].stamp <= stamp) ++i;
+    const StampedPose& a = nodes[i];
+    const StampedPose& b = nodes[i + 1];
+    const Pose line =
+        interpolate(a.world_from_body, b.world_from_body, (stamp - a.stamp) / (b.stamp - a.stamp));
+    floor.polyline.push_back((line.translation - truth.translation).norm());
+    floor.cubic.push_back((cubic.at(i, stamp) - truth.translation).norm());
+    floor.slerp.push_back(kDegrees * angle_between(line.rotation, truth.rotation));
+    floor.has_between |= stamp != a.stamp && stamp != b.stamp;
+  }
+}
+
+}  // namespace
+
+std::vector<Score> interpolation_floor(const Evaluation& evaluation,
+                                       const InterpolationFloorOptions& options) {
+  const Context& context = evaluation.context;
+  const Trajectory& reference =
+      needed(context.reference, "interpolation_floor", "the whole reference");
+  std::vector<double> keyframe_stamps =
+      stamps(needed(context.estimate, "interpolation_floor", "the whole estimate"));
+  for (double& stamp : keyframe_stamps) stamp += context.protocol.offset;
+
+  Floor floor;
+  std::size_t next = 0;
+  for (const Trajectory& nodes : stretches(reference, keyframe_stamps, options.max_gap)) {
+    judge(floor, nodes, reference, next);
+  }
+  if (!floor.has_between) {
+    throw Undefined("interpolation_floor: the reference has no pose between keyframes");
+  }
+  const int ddof = evaluation.protocol.ddof;
+  Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};
+  if (slerp.why_undefined.empty()) slerp.statistics = statistics(std::move(floor.slerp), ddof);
+  return descriptions({{"polyline", "3d", "m", statistics(std::move(floor.polyline), ddof)},
+                       {"natural_cubic", "3d", "m", statistics(std::move(floor.cubic), ddof)},
+                       std::move(slerp)});
+}
+
+}  // namespace loopbench

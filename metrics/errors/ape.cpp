@@ -1,0 +1,71 @@
+#include "metrics/errors/ape.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "datasets/core/parallel.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/errors/printed_motion.hpp"
+#include "metrics/errors/rpy.hpp"
+
+namespace loopbench {
+
+void check_combination(const ApeOptions& options) {
+  if (options.relation != Relation::point_distance_error_ratio) return;
+  throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
+}
+
+std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) {
+  check_combination(options);
+  const Relation relation = options.relation;
+  if (relation == Relation::usual) return ate(evaluation, {});
+  const bool is_distance =
+      relation == Relation::point_distance || relation == Relation::translation_part;
+  if (const std::string why = why_no_attitude(evaluation); !is_distance && !why.empty()) {
+    throw Undefined("ape: " + why);
+  }
+  const Trajectory& reference = evaluation.reference;
+  const Trajectory& estimate = evaluation.estimate;
+  const std::size_t n = reference.size();
+  Rpy turns(relation == Relation::rpy ? n : 0);
+  std::vector<double> errors(relation == Relation::rpy ? 0 : n);
+  const AngleFormula angle = evaluation.protocol.angle;
+  const std::optional<PrintedPoses> printed = printed_for_evo(evaluation);
+  const auto set = [&](std::size_t i) {
+    const Pose& Q = reference[i].world_from_body;
+    const Pose& P = estimate[i].world_from_body;
+    if (relation == Relation::rpy) {
+      turns.set(i, P.rotation * Q.rotation.conjugate());
+    } else if (relation == Relation::point_distance) {
+      errors[i] = (P.translation - Q.translation).norm();
+    } else {
+      const Pose E =
+          printed ? pose_of(printed_way(printed->estimate[i], printed->reference[i])) : way(P, Q);
+      errors[i] = measure(relation, E, angle);
+    }
+  };
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) set(i);
+  });
+  const int ddof = evaluation.protocol.ddof;
+  if (relation == Relation::rpy) return turns.scores(ddof);
+  return {{to_text(relation), "3d", unit(relation), statistics(std::move(errors), ddof)}};
+}
+
+std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
+  std::vector<PoseError> out;
+  out.reserve(evaluation.reference.size());
+  const bool has_attitude = why_no_attitude(evaluation).empty();
+  const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
+    const auto& [stamp, Q] = evaluation.reference[i];
+    const auto& [estimate_stamp, P] = evaluation.estimate[i];
+    out.push_back({stamp,
+                   estimate_stamp,
+                   P.translation - Q.translation,
+                   has_attitude ? log_so3(P.rotation * Q.rotation.conjugate()) : none});
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,27 @@
+#include "metrics/errors/ate.hpp"
+
+#include "datasets/core/parallel.hpp"
+#include "metrics/numerics/angle.hpp"
+#include "metrics/pairing/motion.hpp"
+
+namespace loopbench {
+
+std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
+  const std::size_t n = evaluation.reference.size();
+  std::vector<double> metres(n);
+  std::vector<double> degrees(n);
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Pose& reference = evaluation.reference[i].world_from_body;
+      const Pose& estimate = evaluation.estimate[i].world_from_body;
+      metres[i] = (reference.translation - estimate.translation).norm();
+      degrees[i] = kDegrees * log_angle(estimate.rotation.conjugate() * reference.rotation);
+    }
+  });
+  const int ddof = evaluation.protocol.ddof;
+  Score rotation{"rotation", "3d", "deg", {}, why_no_attitude(evaluation)};
+  if (rotation.why_undefined.empty()) rotation.statistics = statistics(std::move(degrees), ddof);
+  return {{"translation", "3d", "m", statistics(std::move(metres), ddof)}, std::move(rotation)};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,30 @@
+#include "metrics/errors/axis_error.hpp"
+
+#include <cmath>
+
+#include "datasets/core/parallel.hpp"
+#include "metrics/errors/ape.hpp"
+
+namespace loopbench {
+
+std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptions& options) {
+  const std::size_t n = evaluation.reference.size();
+  std::array<std::vector<double>, 3> metres;
+  for (std::vector<double>& axis : metres) axis.resize(n);
+  in_blocks(n, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Vector3 error = evaluation.estimate[i].world_from_body.translation -
+                            evaluation.reference[i].world_from_body.translation;
+      for (int a = 0; a < 3; ++a) metres[static_cast<std::size_t>(a)][i] = std::abs(error[a]);
+    }
+  });
+  const int ddof = evaluation.protocol.ddof;
+  std::vector<Score> out{{"translation", "x", "m", statistics(std::move(metres[0]), ddof)},
+                         {"translation", "y", "m", statistics(std::move(metres[1]), ddof)},
+                         {"translation", "z", "m", statistics(std::move(metres[2]), ddof)}};
+  if (!options.rotation) return out;
+  for (Score& turn : ape(evaluation, {Relation::rpy})) out.push_back(std::move(turn));
+  return out;
+}
+
+}  // namespace loopbench

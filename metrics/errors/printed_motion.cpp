@@ -1,0 +1,47 @@
+#include "metrics/errors/printed_motion.hpp"
+
+namespace loopbench {
+namespace {
+
+bool has_stamps_of(const Trajectory& judged, const Trajectory* whole) {
+  return whole != nullptr && stamps(judged) == stamps(*whole);
+}
+
+}  // namespace
+
+std::optional<PrintedPoses> printed_for_evo(const Evaluation& evaluation) {
+  const Protocol& p = evaluation.protocol;
+  const Context& context = evaluation.context;
+  const bool is_evo = p.association == Association::evo && p.form == ErrorForm::evo &&
+                      p.project == Plane::none && p.offset == 0.0;
+  if (!is_evo || context.printed == nullptr) return std::nullopt;
+  if (!has_stamps_of(evaluation.reference, context.reference) ||
+      !has_stamps_of(evaluation.estimate, context.estimate)) {
+    return std::nullopt;
+  }
+  PrintedPoses out = *context.printed;
+  if (evaluation.alignment.type == Align::none) return out;
+  const auto& [rotation, translation] = evaluation.alignment.reference_from_estimate;
+  const Matrix3 R = rotation.toRotationMatrix();
+  for (PoseMatrix& pose : out.estimate) {
+    const Vector3 place = evaluation.alignment.scale * (R * pose.translation()) + translation;
+    pose.linear() = (R * pose.linear()).eval();
+    pose.translation() = place;
+  }
+  return out;
+}
+
+PoseMatrix printed_way(const PoseMatrix& world_from_a, const PoseMatrix& world_from_b) {
+  const Matrix3 a_from_world = world_from_a.linear().transpose();
+  PoseMatrix out;
+  out.linear() = a_from_world * world_from_b.linear();
+  out.translation() =
+      a_from_world * world_from_b.translation() - a_from_world * world_from_a.translation();
+  return out;
+}
+
+Pose pose_of(const PoseMatrix& matrix) {
+  return {Rotation(Matrix3(matrix.linear())).normalized(), matrix.translation()};
+}
+
+}  // namespace loopbench

@@ -1,0 +1,155 @@
+#include "metrics/evaluation/evaluation.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "datasets/core/params.hpp"
+#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/position_only.hpp"
+#include "metrics/trajectory/projection.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string span_text(double first, double last) {
+  return to_text(first) + " .. " + to_text(last) + " s";
+}
+
+constexpr double kPause = 2.0;  // [s], that of DiagnosticsOptions
+
+double seconds_in(const std::vector<Loss>& gaps) {
+  double sum = 0.0;
+  for (const Loss& gap : gaps) sum += gap.end - gap.begin;
+  return sum;
+}
+
+/// Goes through ascending stamps: is this one inside a gap?
+class InsideGap {
+ public:
+  explicit InsideGap(const std::vector<Loss>& gaps) : gaps_(gaps) {}
+
+  bool operator()(double stamp) {
+    while (next_ < gaps_.size() && gaps_[next_].end <= stamp) ++next_;
+    return next_ < gaps_.size() && gaps_[next_].begin < stamp;
+  }
+
+ private:
+  const std::vector<Loss>& gaps_;
+  std::size_t next_ = 0;
+};
+
+void require_attitudes(const Paired& paired, Align align) {
+  if (align != Align::origin && align != Align::posyaw_origin) return;
+  const bool is_reference = is_position_only(paired.reference);
+  if (is_reference == is_position_only(paired.estimate)) return;
+  throw std::runtime_error(
+      "alignment " + to_text(align) + ": the " + (is_reference ? "reference" : "estimate") +
+      " keeps one attitude while its path turns: it holds positions only, so its first pose aligns "
+      "nothing; align by se3, sim3 or none");
+}
+
+Evaluation judge(Paired paired,
+                 std::size_t possible,
+                 const Trajectory& reference,
+                 const Protocol& protocol) {
+  require_attitudes(paired, protocol.align);
+  Evaluation out;
+  out.protocol = protocol;
+  out.reference_length = path_length(reference);
+  out.alignment = align(paired.reference,
+                        paired.estimate,
+                        protocol.align,
+                        static_cast<std::size_t>(protocol.align_first));
+  out.coverage.pairs = paired.reference.size();
+  out.coverage.possible = possible;
+  const double whole = reference.back().stamp - reference.front().stamp;
+  const double judged = paired.reference.back().stamp - paired.reference.front().stamp -
+                        seconds_in(tracking_gaps(reference, stamps(paired.reference), 0.0, kPause));
+  out.coverage.span = whole > 0.0 ? judged / whole : 1.0;
+  out.estimate = moved(out.alignment, std::move(paired.estimate));
+  out.reference = std::move(paired.reference);
+  project(out.reference, protocol.project);
+  project(out.estimate, protocol.project);
+  return out;
+}
+
+std::string limits(const Protocol& protocol) {
+  if (protocol.association == Association::interpolate) {
+    return "a reference gap of at most " + to_text(protocol.max_gap) + " s";
+  }
+  return "at most " + to_text(protocol.max_diff) + " s apart";
+}
+
+}  // namespace
+
+Evaluation evaluate(const Trajectory& reference,
+                    const Trajectory& estimate,
+                    const Protocol& protocol) {
+  if (reference.empty()) throw std::runtime_error("the reference has no poses");
+  if (estimate.empty()) throw std::runtime_error("the estimate has no poses");
+  Paired paired = associate(reference, estimate, protocol);
+  if (paired.reference.empty()) {
+    throw std::runtime_error(
+        "no pose of the estimate (" + span_text(estimate.front().stamp, estimate.back().stamp) +
+        ", offset " + to_text(protocol.offset) + " s) matches the reference (" +
+        span_text(reference.front().stamp, reference.back().stamp) + "): association " +
+        to_text(protocol.association) + " wants " + limits(protocol));
+  }
+  Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
+  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, estimate};
+  return out;
+}
+
+Evaluation evaluate(const Trajectory& reference,
+                    const Curve& estimate,
+                    const std::vector<double>& keyframe_stamps,
+                    Times times,
+                    const Protocol& protocol,
+                    const std::vector<double>& tracked) {
+  if (times == Times::keyframes) {
+    return evaluate(reference, estimate.sample(keyframe_stamps), protocol);
+  }
+  if (reference.empty()) throw std::runtime_error("the reference has no poses");
+  const double limit = protocol.max_estimate_gap;
+  const std::vector<Loss> gaps = tracking_gaps(reference,
+                                               tracked.empty() ? keyframe_stamps : tracked,
+                                               protocol.offset,
+                                               limit > 0.0 ? limit : kPause);
+  InsideGap is_bridged(gaps);
+  std::size_t possible = 0;
+  Paired paired;
+  std::vector<double> wanted;  // the reference's stamps on the estimate's clock
+  for (const StampedPose& pose : reference) {
+    const double stamp = pose.stamp - protocol.offset;
+    if (stamp < estimate.start() || stamp > estimate.end()) continue;
+    ++possible;
+    if (limit > 0.0 && is_bridged(pose.stamp)) continue;
+    wanted.push_back(stamp);
+    paired.reference.push_back(pose);
+  }
+  if (wanted.empty()) {
+    throw std::runtime_error("no reference stamp (" +
+                             span_text(reference.front().stamp, reference.back().stamp) +
+                             ") lies on the curve (" + span_text(estimate.start(), estimate.end()) +
+                             ", offset " + to_text(protocol.offset) + " s)");
+  }
+  paired.estimate = estimate.sample(wanted);
+  Trajectory whole = is_of_whole_files(protocol.pairs) ? paired.estimate : Trajectory();
+  Evaluation out = judge(std::move(paired), possible, reference, protocol);
+  out.coverage.bridged = seconds_in(gaps);
+  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, std::move(whole)};
+  return out;
+}
+
+std::string why_no_attitude(const Evaluation& evaluation) {
+  const auto text = [](const std::string& whose) {
+    return "the " + whose +
+           " keeps one attitude while its path turns: it holds positions only, so rotation is not "
+           "judged";
+  };
+  if (is_position_only(evaluation.reference)) return text("reference");
+  if (is_position_only(evaluation.estimate)) return text("estimate");
+  return "";
+}
+
+}  // namespace loopbench

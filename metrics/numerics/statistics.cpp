@@ -1,0 +1,80 @@
+#include "metrics/numerics/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "datasets/core/parallel.hpp"
+#include "metrics/numerics/median.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Pairwise: rounding grows with log(n) instead of n, at the price of plain summation. The halves
+/// are the same whoever adds them up, so threads do not change a bit.
+template <class Total, class Block>
+Total pairwise(std::span<const double> values, const Block& block, std::size_t threads = cores()) {
+  if (values.size() <= 128) return block(values);
+  const std::size_t half = values.size() / 2;
+  const std::span<const double> halves[] = {values.first(half), values.subspan(half)};
+  if (threads < 2 || half < kWorthAThread) {
+    const Total first = pairwise<Total>(halves[0], block, 1);
+    return first + pairwise<Total>(halves[1], block, 1);
+  }
+  Total totals[2];
+  in_parallel(2,
+              [&](std::size_t i) { totals[i] = pairwise<Total>(halves[i], block, threads / 2); });
+  return totals[0] + totals[1];
+}
+
+struct Sums {
+  double plain = 0.0;
+  double squares = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+};
+
+Sums operator+(const Sums& a, const Sums& b) {
+  return {a.plain + b.plain, a.squares + b.squares, std::min(a.min, b.min), std::max(a.max, b.max)};
+}
+
+Sums sums_of_block(std::span<const double> values) {
+  Sums out{0.0, 0.0, values[0], values[0]};
+  for (const double value : values) {
+    out.plain += value;
+    out.squares += value * value;
+    out.min = std::min(out.min, value);
+    out.max = std::max(out.max, value);
+  }
+  return out;
+}
+
+}  // namespace
+
+Statistics statistics(std::vector<double> errors, int ddof) {
+  if (errors.empty()) throw std::invalid_argument("statistics of an empty list");
+  const auto n = static_cast<double>(errors.size());
+  const Sums sums = pairwise<Sums>(errors, sums_of_block);
+  if (!std::isfinite(sums.squares))
+    throw std::runtime_error("an error or its square is not finite");
+  Statistics out;
+  out.count = errors.size();
+  out.sse = sums.squares;
+  out.mean = sums.plain / n;
+  out.rmse = std::sqrt(out.sse / n);
+  out.min = sums.min;
+  out.max = sums.max;
+  const auto squares_about_mean = [mean = out.mean](std::span<const double> values) {
+    double total = 0.0;
+    for (const double value : values) total += (value - mean) * (value - mean);
+    return total;
+  };
+  const double free = n - ddof;
+  const double spread = pairwise<double>(errors, squares_about_mean);
+  out.std = free > 0.0 ? std::sqrt(spread / free) : 0.0;
+  out.median = median(errors);
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,142 @@
+#include "metrics/pairing/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "datasets/core/interpolate.hpp"
+#include "datasets/core/parallel.hpp"
+#include "metrics/numerics/stamp_rounding.hpp"
+
+namespace loopbench {
+namespace {
+
+/// For each of `wanted`, the nearest of `stamps`, visited as (index in wanted, index in stamps).
+template <class Visit>
+void for_each_nearest(const std::vector<double>& wanted,
+                      const std::vector<double>& stamps,
+                      double max_diff,
+                      Visit visit) {
+  if (stamps.empty()) return;
+  std::size_t after = 0;  // first stamp not before the wanted one
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    while (after < stamps.size() && stamps[after] < wanted[i]) ++after;
+    std::size_t nearest = after;
+    if (after == stamps.size() ||
+        (after > 0 && wanted[i] - stamps[after - 1] <= stamps[after] - wanted[i])) {
+      nearest = after - 1;
+    }
+    if (std::abs(stamps[nearest] - wanted[i]) <= max_diff) visit(i, nearest);
+  }
+}
+
+Trajectory gather(const Trajectory& from,
+                  const std::vector<IndexPair>& pairs,
+                  std::size_t IndexPair::*index) {
+  Trajectory out;
+  out.reserve(pairs.size());
+  for (const IndexPair& pair : pairs) out.push_back(from[pair.*index]);
+  return out;
+}
+
+Paired gather(const Trajectory& reference,
+              const Trajectory& estimate,
+              const std::vector<IndexPair>& pairs) {
+  Paired out;
+  const auto side = [&](std::size_t k) {
+    if (k == 0) out.reference = gather(reference, pairs, &IndexPair::reference);
+    if (k == 1) out.estimate = gather(estimate, pairs, &IndexPair::estimate);
+  };
+  if (pairs.size() >= kWorthAThread) {
+    in_parallel(2, side);
+  } else {
+    side(0);
+    side(1);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<IndexPair> match_evo(std::vector<double> reference,
+                                 std::vector<double> estimate,
+                                 double max_diff,
+                                 double offset) {
+  std::vector<IndexPair> out;
+  out.reserve(std::min(reference.size(), estimate.size()));
+  if (estimate.size() > reference.size()) {
+    for (double& stamp : estimate) stamp += offset;
+    for_each_nearest(reference, estimate, max_diff, [&](std::size_t short_i, std::size_t long_i) {
+      out.push_back({short_i, long_i});
+    });
+  } else {
+    for (double& stamp : reference) stamp -= offset;
+    for_each_nearest(estimate, reference, max_diff, [&](std::size_t short_i, std::size_t long_i) {
+      out.push_back({long_i, short_i});
+    });
+  }
+  return out;
+}
+
+Paired interpolate_reference(const Trajectory& reference,
+                             const Trajectory& estimate,
+                             double max_gap,
+                             double offset) {
+  Paired out;
+  out.reference.reserve(estimate.size());
+  out.estimate.reserve(estimate.size());
+  std::size_t after = 0;  // first reference pose not before the wanted stamp
+  for (const StampedPose& pose : estimate) {
+    const double stamp = pose.stamp + offset;
+    while (after < reference.size() && reference[after].stamp < stamp) ++after;
+    if (after == reference.size()) break;
+    const auto& [t1, pose1] = reference[after];
+    if (t1 == stamp) {
+      out.reference.push_back({stamp, pose1});
+    } else {
+      if (after == 0) continue;
+      const auto& [t0, pose0] = reference[after - 1];
+      if (t1 - t0 > max_gap + kStampRounding) continue;
+      out.reference.push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
+    }
+    out.estimate.push_back(pose);
+  }
+  return out;
+}
+
+Paired associate(const Trajectory& reference,
+                 const Trajectory& estimate,
+                 const Protocol& protocol) {
+  const double max_diff = protocol.max_diff;
+  const double offset = protocol.offset;
+  switch (protocol.association) {
+    case Association::interpolate:
+      return interpolate_reference(reference, estimate, protocol.max_gap, offset);
+    case Association::evo:
+      return gather(
+          reference, estimate, match_evo(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::ov_eval:
+      return gather(reference,
+                    estimate,
+                    match_ov_eval(stamps(reference), stamps(estimate), max_diff, offset));
+    case Association::index:
+      if (reference.empty() || estimate.empty()) return {};
+      if (reference.size() == estimate.size()) return {reference, estimate};
+      throw std::runtime_error("association index: " + std::to_string(reference.size()) +
+                               " reference poses and " + std::to_string(estimate.size()) +
+                               " of the estimate, expected equally many");
+    case Association::tum:
+    case Association::nearest:
+      break;
+  }
+  const bool is_tum = protocol.association == Association::tum;
+  const Limit limit = is_tum ? Limit::strict : Limit::inclusive;
+  const Crossing crossing = is_tum ? Crossing::allowed : Crossing::refused;
+  return gather(
+      reference,
+      estimate,
+      match_one_to_one(stamps(reference), stamps(estimate), max_diff, limit, crossing, offset));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,149 @@
+#include "metrics/pairing/pairs/tum_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "datasets/core/parallel.hpp"
+#include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/statistics.hpp"
+#include "metrics/pairing/pairs/python_random.hpp"
+
+namespace loopbench {
+namespace {
+
+double median_step(const std::vector<double>& stamps) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  if (steps.empty()) return std::numeric_limits<double>::infinity();
+  return statistics(std::move(steps)).median;
+}
+
+std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
+  std::vector<double> out(estimate.size());
+  switch (unit) {
+    case DeltaUnit::s:
+      return stamps(estimate);
+    case DeltaUnit::frames:
+      std::iota(out.begin(), out.end(), 0.0);
+      return out;
+    case DeltaUnit::m:
+      return accumulated_distances(estimate);
+    case DeltaUnit::rad:
+    case DeltaUnit::deg:
+      break;
+  }
+  out = turns(estimate, AngleFormula::trace);
+  const double factor = unit == DeltaUnit::deg ? kDegrees : 1.0;
+  double sum = 0.0;
+  for (double& angle : out) angle = sum += factor * angle;
+  return out;
+}
+
+/// The pairs, of poses of the estimate, that are no gap of the reference, and the poses they use.
+TumMotions laid_side_by_side(const Paired& whole,
+                             double offset,
+                             const Alignment& alignment,
+                             const std::vector<FromTo>& pairs) {
+  constexpr std::size_t kUnmatched = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kUnused = kUnmatched - 1;
+  const auto& reference = whole.reference;
+  const auto& estimate = whole.estimate;
+  const std::vector<double> reference_stamps = stamps(reference);
+  const double limit = 2.0 * median_step(reference_stamps);
+  std::vector<std::size_t> nearest(estimate.size(), kUnused);
+  for (const auto& [i, j] : pairs) nearest[i] = nearest[j] = kUnmatched;
+  in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      if (nearest[i] == kUnused) continue;
+      const double stamp = estimate[i].stamp + offset;
+      const std::size_t found = tum_closest_index(reference_stamps, stamp);
+      if (std::abs(reference_stamps[found] - stamp) <= limit) nearest[i] = found;
+    }
+  });
+  TumMotions out;
+  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // of the poses in `out`
+  const auto taken = [&](std::size_t i) {
+    if (place[i] == kUnmatched) {
+      place[i] = out.poses.estimate.size();
+      out.poses.estimate.push_back(estimate[i]);
+      out.poses.reference.push_back(reference[nearest[i]]);
+    }
+    return place[i];
+  };
+  for (const auto& [i, j] : pairs) {
+    if (nearest[i] == kUnmatched || nearest[j] == kUnmatched) continue;
+    const std::size_t from = taken(i);
+    out.pairs.emplace_back(from, taken(j));
+  }
+  out.poses.estimate = moved(alignment, std::move(out.poses.estimate));
+  return out;
+}
+
+}  // namespace
+
+std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted) {
+  std::size_t begin = 0;
+  std::size_t end = sorted.size();
+  std::size_t best = 0;
+  double difference = std::abs(sorted[0] - wanted);
+  while (begin < end) {
+    const std::size_t middle = (begin + end) / 2;
+    const double here = std::abs(sorted[middle] - wanted);
+    if (here < difference) {
+      difference = here;
+      best = middle;
+    }
+    if (sorted[middle] == wanted) return middle;
+    if (sorted[middle] > wanted) {
+      end = middle;
+    } else {
+      begin = middle + 1;
+    }
+  }
+  return best;
+}
+
+TumMotions tum_motions(const Paired& whole,
+                       double offset,
+                       const Alignment& alignment,
+                       const Stretch& stretch,
+                       std::size_t max_pairs) {
+  const std::vector<double> index = measure(whole.estimate, stretch.unit);
+  std::vector<std::size_t> ends(index.size());
+  in_blocks(ends.size(), [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) ends[i] = tum_closest_index(index, index[i] + stretch.delta);
+  });
+  std::vector<FromTo> pairs;
+  pairs.reserve(ends.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] + 1 != ends.size()) pairs.emplace_back(i, ends[i]);
+  }
+  if (max_pairs != 0 && pairs.size() > max_pairs) {
+    std::vector<FromTo> drawn;
+    for (const std::size_t k : PythonRandom().sample(pairs.size(), max_pairs)) {
+      drawn.push_back(pairs[k]);
+    }
+    pairs = std::move(drawn);
+  }
+  return laid_side_by_side(whole, offset, alignment, pairs);
+}
+
+TumMotions tum_random_motions(const Paired& whole,
+                              double offset,
+                              const Alignment& alignment,
+                              std::size_t max_pairs) {
+  const std::size_t n = whole.estimate.size();
+  const bool takes_all = n * n < max_pairs;
+  std::vector<FromTo> pairs;
+  PythonRandom random;
+  for (std::size_t k = 0; k < (takes_all ? n * n : max_pairs); ++k) {
+    const std::size_t i = takes_all ? k / n : random.below(n);
+    const std::size_t j = takes_all ? k % n : random.below(n);
+    pairs.emplace_back(i, j);
+  }
+  return laid_side_by_side(whole, offset, alignment, pairs);
+}
+
+}  // namespace loopbench

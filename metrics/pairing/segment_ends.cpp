@@ -1,0 +1,96 @@
+#include "metrics/pairing/segment_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "datasets/core/parallel.hpp"
+
+namespace loopbench {
+namespace {
+
+using DistanceAt = std::vector<double>::const_iterator;
+
+/// The first, not before `from`, of the equal distances that end at `last`.
+DistanceAt first_of_run(DistanceAt from, DistanceAt last) {
+  if (last == from || *std::prev(last) < *last) return last;
+  return std::lower_bound(from, last, *last);
+}
+
+std::vector<FromTo> nearest(const std::vector<double>& distances,
+                            double length,
+                            double tolerance,
+                            std::size_t step) {
+  constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> ends((distances.size() + step - 1) / step, kNoEnd);
+  in_blocks(ends.size(), [&](std::size_t k, std::size_t last) {
+    if (k == last) return;
+    const auto at = [&](std::size_t i) {
+      return distances.begin() + static_cast<std::ptrdiff_t>(i * step);
+    };
+    // Where the first is searched for, the next ones are walked to: the distance never decreases.
+    DistanceAt beyond = std::lower_bound(at(k), distances.end(), *at(k) + length);
+    for (; k < last; ++k) {
+      const DistanceAt from = at(k);
+      const double wanted = *from + length;
+      beyond = std::max(beyond, from);
+      while (beyond != distances.end() && *beyond < wanted) ++beyond;
+      DistanceAt best = beyond;
+      const bool is_before =
+          best != from &&
+          (best == distances.end() || wanted - *std::prev(best) <= std::abs(*best - wanted));
+      // Standing still repeats a distance: the first of the run, as a scan with `<` would find.
+      if (is_before) best = first_of_run(from, std::prev(best));
+      if (best == distances.end() || !(std::abs(*best - wanted) < tolerance)) continue;
+      ends[k] = static_cast<std::size_t>(best - distances.begin());
+    }
+  });
+  std::vector<FromTo> out;
+  out.reserve(ends.size() - static_cast<std::size_t>(std::ranges::count(ends, kNoEnd)));
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (ends[k] != kNoEnd) out.emplace_back(k * step, ends[k]);
+  }
+  return out;
+}
+
+/// The end walks on while the next pose is nearer than the end was when this start came: it runs
+/// past the first length and only fits again once the starts have caught up, and when it reaches
+/// the last pose all later starts are dropped.
+std::vector<FromTo> eth3d(const std::vector<double>& distances, double length, double tolerance) {
+  std::vector<FromTo> out;
+  std::size_t end = 0;
+  for (std::size_t start = 0; end + 1 < distances.size() && start < distances.size(); ++start) {
+    const double wanted = distances[start] + length;
+    const double at_first = std::abs(wanted - distances[end]);
+    while (end + 1 < distances.size() && std::abs(wanted - distances[end + 1]) < at_first) ++end;
+    if (end + 1 >= distances.size()) break;
+    if (start == end || std::abs(distances[end] - distances[start] - length) > tolerance) continue;
+    out.emplace_back(start, end);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
+                                  double length,
+                                  double tolerance,
+                                  SegmentEnd end,
+                                  std::size_t step) {
+  switch (end) {
+    case SegmentEnd::beyond:
+      return segments_beyond(distances, length, step);
+    case SegmentEnd::eth3d:
+      return eth3d(distances, length, tolerance);
+    case SegmentEnd::nearest:
+    case SegmentEnd::rpg:
+      break;
+  }
+  std::vector<FromTo> out = nearest(distances, length, tolerance, step);
+  if (end == SegmentEnd::rpg) {
+    for (std::size_t k = 0; k < out.size(); ++k) out[k].first = k;
+  }
+  return out;
+}
+
+}  // namespace loopbench

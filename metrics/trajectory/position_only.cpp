@@ -1,0 +1,39 @@
+#include "metrics/trajectory/position_only.hpp"
+
+#include <algorithm>
+
+namespace loopbench {
+namespace {
+
+constexpr double kSameAttitude = 1e-9;  // [rad]; interpolation of equal attitudes rounds to 1e-16
+constexpr std::size_t kEvidence = 10;   // poses
+constexpr double kStraight = 1e-6;      // width over length of what still counts as one line
+
+bool keeps_one_line(const Trajectory& trajectory) {
+  const Vector3 first = trajectory.front().world_from_body.translation;
+  Vector3 farthest = Vector3::Zero();
+  for (const auto& [stamp, pose] : trajectory) {
+    const Vector3 way = pose.translation - first;
+    if (way.squaredNorm() > farthest.squaredNorm()) farthest = way;
+  }
+  const double length = farthest.norm();
+  if (length == 0.0) return true;
+  const Vector3 direction = farthest / length;
+  return std::all_of(trajectory.begin(), trajectory.end(), [&](const StampedPose& pose) {
+    const Vector3 way = pose.world_from_body.translation - first;
+    return way.cross(direction).norm() <= kStraight * length;
+  });
+}
+
+}  // namespace
+
+bool is_position_only(const Trajectory& trajectory) {
+  if (trajectory.size() < kEvidence) return false;
+  const Rotation& first = trajectory.front().world_from_body.rotation;
+  for (const auto& [stamp, pose] : trajectory) {
+    if (angle_between(first, pose.rotation) > kSameAttitude) return false;
+  }
+  return !keeps_one_line(trajectory);
+}
+
+}  // namespace loopbench
