@@ -16,9 +16,9 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/printable.hpp"
-#include "harness/source_commit.hpp"
-#include "harness/version.hpp"
+#include "harness/provenance/source_commit.hpp"
+#include "harness/provenance/version.hpp"
+#include "harness/text/printable.hpp"
 
 using namespace loopbench;
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "harness/version.hpp"
+#include "harness/provenance/version.hpp"
 
 namespace loopbench {
 namespace {

@@ -11,7 +11,7 @@ namespace loopbench {
 struct Calibration {
   std::string config;  ///< as given
   std::vector<Residuals> sequences;
-  std::vector<std::string> sources;         ///< of the sequences, see harness/run/sequence_identity
+  std::vector<std::string> sources;  ///< of the sequences, see harness/provenance/sequence_identity
   std::vector<std::string> not_trained_on;  ///< the config's other datasets
   std::size_t every = 1;                    ///< keyframe edges taken as one
   std::vector<Rung> rungs;

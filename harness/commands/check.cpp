@@ -5,10 +5,10 @@
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/export/gate.hpp"
-#include "harness/export/write_file.hpp"
+#include "harness/gate/formats.hpp"
 #include "harness/gate/snapshot.hpp"
 #include "harness/store/open.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 

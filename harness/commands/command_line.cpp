@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 namespace {

@@ -4,12 +4,12 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
-#include "harness/commands/tables.hpp"
-#include "harness/export/comparison.hpp"
-#include "harness/export/text.hpp"
-#include "harness/export/where.hpp"
+#include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
-#include "harness/suggest.hpp"
+#include "harness/tables/all_records.hpp"
+#include "harness/tables/comparison.hpp"
+#include "harness/tables/text.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 namespace {

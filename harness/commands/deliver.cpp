@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "harness/export/origin.hpp"
-#include "harness/export/write_file.hpp"
 #include "harness/provenance/made_by.hpp"
 #include "harness/store/open.hpp"
+#include "harness/tables/origin.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 

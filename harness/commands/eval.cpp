@@ -2,162 +2,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
-#include "datasets/formats/kitti.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/eval_arguments.hpp"
-#include "harness/export/write_file.hpp"
-#include "harness/printable.hpp"
+#include "harness/commands/eval_options.hpp"
+#include "harness/eval/judge_files.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {
 
-/// A file's poses, and its matrices as printed when it holds some and they are wanted.
-struct Loaded {
-  Trajectory poses;
-  std::vector<PoseMatrix> matrices;
-  ReadFindings mended;
-  std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
-};
-
-Judgement failure(const EvalArguments& a,
-                  const FilePair& pair,
-                  const NamedProtocol& protocol,
-                  const std::string& why) {
-  Judgement out;
-  out.reference_body = a.reference_body.value_or("");
-  out.reference = pair.reference;
-  out.estimate = pair.estimate;
-  out.protocol = protocol;
-  out.why_failed = why;
-  return out;
-}
-
-/// The same reader for reference and estimate, differing in format only.
-struct Reader {
-  const EvalArguments& arguments;
-  bool wants_matrices = false;
-  bool has_used_times = false;
-
-  Loaded read(const std::string& file, const std::string& format_word) {
-    ReadOptions options;
-    FieldType<Format>::assign("format", options.format, format_word);
-    FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
-    if (arguments.period) options.period = *arguments.period;
-    if (options.format == Format::automatic) options.format = recognise(file);
-    const bool is_kitti = options.format == Format::kitti;
-    if (!arguments.times.empty() && is_kitti) {
-      options.times = arguments.times;
-      has_used_times = true;
-    }
-    Loaded out;
-    options.findings = &out.mended;
-    out.poses = read_trajectory(file, options);
-    if (options.format == Format::g2o || (is_kitti && !options.times)) {
-      out.unstamped = file + ": is " + to_text(options.format);
-    }
-    if (out.poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
-    if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
-    return out;
-  }
-
-  Loaded read_reference(const std::string& file) {
-    const bool is_same = arguments.reference_format.empty();
-    return read(file, is_same ? arguments.format : arguments.reference_format);
-  }
-};
-
-/// Numbered poses beside stamped ones would be paired by chance. `one`, `other`: Loaded::unstamped.
-std::string why_two_clocks(const EvalArguments& a,
-                           const Protocol& protocol,
-                           const std::string& one,
-                           const std::string& other) {
-  const bool looks_at_stamps = protocol.association != Association::index;
-  if (a.period || !looks_at_stamps || one.empty() == other.empty()) return "";
-  return one + other +
-         ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
-         "--period S or --association index";
-}
-
-std::vector<std::filesystem::path> all_files(const EvalArguments& a,
-                                             const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> out{a.times};
-  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
-  return out;
-}
-
-std::vector<Judgement> judgements(const EvalArguments& a) {
-  const std::vector<NamedProtocol> rules = protocols(a);
-  for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
-  const ReferenceBody body = reference_body(a);
-  const bool wants_digits =
-      !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
-        return p.rules.form == ErrorForm::kitti || p.rules.association == Association::evo;
-      });
-  const std::vector<FilePair> files = file_pairs(a);
-  refuse_to_overwrite(all_files(a, files), a.per_pose);
-  const bool is_alone = files.size() * rules.size() == 1;
-  Reader reader{a, wants_digits};
-  std::vector<Judgement> out;
-  std::string read_last;
-  Trajectory reference;
-  ReadFindings mended;  // these two of the reference
-  std::string unstamped;
-  PrintedPoses printed;
-  for (const FilePair& pair : files) {
-    if (read_last != pair.reference) {
-      Loaded loaded = reader.read_reference(pair.reference);
-      reference = of_estimate_body(std::move(loaded.poses), body);
-      unstamped = loaded.unstamped;
-      mended = loaded.mended;
-      printed.reference = std::move(loaded.matrices);
-      read_last = pair.reference;
-    }
-    Loaded loaded;
-    try {
-      loaded = reader.read(pair.estimate, a.format);
-    } catch (const InputError& error) {
-      if (is_alone) throw;
-      for (const NamedProtocol& each : rules) out.push_back(failure(a, pair, each, error.what()));
-      continue;
-    }
-    printed.estimate = std::move(loaded.matrices);
-    const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
-    for (const NamedProtocol& protocol : rules) {
-      const JudgeOptions options{questions(a, protocol.rules),
-                                 !a.per_pose.empty(),
-                                 a.min_coverage.value_or(0.0),
-                                 are_printed ? &printed : nullptr,
-                                 {std::max(mended.off_unit, loaded.mended.off_unit),
-                                  mended.repeated + loaded.mended.repeated},
-                                 pose_of(body)};
-      const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
-      if (is_alone && !why.empty()) throw InputError(why);
-      if (!why.empty()) {
-        out.push_back(failure(a, pair, protocol, why));
-        continue;
-      }
-      try {
-        out.push_back(judge(reference, loaded.poses, protocol, options));
-      } catch (const std::runtime_error& error) {
-        if (is_alone) {
-          throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
-        }
-        out.push_back(failure(a, pair, protocol, error.what()));
-      }
-      out.back().reference = pair.reference;
-      out.back().reference_body = a.reference_body.value_or("");
-      out.back().estimate = pair.estimate;
-    }
-  }
-  if (!a.times.empty() && !reader.has_used_times) {
-    throw InputError(a.times + ": is a times file, but no file here is KITTI poses");
-  }
-  return out;
-}
-
 int eval(const EvalArguments& a) {
-  std::vector<Judgement> all = judgements(a);
+  if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
+    throw CLI::RequiredError("EST");
+  }
+  std::vector<Judgement> all = judge_files(a);
   if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   if (a.json) {

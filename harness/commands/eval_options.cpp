@@ -1,7 +1,8 @@
+#include "harness/commands/eval_options.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/checks.hpp"
-#include "harness/commands/eval_arguments.hpp"
 
 namespace loopbench {
 namespace {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/commands.hpp"
-#include "harness/export/write_file.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 

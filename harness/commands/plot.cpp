@@ -4,12 +4,12 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/export/origin.hpp"
-#include "harness/export/where.hpp"
-#include "harness/export/write_file.hpp"
+#include "harness/model/where.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
-#include "harness/suggest.hpp"
+#include "harness/tables/origin.hpp"
+#include "harness/text/suggest.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {

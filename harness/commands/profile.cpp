@@ -4,8 +4,8 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
-#include "harness/pattern/pattern.hpp"
 #include "harness/store/read.hpp"
+#include "harness/text/pattern.hpp"
 
 namespace loopbench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/export/write_file.hpp"
 #include "harness/store/open.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 

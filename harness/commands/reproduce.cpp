@@ -3,15 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "harness/article/claims.hpp"
+#include "harness/article/paper_figures.hpp"
+#include "harness/article/paper_tables.hpp"
+#include "harness/article/segment_claims.hpp"
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/data_root.hpp"
+#include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/export/write_file.hpp"
-#include "harness/reproduce/claims.hpp"
-#include "harness/reproduce/paper_figures.hpp"
-#include "harness/reproduce/paper_tables.hpp"
-#include "harness/reproduce/segment_claims.hpp"
-#include "harness/run/progress.hpp"
+#include "harness/execution/run/progress.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {

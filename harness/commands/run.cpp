@@ -7,23 +7,24 @@
 #include <iterator>
 #include <thread>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/data_root.hpp"
 #include "harness/commands/interruption.hpp"
-#include "harness/commands/tables.hpp"
+#include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/export/origin.hpp"
-#include "harness/export/text.hpp"
-#include "harness/export/where.hpp"
-#include "harness/export/write_file.hpp"
-#include "harness/isolate/isolated_sweep.hpp"
-#include "harness/printable.hpp"
+#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/execution/run/bad_inputs.hpp"
+#include "harness/execution/run/progress.hpp"
+#include "harness/execution/run/run_sweep.hpp"
+#include "harness/model/where.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/provenance/made_by.hpp"
-#include "harness/run/bad_inputs.hpp"
-#include "harness/run/progress.hpp"
-#include "harness/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
+#include "harness/tables/all_records.hpp"
+#include "harness/tables/origin.hpp"
+#include "harness/tables/text.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {

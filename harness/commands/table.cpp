@@ -4,9 +4,9 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
-#include "harness/commands/tables.hpp"
-#include "harness/export/text.hpp"
-#include "harness/export/where.hpp"
+#include "harness/model/where.hpp"
+#include "harness/tables/all_records.hpp"
+#include "harness/tables/text.hpp"
 
 namespace loopbench {
 namespace {

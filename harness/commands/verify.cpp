@@ -1,15 +1,15 @@
-#include "harness/verify/verify.hpp"
+#include "harness/execution/verify/verify.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/data_root.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/run/progress.hpp"
-#include "harness/run/sequences.hpp"
+#include "harness/execution/run/progress.hpp"
 
 namespace loopbench {
 namespace {

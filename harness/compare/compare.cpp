@@ -6,7 +6,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/selection.hpp"
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 
 namespace loopbench {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/config/grid.hpp"
-#include "harness/sweep.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench {
 

@@ -7,7 +7,7 @@
 #include "harness/config/grid.hpp"
 #include "harness/config/method_text.hpp"
 #include "harness/config/source_text.hpp"
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 namespace {

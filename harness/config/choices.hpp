@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/config/yaml.hpp"
-#include "harness/sweep.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench {
 

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/config/source_text.hpp"
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 

@@ -8,9 +8,9 @@
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
-#include "harness/export/where.hpp"
-#include "harness/pattern/pattern.hpp"
-#include "harness/suggest.hpp"
+#include "harness/model/where.hpp"
+#include "harness/text/pattern.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "harness/catalogue.hpp"
-#include "harness/sweep.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench {
 

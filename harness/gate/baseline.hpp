@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 
 namespace loopbench {
 
@@ -16,7 +16,7 @@ namespace loopbench {
 /// regression too, each number within the limit or not (see consistent_loss.hpp). Scores without a
 /// direction may move neither way.
 struct Tolerance {
-  std::vector<std::string> where;                  ///< rules, see export/where; empty: every score
+  std::vector<std::string> where;                  ///< rules, see model/where; empty: every score
   std::vector<std::string> values{"rmse", "max"};  ///< statistics that are compared
   double relative = 0.001;                         ///< [-]
   double absolute = 1e-6;                          ///< in the unit of the score

@@ -9,9 +9,9 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "harness/export/where.hpp"
 #include "harness/gate/consistent_loss.hpp"
 #include "harness/gate/definitions.hpp"
+#include "harness/model/where.hpp"
 
 namespace loopbench {
 namespace {

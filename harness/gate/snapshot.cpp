@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/derived.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/derived.hpp"
 
 namespace loopbench {
 namespace {

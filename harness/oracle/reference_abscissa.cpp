@@ -3,7 +3,10 @@
 namespace loopbench {
 namespace {
 
-using namespace manifold;  // NOLINT: what this file takes apart
+using manifold::Graph;
+using manifold::Height;
+using manifold::Parts;
+using manifold::PlanarPiece;
 
 template <class Piece>
 constexpr bool is_function_of_x = false;
@@ -14,9 +17,9 @@ constexpr bool is_function_of_x<Graph<Function>> = true;
 
 Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& reference) const {
   const Parts& parts = curve_->parts();
-  const Place own = parts.spline.at(edge, time);
+  const manifold::Place own = parts.spline.at(edge, time);
   const Vector3 levelled = reference + parts.up.dot(own.point - reference) * parts.up;
-  const Place seen{levelled, own.way, own.time};
+  const manifold::Place seen{levelled, own.way, own.time};
   const auto ask = [&](const PlanarPiece& piece) {
     return std::visit(
         [&](const auto& shape) {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/write_file.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench {
 namespace {

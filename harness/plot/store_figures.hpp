@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/model/record.hpp"
 #include "harness/plot/gnuplot.hpp"
-#include "harness/store/record.hpp"
 #include "harness/store/traces.hpp"
 
 namespace loopbench {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 
 namespace loopbench {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/export/listing.hpp"
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
+#include "harness/tables/listing.hpp"
 
 namespace loopbench {
 

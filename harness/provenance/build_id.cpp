@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "datasets/core/error.hpp"
+#include "harness/catalogue/libraries.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/hash.hpp"
-#include "harness/provenance/libraries.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench {
 namespace {

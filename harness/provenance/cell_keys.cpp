@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "harness/provenance/hash.hpp"
-#include "harness/run/sequences.hpp"
+#include "harness/catalogue/load_sequence.hpp"
+#include "harness/provenance/summarise_sequence.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/catalogue.hpp"
-#include "harness/run/cells.hpp"
-#include "harness/run/sequence_facts.hpp"
-#include "harness/sweep.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/cells.hpp"
+#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench {
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <thread>
 
+#include "harness/catalogue/libraries.hpp"
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/libraries.hpp"
-#include "harness/run/sequences.hpp"
 
 namespace loopbench {
 namespace {

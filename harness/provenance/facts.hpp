@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "harness/catalogue.hpp"
-#include "harness/sweep.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/commands/tables.hpp"
+#include "harness/tables/all_records.hpp"
 
 namespace loopbench {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "harness/export/listing.hpp"
-#include "harness/export/sheet.hpp"
+#include "harness/tables/listing.hpp"
+#include "harness/tables/sheet.hpp"
 
 namespace loopbench {
 

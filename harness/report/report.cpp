@@ -7,11 +7,11 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/comparison.hpp"
 #include "harness/report/assets.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
+#include "harness/tables/comparison.hpp"
 
 namespace loopbench {
 namespace {

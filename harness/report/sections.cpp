@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "harness/export/comparison.hpp"
 #include "harness/profile/profile.hpp"
 #include "harness/report/html.hpp"
+#include "harness/tables/comparison.hpp"
 
 namespace loopbench {
 namespace {

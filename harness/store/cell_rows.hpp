@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench {

@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
+#include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/run/result.hpp"
 #include "harness/store/sqlite.hpp"
 #include "harness/store/write_digests.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/run/result.hpp"
+#include "harness/model/result.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"

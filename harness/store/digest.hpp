@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "harness/provenance/hash.hpp"
 #include "harness/store/sqlite.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "datasets/core/error.hpp"
-#include "harness/run/result.hpp"
+#include "harness/model/result.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/sequence_facts.hpp"
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
+#include "harness/model/sequence_facts.hpp"
 
 namespace loopbench {
 

@@ -101,7 +101,7 @@ inline constexpr const char* kSchema = R"sql(
     begin_stamp REAL NOT NULL,         -- [s]
     end_stamp REAL NOT NULL,           -- [s]
     what TEXT NOT NULL);               -- chosen there, may be empty
-  CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/run/trace.hpp
+  CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/model/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
     samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol

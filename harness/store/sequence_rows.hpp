@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/sequence_facts.hpp"
+#include "harness/model/sequence_facts.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "datasets/core/error.hpp"
+#include "harness/provenance/version.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/write_digests.hpp"
-#include "harness/version.hpp"
 
 namespace loopbench {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/run/result.hpp"
 #include "harness/store/folder_lock.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/sqlite.hpp"

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "harness/run/trace.hpp"
+#include "harness/model/trace.hpp"
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"

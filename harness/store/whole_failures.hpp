@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 
 namespace loopbench {
 

@@ -1,7 +1,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "harness/calibrate/calibration_text.hpp"
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 /// Which cell is which: labels, files and machines.
 #include <gtest/gtest.h>
 
-#include "harness/provenance/libraries.hpp"
+#include "harness/catalogue/libraries.hpp"
 #include "harness/store/merge.hpp"
 #include "tests/support/tiny_store.hpp"
 

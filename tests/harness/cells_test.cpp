@@ -1,11 +1,11 @@
-#include "harness/run/cells.hpp"
+#include "harness/model/cells.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/provenance/hash.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench {
 namespace {

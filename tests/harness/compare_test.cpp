@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/comparison.hpp"
-#include "harness/export/text.hpp"
+#include "harness/tables/comparison.hpp"
+#include "harness/tables/text.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -2,7 +2,7 @@
 /// rejected.
 #include <gtest/gtest.h>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

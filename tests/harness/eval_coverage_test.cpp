@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/commands/judgement.hpp"
+#include "harness/eval/judgement.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

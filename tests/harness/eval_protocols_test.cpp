@@ -5,7 +5,7 @@
 #include <fstream>
 #include <regex>
 
-#include "harness/commands/judgement.hpp"
+#include "harness/eval/judgement.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/derived.hpp"
-#include "harness/export/notes.hpp"
-#include "harness/export/text.hpp"
+#include "harness/tables/derived.hpp"
+#include "harness/tables/notes.hpp"
+#include "harness/tables/text.hpp"
 
 namespace loopbench {
 namespace {
@@ -151,7 +151,8 @@ TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
   EXPECT_NE(
-      text.find("\nroom,0,\"a, \"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
+      text.find("\nroom,0,\"a, "
+                "\"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
       std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;

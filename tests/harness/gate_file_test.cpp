@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/gate.hpp"
+#include "harness/gate/formats.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -7,13 +7,14 @@
 #include <map>
 #include <thread>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/isolate/cell_queue.hpp"
-#include "harness/isolate/isolated_sweep.hpp"
-#include "harness/isolate/pack_result.hpp"
-#include "harness/run/run_sweep.hpp"
-#include "harness/verify/verify.hpp"
+#include "harness/execution/isolate/cell_queue.hpp"
+#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/run/run_sweep.hpp"
+#include "harness/execution/verify/verify.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {

@@ -1,6 +1,7 @@
 /// Stores put together, and which are not.
 #include "harness/store/merge.hpp"
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench {

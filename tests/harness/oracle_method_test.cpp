@@ -1,12 +1,13 @@
-#include "harness/run/oracle_method.hpp"
+#include "harness/execution/run/oracle_method.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/isolate/isolated_sweep.hpp"
-#include "harness/run/run_sweep.hpp"
+#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/execution/run/run_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {

@@ -1,4 +1,4 @@
-#include "harness/pattern/pattern.hpp"
+#include "harness/text/pattern.hpp"
 
 #include <gtest/gtest.h>
 

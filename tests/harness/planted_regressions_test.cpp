@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/gate.hpp"
+#include "harness/gate/formats.hpp"
 #include "tests/support/gate_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

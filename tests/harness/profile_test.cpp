@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "harness/run/allocations.hpp"
+#include "harness/execution/run/allocations.hpp"
 
 namespace loopbench {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/export/pivot.hpp"
+#include "harness/tables/pivot.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 

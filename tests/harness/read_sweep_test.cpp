@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {

@@ -7,12 +7,13 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
+#include "harness/execution/run/run_sweep.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
-#include "harness/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/article/claims.hpp"
+#include "harness/article/paper_tables.hpp"
+#include "harness/article/reported.hpp"
+#include "harness/article/segment_claims.hpp"
 #include "harness/plot/gnuplot.hpp"
-#include "harness/reproduce/claims.hpp"
-#include "harness/reproduce/paper_tables.hpp"
-#include "harness/reproduce/reported.hpp"
-#include "harness/reproduce/segment_claims.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {

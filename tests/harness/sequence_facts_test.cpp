@@ -1,10 +1,9 @@
-#include "harness/run/sequence_facts.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "datasets/core/se3.hpp"
+#include "harness/provenance/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {

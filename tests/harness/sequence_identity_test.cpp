@@ -1,14 +1,15 @@
-#include "harness/run/sequence_identity.hpp"
+#include "harness/provenance/sequence_identity.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/run/oracle_closures.hpp"
-#include "harness/run/sequences.hpp"
+#include "harness/execution/run/sequences.hpp"
+#include "harness/provenance/oracle_closures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {

@@ -1,4 +1,4 @@
-#include "harness/suggest.hpp"
+#include "harness/text/suggest.hpp"
 
 #include <gtest/gtest.h>
 

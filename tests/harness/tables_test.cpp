@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "datasets/core/error.hpp"
-#include "harness/export/derived.hpp"
-#include "harness/export/text.hpp"
-#include "harness/export/where.hpp"
+#include "harness/model/where.hpp"
+#include "harness/tables/derived.hpp"
+#include "harness/tables/text.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {

@@ -1,5 +1,5 @@
 /// Rules and lists that people type, with labels that hold commas.
-#include "harness/export/where.hpp"
+#include "harness/model/where.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "datasets/core/error.hpp"
-#include "harness/plugins.hpp"
+#include "harness/catalogue/plugins.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/problems.hpp"
 

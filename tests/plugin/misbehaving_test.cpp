@@ -1,8 +1,8 @@
 /// A plugin that aborts, loops, exits and floods memory, through the command line.
 #include <gtest/gtest.h>
 
-#include "harness/catalogue.hpp"
-#include "harness/provenance/libraries.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/catalogue/libraries.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 

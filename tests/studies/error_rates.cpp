@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/export/pivot.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::synthetic {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/store/record.hpp"
+#include "harness/model/record.hpp"
 
 namespace loopbench::synthetic {
 
@@ -25,13 +25,13 @@ std::vector<Shape> shapes();
 struct Truth {
   std::vector<double> effects;  ///< expected logarithm of each method's error
   std::size_t groups = 10;
-  std::size_t runs_in_group = 1;   ///< runs of a group share `shared` of their deviation
-  double shared = 0.0;             ///< intra-group correlation of the deviations [-]
-  double spread = 0.3;             ///< standard deviation of a method's logarithm [-]
-  std::vector<double> failures = {};///< probability that a method fails; empty: never
-  bool states_groups = true;       ///< false: records without Record::group
-  double copies = 0.0;             ///< share of runs repeated with equal content
-  bool baseline_is_fixed = false;  ///< the baseline's deviation is zero
+  std::size_t runs_in_group = 1;      ///< runs of a group share `shared` of their deviation
+  double shared = 0.0;                ///< intra-group correlation of the deviations [-]
+  double spread = 0.3;                ///< standard deviation of a method's logarithm [-]
+  std::vector<double> failures = {};  ///< probability that a method fails; empty: never
+  bool states_groups = true;          ///< false: records without Record::group
+  double copies = 0.0;                ///< share of runs repeated with equal content
+  bool baseline_is_fixed = false;     ///< the baseline's deviation is zero
 };
 
 /// One ATE per method and run.

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "datasets/core/polyline.hpp"
-#include "harness/catalogue.hpp"
+#include "harness/catalogue/catalogue.hpp"
 
 namespace loopbench::tiny {
 

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/run/run_sweep.hpp"
+#include "harness/execution/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/store_text.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,0 +1,19 @@
+/// Figures 5 to 8: truth red, ours blue, ORB-SLAM2 green.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/article/paper_run.hpp"
+
+namespace loopbench {
+
+/// Writes figure5.svg (fr1) and figure7.svg (fr3): two segments fitted locally with N = 3, 4, 5;
+/// and figure6.svg (fr1) and figure8.svg (fr3): the whole run in the xoy plane for N and in xyz for
+/// M. All on the closed input in this reading. Returns the file names written, those that could be.
+std::vector<std::string> paper_figures(const std::vector<PaperCell>& cells,
+                                       const std::string& reading,
+                                       const std::filesystem::path& folder);
+
+}  // namespace loopbench

@@ -1,0 +1,24 @@
+/// A calibration from the sequences of a sweep.
+#pragma once
+
+#include <string>
+
+#include "harness/calibrate/calibration_text.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench {
+
+struct LearnOptions {
+  std::string train;       ///< a Pattern: only datasets whose label contains a match
+  std::size_t every = 10;  ///< edges taken as one
+  int draws = 50;          ///< of the bootstrap
+};
+
+/// Throws InputError when no dataset matches, none is long enough, or a file is missing or broken.
+Calibration learn(const Sweep& sweep,
+                  const Catalogue& catalogue,
+                  const DataRoot& root,
+                  const LearnOptions& options);
+
+}  // namespace loopbench

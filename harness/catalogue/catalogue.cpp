@@ -1,0 +1,73 @@
+#include "harness/catalogue/catalogue.hpp"
+
+#include <algorithm>
+
+#include "datasets/rgbd/rgbd_datasets.hpp"
+#include "harness/catalogue/libraries.hpp"
+#include "harness/catalogue/loading.hpp"
+#include "harness/catalogue/plugins.hpp"
+#include "harness/text/hash.hpp"
+#include "harness/text/suggest.hpp"
+
+namespace loopbench {
+namespace {
+
+template <class Entry>
+const Entry& find(const std::vector<Entry>& entries,
+                  const std::string& kind,
+                  const std::string& name) {
+  const auto found = std::ranges::find(entries, name, &Entry::name);
+  if (found != entries.end()) return *found;
+  std::vector<std::string> known;
+  for (const Entry& entry : entries) known.push_back(entry.name);
+  throw InputError(unknown_name(kind, name, known));
+}
+
+/// Hashes of a loaded plugin's file and of the libraries that it brings.
+std::string version_of(const std::filesystem::path& plugin) {
+  std::string out = hex(hash_of_file(plugin));
+  for (const std::filesystem::path& library : plugin_libraries(plugin)) {
+    out += ", " + library.filename().string() + " " + hex(hash_of_file(library));
+  }
+  return out;
+}
+
+}  // namespace
+
+Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
+  Catalogue out{datasets(), methods(), metrics(), oracles(), {}};
+  for (DatasetEntry& entry : rgbd_datasets(loading_hooks())) {
+    out.datasets.push_back(std::move(entry));
+  }
+  for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
+  for (const std::filesystem::path& plugin : plugins) {
+    std::string version;
+    for (MethodEntry& entry : load_plugin(plugin)) {
+      if (std::ranges::find(out.methods, entry.name, &MethodEntry::name) != out.methods.end()) {
+        throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
+                         "' is already in the catalogue");
+      }
+      if (version.empty()) version = version_of(plugin);  // after loading: it is a file
+      out.versions.emplace(entry.name, version);
+      out.methods.push_back(std::move(entry));
+    }
+  }
+  return out;
+}
+
+const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.datasets, "dataset", name);
+}
+const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.methods, "method", name);
+}
+const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name) {
+  const auto found = std::ranges::find(
+      catalogue.oracles, name, [](const OracleEntry& entry) { return entry.listed.name; });
+  return found == catalogue.oracles.end() ? nullptr : &*found;
+}
+const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
+  return find(catalogue.metrics, "metric", name);
+}
+
+}  // namespace loopbench

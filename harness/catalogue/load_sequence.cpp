@@ -1,0 +1,67 @@
+#include "harness/catalogue/load_sequence.hpp"
+
+#include <algorithm>
+
+namespace loopbench {
+namespace {
+
+/// `seed`, and those of a part (`false_closures.seed`).
+bool is_seed(const OptionInfo& option) {
+  return option.name == "seed" || option.name.ends_with(".seed");
+}
+
+Params all_options(const DatasetChoice& choice, const DatasetEntry& entry) {
+  Params out;
+  for (const OptionInfo& option : entry.options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : choice.dataset.options) out.insert_or_assign(name, value);
+  return out;
+}
+
+/// Whether another seed makes other data: that of a part does only where the part has a share.
+bool decides(const OptionInfo& seed, const Params& options) {
+  if (!is_seed(seed)) return false;
+  const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");
+  if (share == options.end()) return true;
+  return share->second != Param{0.0} && share->second != Param{std::int64_t{0}};
+}
+
+}  // namespace
+
+std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue) {
+  std::vector<bool> out;
+  for (const DatasetChoice& choice : sweep.datasets) {
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    const Params options = all_options(choice, entry);
+    out.push_back(std::ranges::any_of(
+        entry.options, [&](const OptionInfo& option) { return decides(option, options); }));
+  }
+  return out;
+}
+
+Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat) {
+  Params out = all_options(choice, entry);
+  for (const OptionInfo& option : entry.options) {
+    if (!is_seed(option)) continue;
+    out[option.name] = derived_seed(std::get<std::int64_t>(out.at(option.name)), repeat);
+  }
+  return out;
+}
+
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root) {
+  const DatasetChoice& choice = sweep.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+  Params options = choice.dataset.options;
+  const Params full = full_options(choice, entry, cell.repeat);
+  for (const OptionInfo& option : entry.options) {
+    if (is_seed(option)) options[option.name] = full.at(option.name);
+  }
+  Sequence sequence = entry.load(options, root);
+  check(sequence.problem, choice.label);
+  check(sequence.reference, choice.label + ": reference");
+  return sequence;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,26 @@
+/// Loading the datasets that a sweep names, with the seeds of its repeats.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/sequence.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/cells.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench {
+
+/// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
+std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
+
+/// Loads the sequence of a cell, with the seed of its repeat. Throws InputError with the dataset's
+/// label when a file is missing or broken.
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root);
+
+/// The dataset's options in full, defaults included, with the seed of this repeat.
+Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
+
+}  // namespace loopbench

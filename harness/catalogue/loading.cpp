@@ -1,0 +1,52 @@
+#include "harness/catalogue/loading.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace loopbench {
+namespace {
+
+std::filesystem::path cache_folder() {
+  if (const char* own = std::getenv("LOOPBENCH_CACHE")) return own;
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && *cache != '\0') return std::filesystem::path(cache) / "loopbench";
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || *home == '\0') return {};
+  return std::filesystem::path(home) / ".cache" / "loopbench";
+}
+
+void draw(const std::string& stage, std::size_t done, std::size_t total) {
+  const std::size_t step = std::max<std::size_t>(1, total / 100);
+  if (done % step != 0 && done != total) return;
+  fmt::print(stderr, "\r\033[K{}", loading_line(stage, done, total));
+  if (done == total) fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+FrontendHooks loading_hooks() {
+  FrontendHooks out;
+  if (isatty(STDERR_FILENO) == 1) out.progress = draw;
+  out.cache = cache_folder();
+  return out;
+}
+
+std::string loading_line(const std::string& stage, std::size_t done, std::size_t total) {
+  constexpr std::size_t kBar = 20;  // [columns]
+  const std::size_t filled = total == 0 ? kBar : kBar * done / total;
+  return fmt::format(
+      "[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", kBar - filled, done, total, stage);
+}
+
+void tell(const std::string& label, const std::vector<std::string>& notes) {
+  std::string out;
+  for (const std::string& note : notes) out += fmt::format("{}: {}\n", label, note);
+  fmt::print(stderr, "{}", out);
+}
+
+}  // namespace loopbench

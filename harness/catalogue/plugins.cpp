@@ -1,0 +1,27 @@
+#include "harness/catalogue/plugins.hpp"
+
+#include <dlfcn.h>
+
+#include "datasets/core/error.hpp"
+#include "methods/plugin.hpp"
+
+namespace loopbench {
+
+std::vector<MethodEntry> load_plugin(const std::filesystem::path& object) {
+  const auto refuse = [&](const std::string& why) {
+    return InputError("plugin " + object.string() + ": " + why);
+  };
+  // An absolute path keeps dlopen from searching the library path for a bare name.
+  const std::string path = std::filesystem::absolute(object).string();
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed, see the header
+  if (handle == nullptr) throw refuse(dlerror());
+  auto* describe = reinterpret_cast<const Plugin* (*)()>(dlsym(handle, "loopbench_plugin"));
+  if (describe == nullptr) throw refuse("has no LOOPBENCH_PLUGIN line");
+  const Plugin& plugin = *describe();
+  if (plugin.abi != Abi{}) {
+    throw refuse("was built for another compiler, Eigen, alignment or loopbench interface");
+  }
+  return plugin.methods();
+}
+
+}  // namespace loopbench

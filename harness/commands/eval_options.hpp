@@ -1,0 +1,14 @@
+#pragma once
+
+#include "harness/eval/arguments.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace loopbench {
+
+/// Declares the options; values are checked later, by the functions of eval/arguments.hpp.
+void declare(CLI::App& command, EvalArguments& arguments);
+
+}  // namespace loopbench

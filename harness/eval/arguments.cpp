@@ -1,0 +1,174 @@
+#include "harness/eval/arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "harness/config/protocol_choice.hpp"
+#include "harness/config/source_text.hpp"
+#include "metrics/pairing/pairs/stretch.hpp"
+
+namespace loopbench {
+namespace {
+
+/// A word as its author meant it: true, 7, 0.5 or text.
+Param typed(const std::string& word) {
+  if (word == "true" || word == "false") return word == "true";
+  const char* const end = word.data() + word.size();
+  std::int64_t whole = 0;
+  if (const auto [rest, error] = std::from_chars(word.data(), end, whole);
+      error == std::errc{} && rest == end) {
+    return whole;
+  }
+  double real = 0.0;
+  if (const auto [rest, error] = std::from_chars(word.data(), end, real);
+      error == std::errc{} && rest == end) {
+    return real;
+  }
+  return word;
+}
+
+/// Between commas, up to a million like the datasets' option; none when one of them is no number.
+std::vector<double> numbers(const std::string& text) {
+  constexpr double kMost = 1e6;
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    const bool is_number = error == std::errc{} && std::abs(value) <= kMost;
+    if (!is_number || (rest != end && *rest != ',')) return {};
+    out.push_back(value);
+    if (rest == end) return out;
+    at = rest + 1;
+  }
+}
+
+/// -s makes the alignment a similarity; alone, as in evo, it only scales.
+std::string scaled(const std::string& align) {
+  if (align == "none") return "scale";
+  if (align == "se3" || align == "sim3") return "sim3";
+  throw OptionError("align", "align = " + align + ": has no form with scale; use se3 or none");
+}
+
+Params changes(const EvalArguments& a, const Protocol& base) {
+  Params out;
+  const std::vector<OptionInfo> fields = describe(base);
+  for (const std::string& setting : a.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError("--set: '" + setting + "' is not FIELD=VALUE, for example ddof=1");
+    }
+    const std::string name = setting.substr(0, equals);
+    const std::string text = setting.substr(equals + 1);
+    Param value = typed(text);
+    for (const OptionInfo& field : fields) {
+      if (field.name == name) value = value_for(field, value, text);
+    }
+    if (const double* real = std::get_if<double>(&value); real && !std::isfinite(*real)) {
+      throw InputError("--set: " + setting + ": expected a finite number");
+    }
+    out[name] = value;
+  }
+  if (!a.association.empty()) out["association"] = a.association;
+  if (!a.align.empty()) out["align"] = a.align;
+  if (a.correct_scale) {
+    const auto given = out.find("align");
+    out["align"] = scaled(given == out.end() ? to_text(base.align) : to_text(given->second));
+  }
+  if (a.align_first) out["align_first"] = std::int64_t{*a.align_first};
+  if (!a.project.empty()) out["project"] = a.project;
+  if (a.max_diff) out["max_diff"] = *a.max_diff;
+  if (a.max_gap) out["max_gap"] = *a.max_gap;
+  if (a.offset) out["offset"] = *a.offset;
+  if (a.all_pairs) out["pairs"] = std::string("all");
+  if (a.pairs_from_reference) out["pairs_from"] = std::string("reference");
+  return out;
+}
+
+/// evo's words beside ours.
+std::string our_relation(const std::string& word) {
+  const std::map<std::string, std::string> evo{{"full", "full_transformation"},
+                                               {"trans_part", "translation_part"},
+                                               {"rot_part", "rotation_part"},
+                                               {"angle_deg", "rotation_angle_deg"},
+                                               {"angle_rad", "rotation_angle_rad"}};
+  const auto found = evo.find(word);
+  return found == evo.end() ? word : found->second;
+}
+
+std::string our_unit(const std::string& word) {
+  const std::map<std::string, std::string> evo{{"f", "frames"}, {"d", "deg"}, {"r", "rad"}};
+  const auto found = evo.find(word);
+  return found == evo.end() ? word : found->second;
+}
+
+}  // namespace
+
+std::vector<NamedProtocol> protocols(const EvalArguments& a) {
+  const bool is_rpg_folder = a.estimates.empty() && std::filesystem::is_directory(a.reference);
+  const Params of_folder = is_rpg_folder ? rpg_settings(a.reference) : Params{};
+  std::vector<NamedProtocol> out;
+  for (const std::string& name : a.protocols) {
+    Params wanted = changes(a, known_protocol(name, {}).rules);
+    // What is typed goes before what the folder says; that is meant for rpg's rules only.
+    if (name.starts_with("rpg")) wanted.insert(of_folder.begin(), of_folder.end());
+    out.push_back(known_protocol(name, wanted));
+  }
+  return out;
+}
+
+std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
+  if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return usual_questions(protocol);
+  Relation relation = Relation::usual;
+  if (!a.relation.empty()) {
+    FieldType<Relation>::assign("pose_relation", relation, our_relation(a.relation));
+  }
+  DeltaUnit unit = DeltaUnit::frames;
+  if (!a.delta_unit.empty()) {
+    FieldType<DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
+  }
+  Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
+  std::vector<Asked> out;
+  if (relation != Relation::usual) {
+    motion["relation"] = to_text(relation);
+    // The ratio is of motions only.
+    if (relation != Relation::point_distance_error_ratio) {
+      out.push_back({"ape", {{"relation", to_text(relation)}}});
+    }
+  }
+  out.push_back({"rpe", motion});
+  return out;
+}
+
+ReferenceBody reference_body(const EvalArguments& a) {
+  ReferenceBody out;
+  if (!a.reference_body) return out;
+  const auto refuse = [&](const std::string& what) {
+    return InputError("--ref-body: '" + *a.reference_body + "' " + what);
+  };
+  const std::vector<double> given = numbers(*a.reference_body);
+  if (given.size() != 3 && given.size() != 7) {
+    throw refuse("is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+  }
+  double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
+  for (std::size_t i = 0; i < given.size(); ++i) *members[i] = given[i];
+  try {
+    pose_of(out);
+  } catch (const OptionError&) {
+    throw refuse("has no unit quaternion behind the place");
+  }
+  return out;
+}
+
+std::vector<FilePair> file_pairs(const EvalArguments& a) {
+  if (a.estimates.empty()) return rpg_layout(a.reference);
+  const bool is_folder = std::filesystem::is_directory(a.reference);
+  if (is_folder && a.estimates.size() == 1) return ov_eval_layout(a.reference, a.estimates[0]);
+  std::vector<FilePair> out;
+  for (const std::string& estimate : a.estimates) out.push_back({a.reference, estimate});
+  return out;
+}
+
+}  // namespace loopbench

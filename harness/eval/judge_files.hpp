@@ -1,0 +1,15 @@
+/// Reads the files that `eval` names and judges every estimate under every protocol.
+#pragma once
+
+#include <vector>
+
+#include "harness/eval/arguments.hpp"
+#include "harness/eval/judgement.hpp"
+
+namespace loopbench {
+
+/// One for each estimate and protocol, in that order. Where there are several, what cannot be read
+/// or judged is a Judgement with `why_failed`. Throws InputError, OptionError.
+std::vector<Judgement> judge_files(const EvalArguments& arguments);
+
+}  // namespace loopbench

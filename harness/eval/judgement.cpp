@@ -1,0 +1,117 @@
+#include "harness/eval/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "harness/execution/run/evaluation_notes.hpp"
+#include "harness/execution/run/incomplete.hpp"
+#include "metrics/checks/body_offset.hpp"
+#include "metrics/checks/diagnostics.hpp"
+
+namespace loopbench {
+
+std::vector<Asked> usual_questions(const Protocol& protocol) {
+  std::vector<Asked> out;
+  for (const MetricEntry& entry : metrics()) {
+    if (entry.name == "rpe" && protocol.pairs == PairRule::tum_random) {
+      out.push_back({entry.name, {}});
+    } else if (entry.name == "rpe") {
+      for (const char* unit : {"frames", "s", "m"}) {
+        out.push_back({entry.name, {{"delta", 1.0}, {"unit", std::string(unit)}}});
+      }
+    } else if (entry.name == "segments" && protocol.segments == SegmentRule{}) {
+      out.push_back({entry.name, {{"each", false}}});
+    } else if (entry.name == "ate" || entry.name == "axis_error" || entry.name == "segments") {
+      out.push_back({entry.name, {}});
+    }
+  }
+  return out;
+}
+
+bool has_no_number(const Judgement& j) {
+  return std::ranges::none_of(j.metrics, [](const JudgedMetric& metric) {
+    return std::ranges::any_of(metric.scores,
+                               [](const Score& score) { return score.why_undefined.empty(); });
+  });
+}
+
+std::string status(const Judgement& j) {
+  if (!j.why_failed.empty()) return "failed";
+  if (has_no_number(j)) return "undefined";
+  return j.why_incomplete.empty() ? "ok" : "incomplete";
+}
+
+void compare_coverage(std::vector<Judgement>& judgements) {
+  constexpr double kFarLess = 0.5;
+  const auto key = [](const Judgement& j) { return j.reference + "\n" + j.protocol.label(); };
+  std::map<std::string, double> most;
+  for (const Judgement& j : judgements) {
+    double& best = most[key(j)];
+    best = std::max(best, j.coverage.least());
+  }
+  for (Judgement& j : judgements) {
+    const double best = most.at(key(j));
+    if (!j.why_failed.empty() || !j.why_incomplete.empty()) continue;
+    if (j.coverage.least() >= kFarLess * best) continue;
+    j.why_incomplete = fmt::format(
+        "judged {} of {} poses over {:.1f} % of the reference's time, less than half of the {:.1f} "
+        "% that another estimate covers",
+        j.coverage.pairs,
+        j.coverage.possible,
+        100.0 * j.coverage.span,
+        100.0 * best);
+  }
+}
+
+std::string why_not_ok(const Judgement& j) {
+  if (!j.why_failed.empty()) return j.why_failed;
+  return has_no_number(j) ? "nothing that was asked for is defined here" : j.why_incomplete;
+}
+
+Judgement judge(const Trajectory& reference,
+                const Trajectory& estimate,
+                const NamedProtocol& protocol,
+                const JudgeOptions& options) {
+  Evaluation evaluation = evaluate(reference, estimate, protocol.rules);
+  evaluation.context = {.reference = &reference,
+                        .estimate = &estimate,
+                        .protocol = protocol.rules,
+                        .printed = options.printed};
+  Judgement out;
+  out.reference_poses = reference.size();
+  out.estimate_poses = estimate.size();
+  out.protocol = protocol;
+  out.coverage = evaluation.coverage;
+  out.why_incomplete = why_incomplete(evaluation.coverage, options.min_coverage);
+  out.alignment = evaluation.alignment;
+  out.diagnosis = diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference, evaluation);
+  for (Score& score : out.diagnosis) {  // readers normalise, so the files have to be asked
+    if (score.relation == "off_unit") score = single("off_unit", "", "1", options.mended.off_unit);
+  }
+  out.diagnosis.push_back(
+      single("left_out", "", "1", static_cast<double>(options.mended.repeated)));
+  if (const auto offset = body_offset(evaluation, {})) {
+    out.other_body = other_body(*offset, options.body_from_reference);
+  }
+  if (options.with_poses) out.poses = pose_errors(evaluation);
+  const std::vector<MetricEntry> known = metrics();
+  for (const Asked& asked : options.questions) {
+    for (const MetricEntry& entry : known) {
+      if (entry.name != asked.metric) continue;
+      JudgedMetric& judged =
+          out.metrics.emplace_back(JudgedMetric{asked.metric, asked.options, {}, {}});
+      try {
+        judged.scores = entry.score(evaluation, asked.options);
+      } catch (const std::runtime_error& error) {
+        judged.why_undefined = error.what();
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "harness/eval/judgement.hpp"
+#include "harness/tables/notes.hpp"
+#include "harness/tables/text.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string in_words(const Params& options) {
+  std::string out;
+  for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
+  return out;
+}
+
+double quoted_statistic(const Protocol& protocol, const Statistics& s) {
+  if (protocol.statistic == Statistic::mean) return s.mean;
+  return protocol.statistic == Statistic::median ? s.median : s.rmse;
+}
+
+std::string body_text(const Judgement& j) {
+  return j.reference_body.empty() ? "" : ", its body at " + j.reference_body;
+}
+
+std::string protocol_text(const NamedProtocol& protocol) {
+  return fmt::format("{} [{}]", protocol.label(), protocol.version);
+}
+
+/// "largest_gap 0.25 s, repeated 0, ...", a few a line.
+std::string diagnosis_text(const std::vector<Score>& diagnosis) {
+  std::string out;
+  int count = 0;
+  for (const Score& score : diagnosis) {
+    const bool is_new_line = count++ % 4 == 0;
+    out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
+    out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
+  }
+  return out + "\n";
+}
+
+/// Columns as wide as what stands in them.
+struct Widths {
+  std::size_t metric = 13;
+  std::size_t relation = 11;
+  std::size_t axis = 4;
+  std::size_t unit = 4;
+
+  explicit Widths(const Judgement& j) {
+    for (const JudgedMetric& judged : j.metrics) {
+      metric = std::max(metric, label(judged).size());
+      for (const Score& score : judged.scores) {
+        relation = std::max(relation, score.relation.size());
+        axis = std::max(axis, score.axis.size());
+        unit = std::max(unit, score.unit.size());
+      }
+    }
+  }
+
+  std::string line(const std::string& m,
+                   const std::string& r,
+                   const std::string& a,
+                   const std::string& u) const {
+    return fmt::format("{:<{}} {:<{}} {:<{}} {:<{}}", m, metric, r, relation, a, axis, u, unit);
+  }
+};
+
+/// What has no number, as notes of `row`.
+std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
+  std::vector<Missing> out;
+  for (const JudgedMetric& metric : j.metrics) {
+    if (!metric.why_undefined.empty()) {
+      out.push_back({row, label(metric), "undefined", metric.why_undefined});
+    }
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+      if (why.empty()) continue;
+      const bool is_whole = axis == "3d" || axis == "all";
+      const std::string what = label(metric) + " " + relation + (is_whole ? "" : " " + axis);
+      out.push_back({row, what, "undefined", why});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string label(const JudgedMetric& metric) {
+  Params rest = metric.options;
+  for (const char* told_elsewhere : {"relation", "each"}) rest.erase(told_elsewhere);
+  const auto delta = rest.find("delta");
+  const auto unit = rest.find("unit");
+  if (delta == rest.end() || unit == rest.end()) return metric.name + in_words(rest);
+  std::string out =
+      fmt::format("{} {} {}", metric.name, std::get<double>(delta->second), to_text(unit->second));
+  rest.erase("delta");
+  rest.erase("unit");
+  return out + in_words(rest);
+}
+
+std::string text(const Judgement& j) {
+  std::string out =
+      fmt::format("reference  {} ({} poses){}\n", j.reference, j.reference_poses, body_text(j)) +
+      fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
+      fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
+      fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
+                  j.coverage.pairs,
+                  j.coverage.possible,
+                  100.0 * j.coverage.share(),
+                  100.0 * j.coverage.span) +
+      (j.why_incomplete.empty() ? "" : "incomplete " + j.why_incomplete + "\n") +
+      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
+      diagnosis_text(j.diagnosis) +
+      (j.other_body.empty() ? "" : "other body " + j.other_body + "; --ref-body takes it in\n");
+  for (const std::string& note : j.notes) out += "note       " + note + "\n";
+  out += "\n";
+  const Widths widths(j);
+  out += widths.line("metric", "relation", "axis", "unit");
+  for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
+    out += fmt::format(" {:>12}", name);
+  }
+  out += fmt::format(" {:>9}\n", "count");
+  for (const JudgedMetric& metric : j.metrics) {
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+      if (!why.empty()) continue;
+      out += widths.line(label(metric), relation, axis, unit);
+      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+        out += fmt::format(" {:>12.6f}", value);
+      }
+      out += fmt::format(" {:>9}\n", s.count);
+    }
+  }
+  for (const std::string& note : grouped(undefined(j, ""))) out += note + "\n";
+  return out;
+}
+
+std::string comparison(const std::vector<Judgement>& judgements) {
+  std::vector<Table> tables;
+  std::vector<std::map<std::string, std::size_t>> columns;  // of each table
+  std::vector<std::vector<Missing>> missing;                // of each table
+  for (const Judgement& j : judgements) {
+    const Protocol& rules = j.protocol.rules;
+    const std::string title = fmt::format("{}, {} against {}{}",
+                                          protocol_text(j.protocol),
+                                          to_text(rules.statistic),
+                                          j.reference,
+                                          body_text(j));
+    auto table = std::ranges::find(tables, title, &Table::title);
+    if (table == tables.end()) {
+      table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});
+      columns.emplace_back();
+      missing.emplace_back();
+    }
+    auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
+    std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
+    table->rows.push_back(j.estimate);
+    const auto put = [&](const std::string& column, TableCell cell) {
+      const auto [place, is_new] = known.emplace(column, table->columns.size());
+      if (is_new) table->columns.push_back(column);
+      row.resize(table->columns.size());
+      row[place->second] = std::move(cell);
+    };
+    const bool is_failed = !j.why_failed.empty();
+    const auto percent = [&](double share) {
+      return is_failed ? TableCell{std::nullopt, 0, "failed"} : TableCell{100.0 * share, 1, ""};
+    };
+    put("poses [%]", percent(j.coverage.share()));
+    put("time [%]", percent(j.coverage.span));
+    std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
+    if (!j.why_incomplete.empty()) {
+      notes.push_back({j.estimate, "", "incomplete", j.why_incomplete});
+    }
+    if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
+    if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
+    for (const std::string& note : j.notes) notes.push_back({j.estimate, "", "note", note});
+    for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
+    for (const JudgedMetric& metric : j.metrics) {
+      for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+        if (axis != "3d" && axis != "all") continue;
+        if (!why.empty()) continue;
+        const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
+        if (j.why_incomplete.empty()) {
+          put(column, {quoted_statistic(rules, s), 1, ""});
+          if (metric.name == "rpe" && axis == "3d") {
+            put(label(metric) + " pairs", {static_cast<double>(s.count), 1, ""});
+          }
+        } else {
+          put(column, {std::nullopt, 0, "incomplete"});
+        }
+      }
+    }
+  }
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    tables[t].notes = grouped(missing[t]);
+    for (std::vector<TableCell>& row : tables[t].cells) {
+      row.resize(tables[t].columns.size());
+      if (row.front().status == "failed") std::ranges::fill(row, row.front());
+    }
+  }
+  return markdown(tables);
+}
+
+}  // namespace loopbench

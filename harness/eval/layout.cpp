@@ -1,0 +1,127 @@
+#include "harness/eval/layout.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "datasets/core/error.hpp"
+#include "harness/config/yaml.hpp"
+
+namespace loopbench {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// What lies in a folder, by name; nothing when it is not a folder.
+std::vector<Path> sorted(const Path& folder) {
+  std::vector<Path> out;
+  if (!std::filesystem::is_directory(folder)) return out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path());
+  std::ranges::sort(out);
+  return out;
+}
+
+bool is_text(const Path& file) {
+  const bool is_known = file.extension() == ".txt" || file.extension() == ".csv";
+  return is_known && std::filesystem::is_regular_file(file);
+}
+
+std::string align_of(const YamlNode& node, bool is_first_pose, const std::string& file) {
+  const std::string word = node.type == YamlNode::Type::scalar ? node.text : "";
+  if (word == "none") return word;
+  if (is_first_pose && word == "se3") return "origin";
+  if (is_first_pose && word == "posyaw") return "posyaw_origin";
+  const bool is_known = word == "sim3" || word == "se3" || word == "posyaw";
+  if (is_known && !is_first_pose) return word;
+  throw input_error(file,
+                    node.line,
+                    "align_type: expected sim3 | se3 | posyaw | none" +
+                        std::string(is_first_pose ? "; of one frame se3 | posyaw | none" : ""));
+}
+
+/// Runs of datasets that `truths` does not know.
+void expect_truths(const Path& truths, const Path& algorithms) {
+  for (const Path& algorithm : sorted(algorithms)) {
+    for (const Path& dataset : sorted(algorithm)) {
+      if (std::ranges::none_of(sorted(dataset), is_text)) continue;
+      const std::string name = dataset.filename().string();
+      const auto is_of_it = [&](const Path& truth) {
+        return is_text(truth) && truth.stem() == dataset.filename();
+      };
+      if (std::ranges::any_of(sorted(truths), is_of_it)) continue;
+      throw InputError(dataset.string() + ": holds runs, but " + truths.string() + " has no " +
+                       name + ".txt to judge them by");
+    }
+  }
+}
+
+}  // namespace
+
+Params rpg_settings(const Path& folder) {
+  const Path path = folder / "eval_cfg.yaml";
+  if (!std::filesystem::is_regular_file(path)) return {};
+  const std::string file = path.string();
+  std::ifstream in(path, std::ios::binary);
+  const YamlNode node = parse_yaml({std::istreambuf_iterator<char>(in), {}}, file);
+  if (node.type != YamlNode::Type::map) {
+    throw input_error(file, 1, "expected align_type and align_num_frames");
+  }
+  std::int64_t frames = -1;
+  if (const YamlNode* given = node.find("align_num_frames")) {
+    const auto* whole = std::get_if<std::int64_t>(&given->scalar);
+    if (given->type != YamlNode::Type::scalar || whole == nullptr || *whole < -1 || *whole == 0) {
+      throw input_error(
+          file, given->line, "align_num_frames: expected -1 or a whole number above 0");
+    }
+    frames = *whole;
+  }
+  Params out;
+  for (const auto& [key, value] : node.map) {
+    if (key == "align_type") {
+      out["align"] = align_of(value, frames == 1, file);
+    } else if (key != "align_num_frames") {
+      throw input_error(
+          file,
+          value.line,
+          "no setting is named '" + key + "', expected align_type or align_num_frames");
+    }
+  }
+  if (frames > 1) out["align_first"] = frames;
+  return out;
+}
+
+std::vector<FilePair> rpg_layout(const Path& folder) {
+  const Path reference = folder / "stamped_groundtruth.txt";
+  std::vector<FilePair> out;
+  for (const Path& file : sorted(folder)) {
+    if (is_text(file) && file.filename().string().starts_with("stamped_traj_estimate")) {
+      out.push_back({reference.string(), file.string()});
+    }
+  }
+  if (const Path cut = folder / "start_end_time.yaml"; std::filesystem::exists(cut)) {
+    throw InputError(cut.string() + ": is not read; cut the files to those times and move it away");
+  }
+  if (!out.empty() && std::filesystem::exists(reference)) return out;
+  throw InputError(folder.string() +
+                   ": expected stamped_groundtruth.txt and stamped_traj_estimate*.txt in it");
+}
+
+std::vector<FilePair> ov_eval_layout(const Path& truths, const Path& algorithms) {
+  std::vector<FilePair> out;
+  for (const Path& truth : sorted(truths)) {
+    if (!is_text(truth)) continue;
+    for (const Path& algorithm : sorted(algorithms)) {
+      for (const Path& run : sorted(algorithm / truth.stem())) {
+        if (is_text(run)) out.push_back({truth.string(), run.string()});
+      }
+    }
+  }
+  if (!out.empty()) {
+    expect_truths(truths, algorithms);
+    return out;
+  }
+  throw InputError(algorithms.string() +
+                   ": no ALGORITHM/DATASET/RUN.txt in it has a DATASET.txt in " + truths.string());
+}
+
+}  // namespace loopbench

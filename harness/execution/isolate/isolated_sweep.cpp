@@ -1,0 +1,300 @@
+#include "harness/execution/isolate/isolated_sweep.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "harness/catalogue/loading.hpp"
+#include "harness/execution/isolate/cell_queue.hpp"
+#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/worker_process.hpp"
+#include "harness/execution/run/oracle_method.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Looks at the workers' memory this far apart: a process fills some tens of megabytes in between.
+constexpr int kMemoryWatch = 20;  // [ms]
+
+/// The highest core this process may use: the first ones get most of the interrupts.
+int last_core() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 0;
+  int last = 0;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) last = core;
+  }
+  return last;
+}
+
+std::string signal_name(int signal) {
+  const char* name = sigabbrev_np(signal);
+  return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
+}
+
+/// A worker, the jobs it has not answered yet, in order, and what has come of its answers.
+struct Seat {
+  std::unique_ptr<WorkerProcess> process;
+  std::deque<Job> jobs;
+  std::string bytes;
+  std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
+  std::optional<CellResult> verdict;  ///< why the sweep ended it, for the cell it names
+};
+
+class IsolatedSweep {
+ public:
+  IsolatedSweep(const WorkerContext& context,
+                int jobs,
+                const std::atomic<bool>& stop,
+                const std::function<void(const CellResult&)>& finished)
+      : context_(context),
+        stop_(stop),
+        finished_(finished),
+        queue_(context.cells),
+        facts_(context.cells.size()),
+        seats_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
+        pinned_(context.sweep.serial ? last_core() : -1) {}
+
+  void run() {
+    // A wrong path in the last dataset must not cost the hour before it.
+    for (const std::size_t cell : queue_.first_of_datasets()) loads_.push_back({cell, true});
+    work();
+    loads_done_ = true;
+    work();
+  }
+
+ private:
+  /// Until nothing is left to give out and all is answered.
+  void work() {
+    for (;;) {
+      for (Seat& seat : seats_) fill(seat);
+      if (std::ranges::all_of(seats_, [](const Seat& seat) { return seat.jobs.empty(); })) return;
+      wait();
+      for (Seat& seat : seats_) {
+        if (!seat.process) continue;
+        const bool alive = seat.process->receive(seat.bytes);
+        read_answers(seat);
+        if (alive) {
+          watch(seat);
+        } else {
+          bury(seat);
+        }
+      }
+    }
+  }
+
+  /// One job under way and one waiting, so that a worker never waits for the sweep; only one when
+  /// nothing else may run meanwhile.
+  void fill(Seat& seat) {
+    const std::size_t depth = context_.sweep.serial ? 1 : 2;
+    while (seat.jobs.size() < depth && !stop_) {
+      std::optional<Job> job;
+      if (!loads_.empty()) {
+        // One each: the others should load theirs meanwhile.
+        if (!seat.jobs.empty()) return;
+        job = loads_.front();
+        loads_.pop_front();
+        seat.group = queue_.group_of(job->cell);
+      } else if (loads_done_) {
+        const auto cell = queue_.next(seat.group);
+        if (cell) job = Job{*cell, false};
+      }
+      if (!job) return;
+      if (!seat.process) seat.process = std::make_unique<WorkerProcess>(context_, pinned_);
+      seat.jobs.push_back(*job);
+      seat.process->send(*job);
+    }
+  }
+
+  /// Until a worker says something, or a limit may be reached.
+  void wait() {
+    std::vector<pollfd> sockets;
+    int longest = -1;  // [ms]
+    const auto at_most = [&](std::int64_t milliseconds) {
+      const int bound = static_cast<int>(std::clamp<std::int64_t>(milliseconds, 1, 60000));
+      longest = longest < 0 ? bound : std::min(longest, bound);
+    };
+    for (const Seat& seat : seats_) {
+      if (!seat.process || seat.jobs.empty()) continue;
+      sockets.push_back({seat.process->socket(), POLLIN, 0});
+      const Limits& limits = context_.sweep.limits;
+      if (limits.memory > 0) at_most(kMemoryWatch);
+      if (limits.seconds > 0.0) {
+        const bool idle = seat.process->board().job == Board::kIdle;
+        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(seat) * 1e3);
+        at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
+      }
+    }
+    poll(sockets.data(), sockets.size(), longest);  // an interrupt ends it too: `stop` may be set
+  }
+
+  static double busy_for(const Seat& seat) {
+    return 1e-9 * static_cast<double>(steady_nanoseconds() - seat.process->board().since);
+  }
+
+  /// Ends a worker that is beyond a limit.
+  void watch(Seat& seat) {
+    const Board& board = seat.process->board();
+    const std::uint64_t job = board.job;
+    if (seat.verdict || job == Board::kIdle) return;
+    const char* doing = board.loading ? "loading its sequence" : "the cell";
+    const Limits& limits = context_.sweep.limits;
+    CellResult verdict;
+    verdict.cell = context_.cells[job];
+    if (limits.seconds > 0.0 && busy_for(seat) > limits.seconds) {
+      verdict.status = Status::timeout;
+      verdict.why = fmt::format("{} took longer than the limit of {} s", doing, limits.seconds);
+    } else if (const std::int64_t size = limits.memory > 0 ? seat.process->resident_memory() : 0;
+               size > limits.memory) {
+      verdict.status = Status::out_of_memory;
+      verdict.why =
+          fmt::format("{} grew to {} bytes, above the limit of {}", doing, size, limits.memory);
+    } else {
+      return;
+    }
+    verdict.signal = "SIGKILL";
+    seat.verdict = verdict;
+    seat.process->kill();
+  }
+
+  void read_answers(Seat& seat) {
+    std::size_t at = 0;
+    for (;;) {
+      Header header;
+      if (seat.bytes.size() - at < sizeof header) break;
+      std::memcpy(&header, seat.bytes.data() + at, sizeof header);
+      if (header.size > seat.bytes.size() - at - sizeof header) break;
+      const std::string_view body(seat.bytes.data() + at + sizeof header, header.size);
+      if (!take(seat, header, body)) {
+        // It has written over its own memory: whatever else it says is worth nothing.
+        seat.process->kill();
+        at = seat.bytes.size();
+        break;
+      }
+      at += sizeof header + header.size;
+    }
+    seat.bytes.erase(0, at);
+  }
+
+  /// False for what no sound worker would say.
+  bool take(Seat& seat, const Header& header, std::string_view body) {
+    if (seat.jobs.empty() || header.cell != seat.jobs.front().cell) return false;
+    if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
+    if (header.kind == Header::Kind::loaded) {
+      auto facts = std::make_shared<SequenceFacts>();
+      if (!unpacked(body, *facts)) return false;
+      keep(header.cell, std::move(facts));
+      return true;
+    }
+    if (header.kind == Header::Kind::result) {
+      CellResult result;
+      if (!unpacked(body, result)) return false;
+      result.cell = context_.cells[header.cell];
+      finish(result, header.cell);
+    }
+    seat.jobs.pop_front();
+    return true;
+  }
+
+  template <class T>
+  static bool unpacked(std::string_view body, T& out) {
+    try {
+      Unpacker unpack(body);
+      unpack(out);
+      return true;
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+  }
+
+  void keep(std::size_t cell, std::shared_ptr<const SequenceFacts> facts) {
+    std::shared_ptr<const SequenceFacts>& kept = facts_[queue_.group_of(cell)];
+    if (kept &&
+        !std::ranges::equal(kept->inputs, facts->inputs, {}, &InputFile::hash, &InputFile::hash)) {
+      throw InputError(facts->inputs.front().path + " or a file read with it changed meanwhile");
+    }
+    if (kept) return;
+    // Every worker loads its own, but once is enough for who reads it.
+    tell(context_.sweep.datasets[context_.cells[cell].dataset].label, facts->notes);
+    kept = std::move(facts);
+  }
+
+  void finish(CellResult& result, std::size_t cell) {
+    const std::size_t group = queue_.group_of(cell);
+    result.facts = facts_[group];
+    flag_trained_on_judged(result, context_.sweep);
+    if (queue_.finish(cell)) facts_[group].reset();  // nobody asks again
+    finished_(result);
+  }
+
+  /// A worker has ended: the cell it was in is told how, those after it go to another.
+  void bury(Seat& seat) {
+    const WorkerProcess::End end = seat.process->end();
+    const bool loading = seat.process->board().loading;
+    const bool idle = seat.process->board().job == Board::kIdle;
+    seat.process.reset();
+    seat.bytes.clear();
+    std::deque<Job> jobs = std::exchange(seat.jobs, {});
+    const std::optional<CellResult> verdict = std::exchange(seat.verdict, std::nullopt);
+    if (jobs.empty()) return;
+    const Job first = jobs.front();
+    const Cell& cell = context_.cells[first.cell];
+    if (verdict && verdict->cell.index != cell.index) {
+      give_back(jobs);  // it had answered before the end came
+      return;
+    }
+    jobs.pop_front();
+    give_back(jobs);
+    if (first.only_load) return;  // it will be told of each of its cells
+    CellResult result = verdict ? *verdict : CellResult{};
+    result.cell = cell;
+    if (!verdict) {
+      result.status = Status::crashed;
+      if (end.signal != 0) result.signal = signal_name(end.signal);
+      result.why = end.signal != 0 ? "ended by " + result.signal
+                                   : fmt::format("ended its process, exit code {}", end.exit_code);
+      if (end.signal == 9) result.why += ", not by this program: was memory out?";
+      if (loading && !idle) result.why += ", while loading its sequence";
+    }
+    result.worker = {true, context_.sweep.serial, context_.sweep.serial};
+    result.oracle_method =
+        is_shown_reference(context_.sweep.methods[cell.method], context_.catalogue);
+    finish(result, first.cell);
+  }
+
+  void give_back(const std::deque<Job>& jobs) {
+    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
+      if (!job->only_load) queue_.give_back(job->cell);
+    }
+  }
+
+  const WorkerContext& context_;
+  const std::atomic<bool>& stop_;
+  const std::function<void(const CellResult&)>& finished_;
+  CellQueue queue_;
+  std::deque<Job> loads_;
+  bool loads_done_ = false;
+  std::vector<std::shared_ptr<const SequenceFacts>> facts_;  ///< by group
+  std::vector<Seat> seats_;
+  int pinned_;
+};
+
+}  // namespace
+
+void run_isolated(const Sweep& sweep,
+                  const std::vector<Cell>& cells,
+                  const Catalogue& catalogue,
+                  const DataRoot& root,
+                  int jobs,
+                  const std::atomic<bool>& stop,
+                  const std::function<void(const CellResult&)>& finished) {
+  const WorkerContext context{sweep, cells, catalogue, root};
+  IsolatedSweep(context, jobs, stop, finished).run();
+}
+
+}  // namespace loopbench

@@ -1,0 +1,33 @@
+#include "harness/execution/run/bad_inputs.hpp"
+
+#include <exception>
+#include <set>
+
+#include "harness/catalogue/load_sequence.hpp"
+
+namespace loopbench {
+
+std::vector<std::string> bad_inputs(const Sweep& sweep,
+                                    const std::vector<Cell>& cells,
+                                    const Catalogue& catalogue,
+                                    const DataRoot& root) {
+  std::vector<std::string> out;
+  std::set<std::size_t> seen;
+  for (const Cell& cell : cells) {
+    if (!seen.insert(cell.dataset).second) continue;
+    const DatasetChoice& choice = sweep.datasets[cell.dataset];
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    try {
+      if (entry.inspect) {
+        entry.inspect(choice.dataset.options, root);
+      } else {
+        load_sequence(cell, sweep, catalogue, root);
+      }
+    } catch (const std::exception& error) {
+      out.push_back(choice.label + ": " + error.what());
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench

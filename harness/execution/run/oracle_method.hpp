@@ -1,0 +1,25 @@
+/// Methods that were shown the reference they are judged by, or were trained on it.
+#pragma once
+
+#include <string>
+
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/result.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench {
+
+/// Whether a stage is one of harness/oracle.
+bool is_shown_reference(const MethodChoice& method, const Catalogue& catalogue);
+
+/// Says with which calibration, when it was trained on the reference or the noise of this sequence;
+/// else empty. Sources are compared, see source_of(), and dataset labels where a calibration file
+/// has no sources.
+std::string trained_on_judged(const MethodChoice& method,
+                              const DatasetChoice& dataset,
+                              const SequenceFacts& facts);
+
+/// Sets oracle_method of such a cell and adds the reason to its notes. Needs the cell's facts.
+void flag_trained_on_judged(CellResult& result, const Sweep& sweep);
+
+}  // namespace loopbench

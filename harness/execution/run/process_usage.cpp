@@ -1,0 +1,48 @@
+#include "harness/execution/run/process_usage.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+
+namespace loopbench {
+namespace {
+
+/// The number of kilobytes after `name` in /proc/self/status, in bytes.
+std::optional<std::int64_t> from_status(std::string_view name) {
+  const int file = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return std::nullopt;
+  char text[4096];
+  const ssize_t size = read(file, text, sizeof text - 1);
+  close(file);
+  if (size <= 0) return std::nullopt;
+  text[size] = '\0';
+  const char* found = std::strstr(text, name.data());
+  if (found == nullptr) return std::nullopt;
+  return 1024 * std::int64_t{std::strtoll(found + name.size(), nullptr, 10)};
+}
+
+}  // namespace
+
+double process_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::optional<std::int64_t> resident_memory() { return from_status("VmRSS:"); }
+
+bool forget_peak_memory() {
+  const int file = open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool done = write(file, "5", 1) == 1;  // proc(5): resets VmHWM
+  close(file);
+  return done;
+}
+
+std::optional<std::int64_t> peak_memory() { return from_status("VmHWM:"); }
+
+}  // namespace loopbench

@@ -1,0 +1,233 @@
+#include "harness/execution/run/run_cell.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+
+#include "harness/execution/run/allocations.hpp"
+#include "harness/execution/run/finite_output.hpp"
+#include "harness/execution/run/incomplete.hpp"
+#include "harness/execution/run/oracle_method.hpp"
+#include "harness/execution/run/process_usage.hpp"
+#include "methods/pipeline.hpp"
+#include "metrics/trajectory/losses.hpp"
+
+namespace loopbench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Runs `work`; an exception of any kind becomes a status with its text: failed, or declined for a
+/// metric that says it means nothing here.
+template <class Result, class Work>
+void fenced(Result& result, Work work) {
+  try {
+    work();
+  } catch (const Undefined& reason) {
+    result.status = Status::declined;
+    result.why = reason.what();
+  } catch (const std::bad_alloc&) {
+    result.status = Status::out_of_memory;
+    result.why = "asked for more memory than there is";
+  } catch (const std::exception& error) {
+    result.status = Status::failed;
+    result.why = error.what();
+  } catch (...) {
+    result.status = Status::failed;
+    result.why = "threw something that is not a std::exception";
+  }
+}
+
+/// The method's verb, run and measured; memory is looked at outside the clock.
+std::unique_ptr<const Curve> timed(CellResult& result,
+                                   const Method& method,
+                                   const Problem& problem,
+                                   int runs) {
+  const std::optional<std::int64_t> before =
+      forget_peak_memory() ? resident_memory() : std::nullopt;
+  std::unique_ptr<const Curve> curve;
+  for (int run = 0; run < runs; ++run) {
+    curve.reset();  // or its end would be in the next one's time
+    Report report;
+    const std::optional<std::int64_t> asked_before = allocations();
+    const double cpu_begin = process_cpu_seconds();
+    const auto begin = Clock::now();
+    curve = method.estimate(problem, report);
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    result.seconds.push_back(took.count());
+    result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
+    if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
+    result.report = std::move(report);
+  }
+  if (before) {
+    result.peak_memory = peak_memory();
+    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
+  }
+  return curve;
+}
+
+bool is_finite(const Statistics& s) {
+  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
+         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
+         std::isfinite(s.sse);
+}
+
+/// All scores of one metric, or one row that says why there are none. `row` says what of.
+void score(CellResult& result,
+           const MetricChoice& choice,
+           ScoreResult row,
+           const Evaluation& evaluation,
+           const Catalogue& catalogue) {
+  row.metric = choice.metric.name;
+  row.label = choice.label;
+  row.coverage = evaluation.coverage;
+  fenced(row, [&] {
+    const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
+    for (Score& score : metric.score(evaluation, choice.metric.options)) {
+      result.scores.push_back(row);
+      ScoreResult& added = result.scores.back();
+      if (!score.why_undefined.empty()) {
+        added.status = Status::declined;
+        added.why = score.why_undefined;
+      } else if (!is_finite(score.statistics)) {
+        added.status = Status::failed;
+        added.why = "is not finite";
+        score.statistics = {};
+      }
+      added.score = std::move(score);
+    }
+  });
+  const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
+  if (has_thrown) result.scores.push_back(row);
+}
+
+/// Every metric under one protocol at one choice of times, which `row` names.
+void judge(CellResult& result,
+           const ScoreResult& row,
+           const Sweep& sweep,
+           const Sequence& sequence,
+           const Curve& curve,
+           const Catalogue& catalogue) {
+  const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
+  const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const std::vector<double> tracked = tracked_stamps(sequence.problem);
+  const Protocol& protocol = sweep.protocols[row.protocol].rules;
+  ScoreResult none = row;
+  fenced(none, [&] {
+    Evaluation evaluation =
+        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          row.times,
+                          protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
+    ScoreResult usual = row;
+    usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
+    if (!usual.why.empty()) {
+      usual.status = Status::incomplete;
+      result.status = Status::incomplete;
+      result.why = to_text(row.times) + ": " + usual.why;
+    }
+    for (const MetricChoice& choice : sweep.metrics) {
+      score(result, choice, usual, evaluation, catalogue);
+    }
+    const bool densest =
+        row.times == Times::dense || std::ranges::count(sweep.times, Times::dense) == 0;
+    if (sweep.traces && row.protocol == 0 && densest) {
+      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
+    }
+  });
+  if (none.status == Status::ok) return;
+  for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
+    none.metric = choice.metric.name;
+    none.label = choice.label;
+    result.scores.push_back(none);
+  }
+}
+
+/// What can be said from the problem alone; once, since neither pairs nor times play a part.
+void judge_without_reference(CellResult& result,
+                             const Sweep& sweep,
+                             const Sequence& sequence,
+                             const Curve& curve,
+                             const Catalogue& catalogue) {
+  const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
+  for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+    Evaluation evaluation;
+    evaluation.protocol = sweep.protocols[p].rules;
+    evaluation.context = {&sequence.reference,
+                          &at_keyframes,
+                          &sequence.problem,
+                          &curve,
+                          Times::keyframes,
+                          evaluation.protocol,
+                          nullptr,
+                          &sequence.loop_candidates};
+    const ScoreResult row{p, Times::keyframes, "", "", {}, {}, Status::ok, ""};
+    for (const MetricChoice& choice : sweep.metrics) {
+      if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
+      score(result, choice, row, evaluation, catalogue);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const Method> make_method(const MethodChoice& choice,
+                                          const Catalogue& catalogue,
+                                          const Trajectory& reference) {
+  std::unique_ptr<const Corrector> corrector;
+  std::unique_ptr<const Smoother> smoother;
+  for (const Choice& part : choice.stages) {
+    const OracleEntry* oracle = find_oracle(catalogue, part.name);
+    Stage stage = oracle ? oracle->make(part.options, reference)
+                         : find_method(catalogue, part.name).make(part.options);
+    if (auto* whole = std::get_if<std::unique_ptr<const Method>>(&stage)) return std::move(*whole);
+    if (auto* first = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
+      corrector = std::move(*first);
+    } else {
+      smoother = std::move(std::get<std::unique_ptr<const Smoother>>(stage));
+    }
+  }
+  return compose(std::move(corrector), std::move(smoother));
+}
+
+CellResult run_cell(const Cell& cell,
+                    const Sweep& sweep,
+                    const Sequence& sequence,
+                    const Catalogue& catalogue) {
+  CellResult result;
+  result.cell = cell;
+  const MethodChoice& choice = sweep.methods[cell.method];
+  result.oracle_method = is_shown_reference(choice, catalogue);
+  fenced(result, [&] {
+    const auto method = make_method(choice, catalogue, sequence.reference);
+    if (auto why = method->declines(sequence.problem)) {
+      result.status = Status::declined;
+      result.why = std::move(*why);
+      return;
+    }
+    const std::unique_ptr<const Curve> curve =
+        timed(result, *method, sequence.problem, sweep.timing);
+    require_finite(*curve, sequence, sweep);
+    if (sequence.reference.empty()) {
+      result.why = "no reference to judge against";
+      judge_without_reference(result, sweep, sequence, *curve, catalogue);
+      return;
+    }
+    for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+      for (const Times times : sweep.times) {
+        const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
+        judge(result, row, sweep, sequence, *curve, catalogue);
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,76 @@
+#include "harness/execution/run/run_sweep.hpp"
+
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "harness/execution/run/oracle_method.hpp"
+#include "harness/execution/run/run_cell.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Hands 0..count-1 to `jobs` threads. The first exception stops the rest and is thrown here.
+void for_each_index(std::size_t count,
+                    int jobs,
+                    const std::atomic<bool>& stop,
+                    const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> broken = false;
+  std::exception_ptr first;
+  std::mutex mutex;
+  const auto worker = [&] {
+    for (std::size_t i = next++; i < count && !stop && !broken; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!first) first = std::current_exception();
+        broken = true;
+      }
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (int job = 1; job < jobs; ++job) threads.emplace_back(worker);
+  worker();
+  threads.clear();  // joins
+  if (first) std::rethrow_exception(first);
+}
+
+}  // namespace
+
+void run_sweep(const Sweep& sweep,
+               const std::vector<Cell>& cells,
+               const Catalogue& catalogue,
+               Sequences& sequences,
+               int jobs,
+               const std::atomic<bool>& stop,
+               const std::function<void(const CellResult&)>& finished) {
+  // A wrong path in the last dataset must not cost the hour before it.
+  std::vector<const Cell*> first_of_dataset;
+  for (const Cell& cell : cells) {
+    if (first_of_dataset.empty() || first_of_dataset.back()->dataset != cell.dataset) {
+      first_of_dataset.push_back(&cell);
+    }
+  }
+  for_each_index(first_of_dataset.size(), jobs, stop, [&](std::size_t i) {
+    sequences.get(*first_of_dataset[i]);
+  });
+
+  std::mutex mutex;
+  for_each_index(cells.size(), jobs, stop, [&](std::size_t i) {
+    const auto sequence = sequences.get(cells[i]);
+    CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
+    result.facts = sequences.facts(cells[i]);
+    flag_trained_on_judged(result, sweep);
+    if (jobs > 1) {  // the process is more than this cell
+      result.cpu_seconds.clear();
+      result.peak_memory = result.added_memory = result.allocations = std::nullopt;
+    }
+    sequences.done(cells[i]);
+    const std::lock_guard lock(mutex);
+    finished(result);
+  });
+}
+
+}  // namespace loopbench

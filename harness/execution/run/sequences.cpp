@@ -1,0 +1,50 @@
+#include "harness/execution/run/sequences.hpp"
+
+#include "harness/catalogue/load_sequence.hpp"
+#include "harness/catalogue/loading.hpp"
+#include "harness/execution/run/evaluation_notes.hpp"
+#include "harness/provenance/summarise_sequence.hpp"
+
+namespace loopbench {
+
+Sequences::Sequences(const Sweep& sweep,
+                     const Catalogue& catalogue,
+                     DataRoot root,
+                     const std::vector<Cell>& cells)
+    : sweep_(sweep), catalogue_(catalogue), root_(std::move(root)) {
+  for (const Cell& cell : cells) ++slots_[{cell.dataset, cell.repeat}].waiting;
+}
+
+std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
+  Slot& slot = slots_.at({cell.dataset, cell.repeat});
+  const std::lock_guard lock(slot.mutex);
+  if (!slot.sequence) {
+    slot.sequence =
+        std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
+    slot.facts = std::make_shared<const SequenceFacts>(facts_of(*slot.sequence, cell, sweep_));
+    tell(sweep_.datasets[cell.dataset].label, slot.facts->notes);
+  }
+  return slot.sequence;
+}
+
+std::shared_ptr<const SequenceFacts> Sequences::facts(const Cell& cell) {
+  Slot& slot = slots_.at({cell.dataset, cell.repeat});
+  const std::lock_guard lock(slot.mutex);
+  return slot.facts;
+}
+
+void Sequences::done(const Cell& cell) {
+  Slot& slot = slots_.at({cell.dataset, cell.repeat});
+  const std::lock_guard lock(slot.mutex);
+  if (--slot.waiting == 0) slot.sequence.reset();
+}
+
+SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
+  SequenceFacts out = sequence_facts(sequence, sweep.traces);
+  const std::string& group = sweep.datasets[cell.dataset].group;
+  if (!group.empty()) out.group = "group:" + group;
+  for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,90 @@
+#include "harness/execution/verify/verify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/run/run_sweep.hpp"
+#include "harness/text/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::array kParts{"status", "scores", "report", "trace"};
+
+struct Print {
+  std::array<Hash, kParts.size()> parts;  ///< in that order
+  bool ended_its_worker = false;
+};
+
+template <class... T>
+Hash hash_of_values(const T&... values) {
+  Packer pack;
+  (pack(values), ...);
+  return hash_of(pack.bytes());
+}
+
+Print print_of(const CellResult& r) {
+  return {{hash_of_values(r.status, r.why, r.signal),
+           hash_of_values(r.scores),
+           hash_of_values(r.report.counts, r.report.notes, r.report.sections),
+           hash_of_values(r.trace.times, r.trace.samples)},
+          r.status == Status::crashed || r.status == Status::timeout ||
+              r.status == Status::out_of_memory};
+}
+
+}  // namespace
+
+std::string Manner::name() const {
+  const std::string what = isolated ? " worker" : " thread";
+  return std::to_string(jobs) + what + (jobs == 1 ? "" : "s");
+}
+
+std::vector<Difference> verify(const Sweep& sweep,
+                               const std::vector<Cell>& cells,
+                               const Catalogue& catalogue,
+                               const DataRoot& root,
+                               const std::vector<Manner>& manners,
+                               const std::atomic<bool>& stop,
+                               const std::function<void(const std::string& manner)>& step) {
+  std::map<std::size_t, std::size_t> place;  // of a cell by its position
+  for (std::size_t i = 0; i < cells.size(); ++i) place.emplace(cells[i].index, i);
+  std::vector<std::optional<Print>> first(cells.size());
+  std::vector<Difference> out;
+  for (std::size_t m = 0; m < manners.size(); ++m) {
+    const Manner& manner = manners[m];
+    std::vector<Cell> chosen;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const bool dangerous = first[i] && first[i]->ended_its_worker;
+      if (manner.isolated || !dangerous) chosen.push_back(cells[i]);
+    }
+    if (chosen.empty()) continue;
+    std::vector<Difference> found;
+    const auto finished = [&](const CellResult& result) {
+      step(manner.name());
+      const std::size_t cell = place.at(result.cell.index);
+      const Print print = print_of(result);
+      if (m == 0) first[cell] = print;
+      if (!first[cell]) return;  // interrupted
+      const auto differ = std::ranges::mismatch(print.parts, first[cell]->parts);
+      if (differ.in1 == print.parts.end()) return;
+      found.push_back({cell,
+                       manner.name(),
+                       kParts[static_cast<std::size_t>(differ.in1 - print.parts.begin())]});
+    };
+    if (manner.isolated) {
+      run_isolated(sweep, chosen, catalogue, root, manner.jobs, stop, finished);
+    } else {
+      Sequences sequences(sweep, catalogue, root, chosen);
+      run_sweep(sweep, chosen, catalogue, sequences, manner.jobs, stop, finished);
+    }
+    std::ranges::sort(found, {}, &Difference::cell);
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+}  // namespace loopbench

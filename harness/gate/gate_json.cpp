@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "datasets/core/fields.hpp"
+#include "harness/gate/formats.hpp"
+
+namespace loopbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Which score it is, without its numbers.
+Json question(const GateScore& s) {
+  Json out{{"protocol", s.protocol},
+           {"times", s.times},
+           {"metric", s.metric},
+           {"label", s.label},
+           {"relation", s.relation},
+           {"axis", s.axis},
+           {"unit", s.unit},
+           {"better", to_text(s.better)}};
+  if (s.better == Better::target) out["target"] = s.target;
+  return out;
+}
+
+Json head(const GateCell& cell) {
+  Json out{{"sequence", cell.sequence}, {"repeat", cell.repeat}, {"method", cell.method}};
+  if (cell.oracle) out["oracle"] = true;
+  if (cell.oracle_data) out["oracle_data"] = true;
+  out["status"] = cell.status;
+  return out;
+}
+
+Json answers(const GateCell& cell,
+             const std::vector<GateScore>& questions,
+             const std::vector<std::string>& statistics) {
+  Json out = head(cell);
+  if (cell.scores.empty()) return out;
+  std::vector<const GateScore*> found;
+  for (const GateScore& asked : questions) {
+    const auto same = std::ranges::find(
+        cell.scores, name(asked), [](const GateScore& score) { return name(score); });
+    found.push_back(same == cell.scores.end() ? nullptr : &*same);
+  }
+  const auto list = [&](auto entry) {
+    Json values = Json::array();
+    for (const GateScore* score : found) {
+      values.push_back(score == nullptr ? Json(nullptr) : Json(entry(*score)));
+    }
+    return values;
+  };
+  const auto is_ok = [](const GateScore& score) { return score.status == "ok"; };
+  if (!std::ranges::all_of(cell.scores, is_ok)) {
+    out["statuses"] = list([](const GateScore& score) { return score.status; });
+  }
+  const Json pairs = list([](const GateScore& score) { return score.pairs; });
+  const Json possible = list([](const GateScore& score) { return score.possible; });
+  const Json counts = list([](const GateScore& score) { return score.count; });
+  out["pairs"] = pairs;
+  if (possible != pairs) out["possible"] = possible;
+  if (counts != pairs) out["counts"] = counts;
+  for (const std::string& statistic : statistics) {
+    out[statistic] = list([&](const GateScore& score) {
+      return has_number(score.status) ? Json(score.values.at(statistic)) : Json(nullptr);
+    });
+  }
+  return out;
+}
+
+Json written(const Tolerance& limit) {
+  Json out{{"where", limit.where},
+           {"values", limit.values},
+           {"relative", limit.relative},
+           {"absolute", limit.absolute},
+           {"tie", limit.tie}};
+  if (limit.alpha) out["alpha"] = *limit.alpha;
+  return out;
+}
+
+/// Every statistic that some limit is about.
+std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
+  std::vector<std::string> out;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      if (std::ranges::count(out, statistic) == 0) out.push_back(statistic);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string json(const Baseline& baseline) {
+  std::vector<GateScore> questions;
+  std::map<std::string, bool> asked;
+  for (const GateCell& cell : baseline.snapshot.cells) {
+    for (const GateScore& score : cell.scores) {
+      if (asked.emplace(name(score), true).second) questions.push_back(score);
+    }
+  }
+  const std::vector<std::string> statistics = compared_statistics(baseline.limits);
+  const auto text = [](const Json& node) {
+    return node.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  const auto lines = [&](const std::string& key, const std::vector<Json>& entries) {
+    std::string out = "\"" + key + "\": [";
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      out += (i == 0 ? "\n" : ",\n") + text(entries[i]);
+    return out + "\n]";
+  };
+  std::vector<Json> limits;
+  for (const Tolerance& limit : baseline.limits) limits.push_back(written(limit));
+  std::vector<Json> scores;
+  for (const GateScore& score : questions) scores.push_back(question(score));
+  std::vector<Json> cells;
+  for (const GateCell& cell : baseline.snapshot.cells) {
+    cells.push_back(answers(cell, questions, statistics));
+  }
+  const Snapshot& made = baseline.snapshot;
+  std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);
+  const auto member = [&](const std::string& key, const Json& value) {
+    out += "\"" + key + "\": " + text(value) + ",\n";
+  };
+  member("sweep", made.sweep);
+  member("made_by", baseline.made_by);
+  member("machine", made.machine);
+  out += lines("limits", limits) + ",\n";
+  member("sequences", made.sequences);
+  member("contents", made.contents);
+  member("protocols", made.protocols);
+  member("metrics", made.metrics);
+  member("methods", made.methods);
+  return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
+}
+
+}  // namespace loopbench

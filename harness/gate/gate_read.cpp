@@ -1,0 +1,279 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/fields.hpp"
+#include "harness/gate/formats.hpp"
+#include "harness/model/where.hpp"
+
+namespace loopbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Walks a baseline; every complaint names the place.
+class BaselineReader {
+ public:
+  explicit BaselineReader(std::string file) : file_(std::move(file)) {}
+
+  Baseline read(const Json& root) {
+    const Json& format = member(root, "loopbench_baseline", "");
+    if (format != kBaselineFormat) {
+      refuse("loopbench_baseline",
+             fmt::format("found format {}, expected {}: it does not hold what format {} compares; "
+                         "look at the results, then write it anew with --update (limits are kept)",
+                         format.dump(),
+                         kBaselineFormat,
+                         kBaselineFormat));
+    }
+    Baseline out;
+    out.made_by = texts(root, "made_by");
+    out.limits = limits(root);
+    out.snapshot.sweep = text(root, "sweep", "");
+    out.snapshot.machine = text(root, "machine", "");
+    out.snapshot.sequences = texts(root, "sequences");
+    out.snapshot.contents = texts(root, "contents");
+    out.snapshot.protocols = texts(root, "protocols");
+    out.snapshot.metrics = texts(root, "metrics");
+    out.snapshot.methods = texts(root, "methods");
+    each(root, "scores", [&](const Json& entry, const std::string& at) {
+      questions_.push_back(question(entry, at));
+    });
+    each(root, "cells", [&](const Json& entry, const std::string& at) {
+      out.snapshot.cells.push_back(cell(entry, at, out.limits));
+    });
+    return out;
+  }
+
+  std::vector<Tolerance> limits(const Json& root) const {
+    std::vector<Tolerance> out;
+    each(root, "limits", [&](const Json& entry, const std::string& at) {
+      out.push_back(limit(entry, at));
+    });
+    return out;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& at, const std::string& what) const {
+    throw InputError(file_ + ": " + at + ": " + what);
+  }
+
+  const Json& member(const Json& node, const std::string& key, const std::string& at) const {
+    const std::string place = at.empty() ? "" : at;
+    if (!node.is_object()) refuse(place.empty() ? "baseline" : place, "expected an object");
+    const auto found = node.find(key);
+    if (found == node.end()) refuse(place + (place.empty() ? "" : ".") + key, "is missing");
+    return *found;
+  }
+
+  std::string text(const Json& node, const std::string& key, const std::string& at) const {
+    const Json& found = member(node, key, at);
+    if (!found.is_string()) refuse(at + "." + key, "expected text, found " + found.dump());
+    return found.get<std::string>();
+  }
+
+  double number(const Json& node, const std::string& key, const std::string& at) const {
+    const Json& found = member(node, key, at);
+    if (!found.is_number() || found.get<double>() < 0.0) {
+      refuse(at + "." + key, "expected a number, not negative, found " + found.dump());
+    }
+    return found.get<double>();
+  }
+
+  std::map<std::string, std::string> texts(const Json& root, const std::string& key) const {
+    std::map<std::string, std::string> out;
+    const Json& node = member(root, key, "");
+    if (!node.is_object()) refuse(key, "expected an object");
+    for (const auto& [name, value] : node.items()) out[name] = text(node, name, key);
+    return out;
+  }
+
+  template <class Each>
+  void each(const Json& root, const std::string& key, Each act) const {
+    const Json& node = member(root, key, "");
+    if (!node.is_array()) refuse(key, "expected a list");
+    for (std::size_t i = 0; i < node.size(); ++i) act(node[i], fmt::format("{}[{}]", key, i));
+  }
+
+  Tolerance limit(const Json& node, const std::string& at) const {
+    Tolerance out;
+    const Json& rules = member(node, "where", at);
+    if (!rules.is_array()) refuse(at + ".where", "expected a list");
+    for (const Json& rule : rules) {
+      if (!rule.is_string()) refuse(at + ".where", "expected text, found " + rule.dump());
+      out.where.push_back(rule.get<std::string>());
+    }
+    out.values = statistics(node, at);
+    try {
+      where(out.where);
+      for (const std::string& statistic : out.values) value(Record{}, statistic);
+    } catch (const InputError& error) {
+      refuse(at, error.what());
+    }
+    out.relative = number(node, "relative", at);
+    out.absolute = number(node, "absolute", at);
+    out.tie = number(node, "tie", at);
+    out.alpha.reset();
+    if (node.contains("alpha")) out.alpha = number(node, "alpha", at);
+    return out;
+  }
+
+  /// Until format 2 a limit had one `value`, usually rmse, and missed a worse maximum.
+  std::vector<std::string> statistics(const Json& node, const std::string& at) const {
+    if (node.contains("value")) {
+      const std::string only = text(node, "value", at);
+      return only == "rmse" ? Tolerance{}.values : std::vector<std::string>{only};
+    }
+    const Json& found = member(node, "values", at);
+    std::vector<std::string> out;
+    if (found.is_array()) {
+      for (const Json& entry : found) {
+        if (entry.is_string()) out.push_back(entry.get<std::string>());
+      }
+    }
+    if (out.empty() || out.size() != found.size()) {
+      refuse(at + ".values", "expected a list of statistics, found " + found.dump());
+    }
+    return out;
+  }
+
+  GateScore question(const Json& node, const std::string& at) const {
+    GateScore out;
+    out.protocol = text(node, "protocol", at);
+    out.times = text(node, "times", at);
+    out.metric = text(node, "metric", at);
+    out.label = text(node, "label", at);
+    out.relation = text(node, "relation", at);
+    out.axis = text(node, "axis", at);
+    out.unit = text(node, "unit", at);
+    const auto better = from_text<Better>(text(node, "better", at));
+    if (!better) refuse(at + ".better", "expected " + choice_list<Better>());
+    out.better = *better;
+    const auto target = node.find("target");
+    if (target != node.end() && target->is_number()) out.target = target->get<double>();
+    return out;
+  }
+
+  bool flag(const Json& node, const std::string& key) const {
+    const auto found = node.find(key);
+    return found != node.end() && found->is_boolean() && found->get<bool>();
+  }
+
+  const Json& list(const Json& node, const std::string& key, const std::string& at) const {
+    const Json& found = member(node, key, at);
+    if (!found.is_array() || found.size() != questions_.size()) {
+      refuse(at + "." + key, fmt::format("expected a list of {}, as scores", questions_.size()));
+    }
+    return found;
+  }
+
+  std::int64_t whole(const Json& node,
+                     const std::string& key,
+                     std::size_t i,
+                     const std::string& at) const {
+    const Json& entry = list(node, key, at)[i];
+    if (!entry.is_number_integer()) {
+      refuse(fmt::format("{}.{}[{}]", at, key, i),
+             "expected a whole number, found " + entry.dump());
+    }
+    return entry.get<std::int64_t>();
+  }
+
+  /// The numbers of score `i`.
+  GateScore score(const Json& node,
+                  std::size_t i,
+                  const std::string& at,
+                  const std::vector<Tolerance>& limits) const {
+    GateScore out = questions_[i];
+    out.pairs = whole(node, "pairs", i, at);
+    out.possible = whole(node, node.contains("possible") ? "possible" : "pairs", i, at);
+    out.count = whole(node, node.contains("counts") ? "counts" : "pairs", i, at);
+    if (node.contains("statuses")) {
+      const Json& status = list(node, "statuses", at)[i];
+      if (!status.is_string()) {
+        refuse(fmt::format("{}.statuses[{}]", at, i), "expected text, found " + status.dump());
+      }
+      out.status = status.get<std::string>();
+    }
+    if (!has_number(out.status)) return out;
+    for (const Tolerance& limit : limits) {
+      for (const std::string& statistic : limit.values) {
+        const Json& entry = list(node, statistic, at)[i];
+        if (!entry.is_number()) {
+          refuse(fmt::format("{}.{}[{}]", at, statistic, i),
+                 "expected a number, found " + entry.dump());
+        }
+        out.values[statistic] = entry.get<double>();
+      }
+    }
+    return out;
+  }
+
+  GateCell cell(const Json& node,
+                const std::string& at,
+                const std::vector<Tolerance>& limits) const {
+    GateCell out;
+    out.sequence = text(node, "sequence", at);
+    out.repeat = static_cast<std::int64_t>(number(node, "repeat", at));
+    out.method = text(node, "method", at);
+    out.oracle = flag(node, "oracle");
+    out.oracle_data = flag(node, "oracle_data");
+    out.status = text(node, "status", at);
+    if (!node.contains("pairs")) return out;
+    const Json& pairs = list(node, "pairs", at);
+    for (std::size_t i = 0; i < questions_.size(); ++i) {
+      if (!pairs[i].is_null()) out.scores.push_back(score(node, i, at, limits));
+    }
+    return out;
+  }
+
+  std::string file_;
+  std::vector<GateScore> questions_;
+};
+
+}  // namespace
+
+namespace {
+
+Json parsed(const std::string& text, const std::string& file) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
+    const std::string what = error.what();  // "[json.exception...] parse error at ...: the reason"
+    const std::size_t reason = what.find(": ");
+    throw input_error(
+        file,
+        line,
+        "is not JSON: " + (reason == std::string::npos ? what : what.substr(reason + 2)));
+  }
+}
+
+std::string baseline_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw InputError(file.string() + ": cannot be read, expected a baseline (--update writes one)");
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+Baseline parse_baseline(const std::string& text, const std::string& file) {
+  return BaselineReader(file).read(parsed(text, file));
+}
+
+Baseline read_baseline(const std::filesystem::path& file) {
+  return parse_baseline(baseline_text(file), file.string());
+}
+
+std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
+  return BaselineReader(file.string()).limits(parsed(baseline_text(file), file.string()));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,59 @@
+#include "harness/model/cells.hpp"
+
+#include <algorithm>
+
+#include "harness/text/pattern.hpp"
+
+namespace loopbench {
+
+std::vector<Cell> cells(const Sweep& sweep,
+                        const std::vector<bool>& seeded,
+                        const std::string& only) {
+  const Pattern wanted = Pattern::of_option("--only", only);
+  std::vector<std::pair<Pattern, Pattern>> exclusions;
+  for (const Exclusion& rule : sweep.exclude)
+    exclusions.emplace_back(Pattern(rule.dataset), Pattern(rule.method));
+  const auto excluded = [&](const std::string& dataset, const std::string& method) {
+    return std::ranges::any_of(exclusions, [&](const auto& rule) {
+      return rule.first.is_all_of(dataset) && rule.second.is_all_of(method);
+    });
+  };
+
+  std::vector<Cell> out;
+  std::size_t index = 0;
+  for (std::size_t d = 0; d < sweep.datasets.size(); ++d) {
+    const std::string& dataset = sweep.datasets[d].label;
+    std::vector<std::size_t> chosen;
+    std::vector<std::size_t> offset;
+    std::size_t kept = 0;
+    for (std::size_t m = 0; m < sweep.methods.size(); ++m) {
+      const std::string& method = sweep.methods[m].label;
+      if (excluded(dataset, method)) continue;
+      if (wanted.is_in(dataset + " / " + method)) {
+        chosen.push_back(m);
+        offset.push_back(kept);
+      }
+      ++kept;
+    }
+    const int repeats = seeded[d] ? sweep.repeats : 1;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        out.push_back({index + offset[i], d, chosen[i], repeat});
+      }
+      index += kept;
+    }
+  }
+  return out;
+}
+
+std::int64_t derived_seed(std::int64_t seed, int repeat) {
+  if (repeat == 0) return seed;
+  std::uint64_t z =
+      static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(repeat) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<std::int64_t>(z >> 1);
+}
+
+}  // namespace loopbench

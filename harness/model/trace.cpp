@@ -1,0 +1,83 @@
+#include "harness/model/trace.hpp"
+
+#include <algorithm>
+
+#include "metrics/numerics/angle.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Places 0..count-1 thinned to at most kTraceSamples, evenly, first and last among them.
+template <class Keep>
+void visit_thinned(std::size_t count, Keep keep) {
+  const std::size_t kept = std::min(count, kTraceSamples);
+  for (std::size_t i = 0; i < kept; ++i) keep(kept == 1 ? 0 : i * (count - 1) / (kept - 1));
+}
+
+TracePose small(double stamp, const Pose& pose, const TraceOrigin& origin) {
+  const auto f = [](double value) { return static_cast<float>(value); };
+  const Vector3& p = pose.translation;
+  const Rotation& q = pose.rotation;
+  return {f(stamp - origin.stamp),
+          f(p.x() - origin.x),
+          f(p.y() - origin.y),
+          f(p.z() - origin.z),
+          f(q.x()),
+          f(q.y()),
+          f(q.z()),
+          f(q.w())};
+}
+
+std::vector<TracePose> poses(const Trajectory& trajectory, const TraceOrigin& origin) {
+  std::vector<TracePose> out;
+  visit_thinned(trajectory.size(), [&](std::size_t i) {
+    out.push_back(small(trajectory[i].stamp, trajectory[i].world_from_body, origin));
+  });
+  return out;
+}
+
+}  // namespace
+
+TraceOrigin trace_origin(const Sequence& sequence) {
+  if (sequence.reference.empty()) {
+    const Trajectory& keyframes = sequence.problem.keyframes;
+    return {keyframes.empty() ? 0.0 : keyframes.front().stamp, 0.0, 0.0, 0.0};
+  }
+  const StampedPose& first = sequence.reference.front();
+  const Vector3& p = first.world_from_body.translation;
+  return {first.stamp, p.x(), p.y(), p.z()};
+}
+
+SequenceTrace sequence_trace(const Sequence& sequence) {
+  SequenceTrace out;
+  out.origin = trace_origin(sequence);
+  out.reference = poses(sequence.reference, out.origin);
+  const TraceOrigin own{out.origin.stamp, 0.0, 0.0, 0.0};
+  const Trajectory& keyframes = sequence.problem.keyframes;
+  out.keyframes = poses(keyframes, own);
+  for (const Edge& loop : sequence.problem.closures) {
+    const TracePose from =
+        small(keyframes[loop.from].stamp, keyframes[loop.from].world_from_body, own);
+    const TracePose to = small(keyframes[loop.to].stamp, keyframes[loop.to].world_from_body, own);
+    out.closures.push_back({from.stamp, to.stamp, from.x, from.y, from.z, to.x, to.y, to.z});
+  }
+  return out;
+}
+
+CellTrace cell_trace(const Evaluation& evaluation, Times times, const TraceOrigin& origin) {
+  CellTrace out{times, {}};
+  visit_thinned(evaluation.reference.size(), [&](std::size_t i) {
+    const StampedPose& reference = evaluation.reference[i];
+    const Pose& estimate = evaluation.estimate[i].world_from_body;
+    const Vector3 error = estimate.translation - reference.world_from_body.translation;
+    const double angle = angle_between(reference.world_from_body.rotation, estimate.rotation);
+    out.samples.push_back({small(reference.stamp, estimate, origin),
+                           static_cast<float>(error.x()),
+                           static_cast<float>(error.y()),
+                           static_cast<float>(error.z()),
+                           static_cast<float>(angle * kDegrees)});
+  });
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,83 @@
+#include "harness/provenance/sequence_identity.hpp"
+
+#include <initializer_list>
+
+#include "harness/text/hash.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Numbers as bytes; members one by one, because padding has no defined value.
+class ContentHash {
+ public:
+  void add(double value) { append(&value, sizeof value); }
+  void add(std::uint64_t value) { append(&value, sizeof value); }
+
+  void add(const Pose& pose) {
+    for (const double x : pose.translation) add(x);
+    for (const double x : pose.rotation.coeffs()) add(x);
+  }
+
+  void add(const Trajectory& poses) {
+    add(std::uint64_t{poses.size()});
+    for (const auto& [stamp, pose] : poses) {
+      add(stamp);
+      add(pose);
+    }
+  }
+
+  void add(const std::vector<Edge>& edges) {
+    add(std::uint64_t{edges.size()});
+    for (const Edge& edge : edges) {
+      add(std::uint64_t{edge.from});
+      add(std::uint64_t{edge.to});
+      add(edge.from_from_to);
+      for (const double x : edge.information.reshaped()) add(x);
+      add(edge.scale);
+    }
+  }
+
+  std::string text() { return hex(hash_of(bytes_)); }
+
+ private:
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+  void append(const void* data, std::size_t size) {
+    if (bytes_.size() + size > kMostBytes) bytes_ = text();
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+
+  std::string bytes_;  ///< not hashed yet, after the hash of all before
+};
+
+std::string hash_of_poses(const Trajectory& poses) {
+  ContentHash hash;
+  hash.add(poses);
+  return hash.text();
+}
+
+}  // namespace
+
+std::string content_of(const Sequence& sequence) {
+  const Problem& problem = sequence.problem;
+  ContentHash hash;
+  hash.add(problem.keyframes);
+  hash.add(problem.odometry);
+  hash.add(problem.closures);
+  hash.add(problem.frames);
+  hash.add(std::uint64_t{problem.planar});
+  hash.add(std::uint64_t{problem.common_view.size()});
+  for (const std::size_t count : problem.common_view) hash.add(std::uint64_t{count});
+  hash.add(sequence.reference);
+  return hash.text();
+}
+
+std::string source_of(const Sequence& sequence, const std::string& reference_hash) {
+  const std::string& noise = sequence.provenance.noise;
+  if (!noise.empty()) return "noise:" + hex(hash_of(noise));
+  if (!reference_hash.empty()) return "reference:" + reference_hash;
+  if (!sequence.reference.empty()) return "reference:" + hash_of_poses(sequence.reference);
+  return "estimate:" + hash_of_poses(sequence.problem.keyframes);
+}
+
+}  // namespace loopbench

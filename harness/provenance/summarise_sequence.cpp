@@ -1,0 +1,92 @@
+#include "harness/provenance/summarise_sequence.hpp"
+
+#include <fmt/format.h>
+
+#include "datasets/derive/poses_at.hpp"
+#include "harness/provenance/oracle_closures.hpp"
+#include "harness/provenance/sequence_identity.hpp"
+#include "harness/text/hash.hpp"
+#include "metrics/checks/body_offset.hpp"
+#include "metrics/correction/loop_detection.hpp"
+#include "metrics/trajectory/position_only.hpp"
+
+namespace loopbench {
+namespace {
+
+/// Whether the raw keyframes move as if the reference were somebody else; empty: they do not.
+std::string reference_of_other_body(const Sequence& sequence) {
+  const Trajectory& keyframes = sequence.problem.keyframes;
+  if (sequence.reference.empty() || is_position_only(sequence.reference)) return "";
+  const auto there = poses_at(sequence.reference, stamps(keyframes), {});
+  Trajectory estimate, reference;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (!there[i]) continue;
+    estimate.push_back(keyframes[i]);
+    reference.push_back({keyframes[i].stamp, *there[i]});
+  }
+  const auto offset = body_offset(reference, estimate, {});
+  const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
+  const std::string text = offset ? other_body(*offset, stated.value_or(Pose{})) : "";
+  return text.empty() || !stated ? text : text + "; reference_body of the dataset takes it in";
+}
+
+/// Closures that are the reference's own, whatever file they come from, are an oracle's.
+void flag_oracle_closures(SequenceFacts& out, const Sequence& sequence) {
+  if (out.oracle_closures) return;
+  const std::size_t all = sequence.problem.closures.size();
+  const std::size_t equal = closures_equal_to_reference(sequence);
+  if (!are_oracle_closures(equal, all)) return;
+  out.oracle_closures = true;
+  out.closures += fmt::format("; {} of {} equal the reference", equal, all);
+}
+
+std::string hash_of_reference(const Sequence& sequence, const std::vector<InputFile>& inputs) {
+  for (const InputFile& file : inputs) {
+    if (file.path == sequence.provenance.reference.string()) return file.hash;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
+  std::vector<InputFile> out;
+  for (const auto& [path, option] : files) {
+    if (!std::filesystem::exists(path)) {
+      out.push_back({option, path.string(), 0, "missing"});
+      continue;
+    }
+    const std::string hash = hex(hash_of_file(path));
+    out.push_back({option, path.string(), std::filesystem::file_size(path), hash});
+  }
+  return out;
+}
+
+SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
+  SequenceFacts out;
+  out.inputs = hashed_inputs(sequence.provenance.inputs);
+  out.closures = sequence.provenance.closures;
+  out.oracle_closures = sequence.provenance.oracle_closures;
+  const auto count = [](const auto& items) { return static_cast<std::int64_t>(items.size()); };
+  const Problem& problem = sequence.problem;
+  out.size = {count(problem.keyframes),
+              count(problem.odometry),
+              count(problem.closures),
+              count(problem.frames),
+              count(sequence.reference)};
+  flag_oracle_closures(out, sequence);
+  out.content = content_of(sequence);
+  out.source = source_of(sequence, hash_of_reference(sequence, out.inputs));
+  out.group = out.source;
+  out.notes = sequence.provenance.notes;
+  if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
+    out.notes.push_back(to_text(judge_detection(sequence, {})));
+  }
+  if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
+    out.notes.push_back(note);
+  }
+  if (with_trace) out.trace = sequence_trace(sequence);
+  return out;
+}
+
+}  // namespace loopbench

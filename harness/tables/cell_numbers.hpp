@@ -1,0 +1,46 @@
+/// The numbers that fell into one cell of a table.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/model/record.hpp"
+#include "harness/tables/mark_best.hpp"
+
+namespace loopbench {
+
+/// What tells the runs of a cell apart: the data of the run where it is known, else its name.
+std::string run_key(const Record& record);
+
+class CellNumbers {
+ public:
+  void add(const Record& record, double value);
+
+  /// Records that were added.
+  std::size_t size() const { return values_.size(); }
+
+  /// The mean; of gains 1 - the geometric mean ratio, over groups as a verdict has it. None where
+  /// that is not a number.
+  std::optional<double> average() const;
+
+  const ByRun& runs() const { return runs_; }  ///< without those that were shown the reference
+  const std::string& method() const { return method_; }
+  Better better() const { return better_; }
+  double target() const { return target_; }
+  bool is_gain() const { return is_gain_; }
+
+ private:
+  double gain() const;
+
+  std::vector<double> values_;
+  std::map<std::string, std::map<std::string, double>> by_group_;  // by method and run
+  ByRun runs_;
+  std::string method_;
+  Better better_ = Better::neither;
+  double target_ = 0.0;
+  bool is_gain_ = false;
+};
+
+}  // namespace loopbench

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "harness/tables/text.hpp"
+
+namespace loopbench {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+namespace {
+
+/// What too little coverage makes incomplete is measured all the same; the status stands beside it.
+bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "incomplete"; }
+
+}  // namespace
+
+std::string csv(const std::vector<Table>& tables) {
+  std::string out = "table,row,column,value,records,status,mark\n";
+  for (const Table& table : tables) {
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        const TableCell& cell = table.cells[r][c];
+        if (!cell.value && cell.status.empty()) continue;
+        out += fmt::format("{},{},{},{},{},{},{}\n",
+                           quoted(table.title),
+                           quoted(table.rows[r]),
+                           quoted(table.columns[c]),
+                           cell.value ? fmt::format("{}", *cell.value) : "",
+                           cell.records,
+                           cell.value ? "ok" : cell.status,
+                           mark_name(cell.mark));
+      }
+    }
+  }
+  return out;
+}
+
+std::string csv(const std::vector<Record>& records) {
+  std::string out =
+      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
+      "times,metric,label,"
+      "relation,axis,unit,better,target,count,rmse,"
+      "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
+  for (const Record& r : records) {
+    const Statistics& s = r.statistics;
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
+                       quoted(r.sequence),
+                       r.repeat,
+                       quoted(r.method),
+                       quoted(r.closures),
+                       r.oracle_closures,
+                       r.oracle,
+                       quoted(r.protocol),
+                       quoted(r.protocol_version),
+                       r.times,
+                       quoted(r.metric),
+                       quoted(metric_label(r)),
+                       r.relation,
+                       r.axis,
+                       r.unit,
+                       to_text(r.better),
+                       r.better == Better::target ? fmt::format("{}", r.target) : "");
+    // An undefined score has no numbers, not zeros.
+    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
+    out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
+                                               : fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                                                             s.count,
+                                                             number(s.rmse),
+                                                             number(s.mean),
+                                                             number(s.median),
+                                                             number(s.std),
+                                                             number(s.min),
+                                                             number(s.max),
+                                                             number(s.sse),
+                                                             r.pairs,
+                                                             r.possible);
+    out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));
+  }
+  return out;
+}
+
+}  // namespace loopbench

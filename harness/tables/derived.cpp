@@ -1,0 +1,101 @@
+#include "harness/tables/derived.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "harness/compare/levels.hpp"
+
+namespace loopbench {
+namespace {
+
+auto place(const Record& r) {
+  return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
+}
+using RowPlace =
+    std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
+
+bool is_gain_source(const Record& r) {
+  return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
+}
+
+/// Not a number where the baseline has no error that could be reduced.
+double gain(double value, double baseline) {
+  if (baseline <= zero_floor(std::max(value, baseline))) return std::nan("");
+  return 100.0 * (1.0 - value / baseline);
+}
+
+/// A score that is one number: every statistic is that number.
+template <class Number>
+std::vector<Record> one_per_cell(const std::vector<Record>& records,
+                                 const std::string& metric,
+                                 const std::string& unit,
+                                 Better better,
+                                 Number number) {
+  std::vector<Record> out;
+  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
+  for (const Record& r : records) {
+    if (r.status != "ok" || r.metric.empty()) continue;
+    if (!seen.emplace(r.cell, r.protocol, r.times).second) continue;
+    Record one = r;
+    one.metric = metric;
+    one.label.clear();
+    one.better = better;
+    one.relation = one.axis = "";
+    one.unit = unit;
+    const double x = number(r);
+    one.statistics = {1, x, x, x, 0.0, x, x, x * x};
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
+  std::map<RowPlace, const Statistics*> base;
+  for (const Record& r : records) {
+    if (is_gain_source(r) && r.method == baseline) base.emplace(place(r), &r.statistics);
+  }
+  std::vector<Record> out;
+  for (const Record& r : records) {
+    const auto found = is_gain_source(r) ? base.find(place(r)) : base.end();
+    if (found == base.end()) continue;
+    const Statistics& b = *found->second;
+    Record g = r;
+    g.metric = "gain";
+    g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
+    g.better = Better::higher;
+    g.unit = "%";
+    for (double Statistics::*number : {&Statistics::rmse,
+                                       &Statistics::mean,
+                                       &Statistics::median,
+                                       &Statistics::std,
+                                       &Statistics::min,
+                                       &Statistics::max,
+                                       &Statistics::sse}) {
+      g.statistics.*number = gain(r.statistics.*number, b.*number);
+    }
+    if (!std::isfinite(g.statistics.rmse)) {
+      g.status = "declined";
+      g.why = "the baseline " + baseline + " has no error here that could be reduced";
+    }
+    out.push_back(std::move(g));
+  }
+  return out;
+}
+
+std::vector<Record> run_times(const std::vector<Record>& records) {
+  return one_per_cell(
+      records, "time", "ms", Better::lower, [](const Record& r) { return r.milliseconds; });
+}
+
+std::vector<Record> pair_counts(const std::vector<Record>& records) {
+  return one_per_cell(records, "pairs", "", Better::neither, [](const Record& r) {
+    return static_cast<double>(r.pairs);
+  });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,70 @@
+#include <string_view>
+
+#include "harness/tables/sheet.hpp"
+
+namespace loopbench {
+namespace {
+
+std::string escaped_latex(const std::string& text) {
+  std::string out;
+  for (const char c : one_line(text)) {
+    switch (c) {
+      case '\\':
+        out += "\\textbackslash{}";
+        break;
+      case '~':
+        out += "\\textasciitilde{}";
+        break;
+      case '^':
+        out += "\\textasciicircum{}";
+        break;
+      case '<':
+        out += "\\textless{}";
+        break;
+      case '>':
+        out += "\\textgreater{}";
+        break;
+      case '|':
+        out += "\\textbar{}";
+        break;
+      case '"':
+        out += "\\textquotedbl{}";  // \usepackage[T1]{fontenc}
+        break;
+      case '[':  // behind \\ it would start an optional length
+        out += "{[}";
+        break;
+      default:
+        if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) out += '\\';
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string marked_latex(const SheetEntry& entry) {
+  const std::string text = escaped_latex(entry.text);
+  if (entry.mark == Mark::best) return "\\textbf{" + text + "}";
+  if (entry.mark == Mark::second) return "\\underline{" + text + "}";
+  return text;
+}
+
+}  // namespace
+
+std::string latex(const Sheet& sheet) {
+  std::string out = sheet.title.empty() ? "" : "% " + one_line(sheet.title) + "\n";
+  out += "\\begin{tabular}{l" + std::string(sheet.headings.size() - 1, 'r') + "}\n\\toprule\n";
+  for (std::size_t c = 0; c < sheet.headings.size(); ++c) {
+    out += (c == 0 ? "" : " & ") + escaped_latex(sheet.headings[c]);
+  }
+  out += " \\\\\n\\midrule\n";
+  for (const auto& line : sheet.lines) {
+    for (std::size_t c = 0; c < line.size(); ++c)
+      out += (c == 0 ? "" : " & ") + marked_latex(line[c]);
+    out += " \\\\\n";
+  }
+  out += "\\bottomrule\n\\end{tabular}\n";
+  for (const std::string& note : sheet.notes) out += "% " + one_line(note) + "\n";
+  return out;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,82 @@
+#include "harness/tables/mark_best.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "harness/compare/name_order.hpp"
+
+namespace loopbench {
+namespace {
+
+struct MarkContest {
+  std::vector<std::size_t> entries;  // competitors with a value
+  std::vector<bool> is_complete;     // of each entry: knows every run
+  GroupedValues values;
+  std::size_t groups = 0;
+};
+
+MarkContest mark_contest(const Lane& lane) {
+  MarkContest out;
+  std::set<std::string> runs;
+  for (std::size_t i = 0; i < lane.competitors.size(); ++i) {
+    const ByRun& own = lane.competitors[i];
+    if (std::ranges::none_of(own, [](const auto& run) { return run.second.has_value(); })) continue;
+    out.entries.push_back(i);
+    for (const auto& [run, value] : own) runs.insert(run);
+  }
+  NameOrder groups;
+  out.values.values.resize(out.entries.size());
+  out.values.better = lane.better;
+  out.values.target = lane.target;
+  for (const std::size_t i : out.entries) {
+    out.is_complete.push_back(lane.competitors[i].size() == runs.size());
+  }
+  for (const std::string& run : runs) {
+    const auto knows = [&](std::size_t i) { return lane.competitors[i].contains(run); };
+    if (!std::ranges::all_of(out.entries, knows)) continue;
+    for (std::size_t e = 0; e < out.entries.size(); ++e) {
+      out.values.values[e].push_back(lane.competitors[out.entries[e]].at(run));
+    }
+    const auto group = lane.group.find(run);
+    out.values.group.push_back(groups.index(group == lane.group.end() ? run : group->second));
+  }
+  out.groups = groups.names().size();
+  return out;
+}
+
+}  // namespace
+
+const char* mark_name(Mark mark) {
+  return mark == Mark::best ? "best" : mark == Mark::second ? "second" : "";
+}
+
+Marks mark_best(const Lane& lane, const RankingOptions& options) {
+  Marks out{std::vector<Mark>(lane.competitors.size(), Mark::none), ""};
+  const MarkContest all = mark_contest(lane);
+  if (all.entries.size() < 2 || all.groups == 0) return out;
+  const Ranking ranking = rank_methods(all.values, options);
+  if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
+    out.why_none = fmt::format("{} independent run{} a cell cannot prove a difference at {:g}",
+                               all.groups,
+                               all.groups == 1 ? "" : "s",
+                               options.alpha);
+    return out;
+  }
+  if (!ranking.is_best_proven()) return out;
+  const auto mark = [&](std::size_t entry, Mark value) {
+    if (all.is_complete[entry]) out.marks[all.entries[entry]] = value;
+  };
+  const std::vector<std::size_t> best = ranking.leaders();
+  for (const std::size_t entry : best) mark(entry, Mark::best);
+  if (best.size() + 1 >= all.entries.size()) return out;
+  const std::size_t next = ranking.order[best.size()];
+  const auto is_below = [&](std::size_t m) {
+    return m == next || ranking.beats[next][m] || ranking.beats[m][next];
+  };
+  if (std::ranges::all_of(ranking.order, is_below)) mark(next, Mark::second);
+  return out;
+}
+
+}  // namespace loopbench

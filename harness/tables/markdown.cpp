@@ -1,0 +1,77 @@
+#include <cctype>
+
+#include "harness/tables/text.hpp"
+
+namespace loopbench {
+namespace {
+
+/// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
+/// or a sign: names like uniform_position and p < 0.05 stay readable.
+std::string escaped_markdown(const std::string& text) {
+  const std::string line = one_line(text);
+  const auto is_word = [&](std::size_t i) {
+    return i < line.size() && std::isalnum(static_cast<unsigned char>(line[i])) != 0;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const bool is_tag =
+        i + 1 < line.size() &&
+        (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
+    const bool opens = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
+    if (c == '<' && is_tag) {
+      out += "&lt;";
+    } else if (c == '&' && is_tag) {
+      out += "&amp;";
+    } else {
+      if (opens || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string marked_markdown(const SheetEntry& entry) {
+  const char* around = entry.mark == Mark::best ? "**" : entry.mark == Mark::second ? "_" : "";
+  return around + escaped_markdown(entry.text) + around;
+}
+
+std::string line_of(const std::vector<std::string>& texts, const std::vector<std::size_t>& wide) {
+  std::string out = "|";
+  for (std::size_t c = 0; c < texts.size(); ++c)
+    out += " " + padded(texts[c], wide[c], c == 0) + " |";
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string markdown(const Sheet& sheet) {
+  std::vector<std::vector<std::string>> grid(1);
+  for (const std::string& heading : sheet.headings) grid[0].push_back(escaped_markdown(heading));
+  for (const auto& line : sheet.lines) {
+    grid.emplace_back();
+    for (const SheetEntry& entry : line) grid.back().push_back(marked_markdown(entry));
+  }
+  const std::vector<std::size_t> wide = widths(grid);
+  std::string out = sheet.title.empty() ? "" : "### " + escaped_markdown(sheet.title) + "\n\n";
+  out += line_of(grid[0], wide);
+  std::vector<std::string> rule;
+  for (std::size_t c = 0; c < wide.size(); ++c) {
+    rule.push_back(c == 0 ? std::string(wide[c], '-') : std::string(wide[c] - 1, '-') + ":");
+  }
+  out += line_of(rule, wide);
+  for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
+  if (!sheet.notes.empty()) out += "\n";
+  for (const std::string& note : sheet.notes) out += "- " + escaped_markdown(note) + "\n";
+  return out;
+}
+
+std::string markdown(const Table& table) { return markdown(sheet(table)); }
+
+std::string markdown(const std::vector<Table>& tables) {
+  std::string out;
+  for (const Table& table : tables) out += (out.empty() ? "" : "\n") + markdown(table);
+  return out;
+}
+
+}  // namespace loopbench

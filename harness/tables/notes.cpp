@@ -1,0 +1,56 @@
+#include "harness/tables/notes.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace loopbench {
+namespace {
+
+void add_once(std::vector<std::string>& list, const std::string& text) {
+  if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
+}
+
+std::string listed(const std::vector<std::string>& list) {
+  std::string out;
+  for (const std::string& text : list) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
+
+/// The list that goes with a key, keys in the order they first came.
+template <class Key>
+class Lists {
+ public:
+  std::vector<std::string>& of(const Key& key) {
+    const auto [place, is_new] = place_.emplace(key, lists.size());
+    if (is_new) lists.emplace_back(key, std::vector<std::string>());
+    return lists[place->second].second;
+  }
+
+  std::vector<std::pair<Key, std::vector<std::string>>> lists;
+
+ private:
+  std::map<Key, std::size_t> place_;
+};
+
+}  // namespace
+
+std::vector<std::string> grouped(const std::vector<Missing>& missing) {
+  using Reason = std::tuple<std::string, std::string, std::string>;  // first of row, then of whats
+  Lists<Reason> whats;
+  for (const Missing& m : missing) add_once(whats.of({m.row, m.status, m.why}), m.what);
+  Lists<Reason> rows;
+  for (const auto& [reason, list] : whats.lists) {
+    const auto& [row, status, why] = reason;
+    add_once(rows.of({listed(list), status, why}), row);
+  }
+  std::vector<std::string> out;
+  for (const auto& [reason, list] : rows.lists) {
+    const auto& [what, status, why] = reason;
+    const std::string of = list.empty() ? "" : listed(list) + ": ";
+    out.push_back(of + what + (what.empty() ? "" : " ") + status + ": " + why);
+  }
+  return out;
+}
+
+}  // namespace loopbench

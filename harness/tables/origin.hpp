@@ -1,0 +1,38 @@
+/// What made the numbers of a store, in the form that each kind of export can carry.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/model/sequence_facts.hpp"
+
+namespace loopbench {
+
+struct Origin {
+  std::map<std::string, std::string> run;                ///< config text, protocols, baseline
+  std::map<std::string, std::string> provenance;         ///< commit, build, machine, seeds
+  std::map<std::string, std::vector<InputFile>> inputs;  ///< by sequence
+};
+
+/// Throws InputError when it is not a store.
+Origin read_origin(const std::filesystem::path& store);
+
+/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for a file beside a
+/// CSV.
+std::string json(const Origin& origin);
+
+/// {"provenance": that, KEY: VALUE}; `value` is JSON.
+std::string with_origin(const Origin& origin, const std::string& key, const std::string& value);
+
+/// A line per fact, each behind `mark`: "% commit: ...". Control characters become spaces.
+std::string origin_lines(const Origin& origin, const std::string& mark);
+
+/// An HTML comment, which Markdown hides. No value can end it: `--` becomes `- -`.
+std::string origin_comment(const Origin& origin);
+
+/// "table.csv" -> "table.provenance.json".
+std::filesystem::path origin_file(const std::filesystem::path& file);
+
+}  // namespace loopbench

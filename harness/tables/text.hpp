@@ -1,0 +1,29 @@
+/// Tables as text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/tables/pivot.hpp"
+#include "harness/tables/sheet.hpp"
+
+namespace loopbench {
+
+/// A CSV field, in quotes where it needs them (RFC 4180).
+std::string quoted(const std::string& text);
+
+std::string markdown(const Table& table);
+std::string markdown(const std::vector<Table>& tables);
+
+/// One CSV with the split columns first (RFC 4180 quoting), numbers in full precision; `mark` is
+/// best, second or empty.
+std::string csv(const std::vector<Table>& tables);
+
+/// The long table: a line per record with every column.
+std::string csv(const std::vector<Record>& records);
+
+/// An array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, status,
+/// mark}}; value is null where status is not ok.
+std::string json(const std::vector<Table>& tables);
+
+}  // namespace loopbench
