@@ -1,9 +1,72 @@
-# Fails when a folder includes something that is not upstream of it, or a library outside its door.
+# Fails when a file includes something that is not upstream of it, or a library outside its door.
+
+# What each part may include.
 set(may_include_datasets/core "datasets/core")
 set(may_include_datasets "datasets")
 set(may_include_methods "datasets/core|methods")
 set(may_include_metrics "datasets/core|metrics")
 set(may_include_harness "datasets|methods|metrics|harness")
+
+# The order inside the parts, read downwards: an entry (a folder, or a .hpp and .cpp of that name) may
+# include itself and the lines above it, but not the other entries on its own line. A file belongs
+# to the longest entry that holds it.
+set(order
+  "datasets/core"
+  "datasets/hash datasets/revisits datasets/disabled_options datasets/dataset datasets/formats"
+  "datasets/noise_stream datasets/data_root"
+  "datasets/random"
+  "datasets/derive datasets/simulated"
+  "datasets/trajectory_dataset datasets/pose_graph_dataset"
+  "datasets/datasets"
+  "datasets/rgbd"
+  "datasets/rgbd/features"
+  "datasets/rgbd/tracking"
+  "datasets/rgbd/dense datasets/rgbd/loops datasets/rgbd/folder datasets/rgbd/render"
+  "datasets/rgbd/pack_stages"
+  "datasets/rgbd/frontend.hpp"
+  "datasets/rgbd/stage_cache"
+  "datasets/rgbd/frontend.cpp"
+  "datasets/rgbd/rgbd_datasets"
+
+  "methods/report"
+  "methods/method"
+  "methods/plugin methods/pipeline"
+  "methods/smoothers/parts methods/smoothers/stretches methods/smoothers/penalised"
+  "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"
+  "methods/smoothers/manifold/frame"
+  "methods/smoothers/manifold/families"
+  "methods/smoothers/gp methods/smoothers/manifold"
+  "methods/smoothers/spline"
+  "methods/solvers"
+  "methods/smoothers methods/correctors"
+  "methods/joint"
+  "methods/methods"
+
+  "metrics/numerics"
+  "metrics/protocols"
+  "metrics/trajectory metrics/alignment"
+  "metrics/pairing"
+  "metrics/evaluation"
+  "metrics/better"
+  "metrics/metric"
+  "metrics/errors metrics/correction metrics/checks"
+  "metrics/metrics"
+
+  "harness/text harness/statistics"
+  "harness/model"
+  "harness/oracle"
+  "harness/catalogue"
+  "harness/config harness/provenance"
+  "harness/execution/run"
+  "harness/execution/isolate"
+  "harness/execution/verify harness/store"
+  "harness/compare"
+  "harness/tables"
+  "harness/gate harness/profile harness/plot"
+  "harness/report harness/eval harness/article harness/calibrate"
+  "harness/commands"
+  "harness/main"
+)
 
 # door_<library> is the only place that may include the headers matched by header_<library>.
 set(libraries ceres yaml sqlite re2 cli json opencv stb)
@@ -24,13 +87,53 @@ set(door_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")
 set(door_stb "datasets/rgbd/.*\\.cpp")
 
+set(level 0)
+foreach(line IN LISTS order)
+  math(EXPR level "${level} + 1")
+  string(REPLACE " " ";" entries "${line}")
+  foreach(entry IN LISTS entries)
+    list(APPEND all_entries ${entry})
+    set(level_${entry} ${level})
+  endforeach()
+endforeach()
+
+# The longest entry of the order that holds a path; empty if none does.
+function(find_entry path out)
+  get_property(known GLOBAL PROPERTY entry_${path} SET)
+  if(NOT known)
+    set(longest "")
+    set(length 0)
+    foreach(entry IN LISTS all_entries)
+      string(FIND "${path}/" "${entry}/" in_folder)
+      string(FIND "${path}" "${entry}." as_file)
+      string(LENGTH "${entry}" entry_length)
+      if((in_folder EQUAL 0 OR as_file EQUAL 0) AND entry_length GREATER length)
+        set(longest ${entry})
+        set(length ${entry_length})
+      endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY entry_${path} "${longest}")
+  endif()
+  get_property(longest GLOBAL PROPERTY entry_${path})
+  set(${out} "${longest}" PARENT_SCOPE)
+endfunction()
+
 foreach(folder datasets/core datasets methods metrics harness)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
   foreach(file IN LISTS files)
+    find_entry(${file} from)
+    if(NOT from)
+      message(SEND_ERROR "${file} has no place in the order of tests/includes_flow_one_way.cmake")
+    endif()
     file(STRINGS ${ROOT}/${file} includes REGEX "^#include")
     foreach(line IN LISTS includes)
       if(line MATCHES "^#include \"" AND NOT line MATCHES "^#include \"(${may_include_${folder}})/")
         message(SEND_ERROR "${file}: ${line} points downstream")
+      elseif(line MATCHES "^#include \"(${folder}/[^\"]+)\"")
+        find_entry(${CMAKE_MATCH_1} to)
+        if(NOT from STREQUAL to AND NOT level_${to} LESS level_${from})
+          message(SEND_ERROR "${file}: ${line} points downstream, from ${from} to ${to}")
+        endif()
       endif()
       foreach(library IN LISTS libraries)
         if(line MATCHES "<${header_${library}}" AND NOT file MATCHES "^${door_${library}}")
