@@ -102,7 +102,7 @@ void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, R
 }
 
 /// Subsamples the models: each iteration of the average factorises one dense matrix per model, and
-/// with many closures the models differ other.
+/// with many closures the models differ less.
 std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::size_t closures) {
   constexpr std::size_t kFewClosures = 16;
   constexpr std::size_t kAveraged = 64;
@@ -115,16 +115,16 @@ std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::siz
 /// Loops that cover a small part of the chain leave the rest to extrapolation.
 void note_large_move(const LargestMove& move, Report& report) {
   constexpr double kLarge = 3.0;
-  report.count("largest_move", move.edge_motions);
+  report.count("largest_move", move.moved);
   report.count("explained_move", move.explained);
-  if (!(move.edge_motions > kLarge * move.explained + 1e-6)) return;
+  if (!(move.moved > kLarge * move.explained + 1e-6)) return;
   const auto rounded = [](double metres) -> std::string {
     if (metres < 0.005) return "0.00";
     const double unit = std::pow(10.0, std::floor(std::log10(metres)) - 1.0);
     std::string text = std::to_string(std::round(metres / unit) * unit);
     return text.substr(0, text.find('.') + (metres < 10.0 ? 3 : 0));
   };
-  report.notes.push_back("largest keyframe displacement is " + rounded(move.edge_motions) +
+  report.notes.push_back("largest keyframe displacement is " + rounded(move.moved) +
                          " m, the loop gaps explain " + rounded(move.explained) +
                          " m: the drift is extrapolated far beyond the loops");
 }
