@@ -13,12 +13,12 @@ namespace {
 
 /// Relative cost below which a solution replaces an earlier one; rough solutions of the same
 /// minimum differ by less. [-]
-constexpr double kReplaces = 0.999;
+constexpr double kSameMinimum = 0.999;
 
-/// Closures whose weights are one half at bound are rejected.
 /// Number of closures with a weight above one half; the others count as rejected.
-return static_cast<std::size_t>(
-    std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
+std::size_t kept_count(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
 }
 
 bool any_edge_has_scale(const Problem& problem) {
@@ -98,7 +98,7 @@ class GncRuns {
     // its first step hardly lowers the cost.
     out.poses = std::move(start.poses);
     const int iterations = best_.iterations + out.iterations;
-    if (cost < kReplaces * lowest_cost_) {
+    if (cost < kSameMinimum * lowest_cost_) {
       best_ = std::move(out);
       lowest_cost_ = cost;
     }
