@@ -24,7 +24,7 @@ class Pipeline final : public Method {
       : corrector_(std::move(corrector)), smoother_(std::move(smoother)) {}
 
   std::optional<std::string> declines(const Problem& problem) const override {
-    if (problem.keyframes.empty()) return "the problem has no keyframes";
+    if (problem.keyframes.empty()) return "no keyframes";
     if (corrector_) {
       if (auto why = corrector_->declines(problem)) return why;
     }
