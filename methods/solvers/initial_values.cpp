@@ -52,7 +52,7 @@ std::vector<bool> walk_tree(const Problem& problem, Visit visit) {
     reached[step.to] = true;
     if (step.edge != nullptr) visit(*step.edge, step.from, step.to);
     for (std::size_t w = graph.begin[step.to]; w < graph.begin[step.to + 1]; ++w) {
-      const auto& [edge, is_odometry] = graph.ways[w];
+      const auto& [edge, is_odometry] = graph.incidences[w];
       const std::size_t other = edge->from == step.to ? edge->to : edge->from;
       if (reached[other]) continue;
       if (is_odometry) {

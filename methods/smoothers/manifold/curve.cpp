@@ -8,9 +8,9 @@ ManifoldCurve::ManifoldCurve(const Trajectory& nodes, Parts parts)
     : stamps_(loopbench::stamps(nodes)), parts_(std::move(parts)) {
   arms_.reserve(nodes.size());
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const Rotation& here = nodes[i].world_from_body.rotation;
+    const Rotation& current = nodes[i].world_from_body.rotation;
     const Rotation& next = nodes[i + 1].world_from_body.rotation;
-    arms_.push_back({here, log_so3(here.conjugate() * next)});
+    arms_.push_back({current, log_so3(current.conjugate() * next)});
   }
 }
 
