@@ -32,7 +32,7 @@ NodeSpline NodeSpline::of_order(const Nodes& nodes, std::size_t order) {
   NodeSpline out(nodes, Straight{});
   std::vector<Value> values;
   for (const Knot& knot : out.knots_) values.push_back(knot.value);
-  out.other_ = BSpline::through(out.stamps_, values, order);
+  out.b_spline_ = BSpline::through(out.stamps_, values, order);
   return out;
 }
 

@@ -152,7 +152,7 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
     out.converged = gap <= threshold * barrier.squares();
     t *= kFaster;
   }
-  out.bends = barrier.bent();
+  out.bends = barrier.kink_rows();
   out.forces = std::move(barrier).forces();
   return out;
 }
