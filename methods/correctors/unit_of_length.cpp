@@ -122,7 +122,7 @@ std::vector<double> min_cost_changes(const ScaleLinearisation& chain,
   }
   const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(covariance);
   if (factor.info() != Eigen::Success) {
-    throw std::runtime_error("the equations of the loops' scales are not positive definite");
+    throw std::runtime_error("scale drift: the loop equations are not positive definite");
   }
   const Eigen::VectorXd lambda = factor.solve(gap);
   std::vector<Point> begins(chain.ends.size() + 1, Point::Zero());
@@ -141,7 +141,7 @@ std::vector<double> min_cost_changes(const ScaleLinearisation& chain,
   return out;
 }
 
-/// Errors that hold for the scales alone: poses neither know nor matter.
+/// Initial corrections from the scale errors alone, without the poses.
 std::vector<double> changes_by_scale(const Problem& problem) {
   const std::size_t loops = problem.closures.size();
   const std::vector<double> none(problem.odometry.size(), 0.0);

@@ -20,8 +20,8 @@ struct ScaleDrift {
   Problem problem;
 };
 
-/// `sure`: information of the closure.
-ScaleDrift scale_drift(double creep, double sure) {
+/// `precision`: information of the closure [1/m^2], [1/rad^2].
+ScaleDrift scale_drift(double creep, double precision) {
   ScaleDrift out;
   Pose pose;
   Pose measured_pose;
@@ -39,7 +39,7 @@ ScaleDrift scale_drift(double creep, double sure) {
     measured_pose = normalized(measured_pose * measured);
     unit *= std::exp(creep);
   }
-  out.problem.closures.push_back({0, 40, pose, Matrix6::Identity() * sure, unit});
+  out.problem.closures.push_back({0, 40, pose, Matrix6::Identity() * precision, unit});
   return out;
 }
 
