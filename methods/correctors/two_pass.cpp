@@ -118,7 +118,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
       std::fill_n(first, w->cumulative.size(), true);
     }
   }
-  chain.settle(keyframes.size());
+  chain.apply_tail(keyframes.size());
 
   double gap = 0.0;
   for (const Edge& loop : problem.closures) gap = std::max(gap, chain.gap(loop));

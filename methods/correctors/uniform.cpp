@@ -80,7 +80,7 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
       std::fill_n(first, w->cumulative.size(), true);
     }
   }
-  chain.settle(problem.keyframes.size());
+  chain.apply_tail(problem.keyframes.size());
 
   double gap = 0.0;
   for (const Edge& loop : loops) gap = std::max(gap, chain.gap(loop));

@@ -154,11 +154,11 @@ TEST(SmoothingSpline, WithALargePenaltyAngularVelocityIsConstant) {
       smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e9}, {"lambda_r", 1e9}}, &report);
   EXPECT_NEAR(count(report, "free_r"), 2.0, 1e-3);
   const double t = keyframes.front().stamp + 1.0;
-  const auto rotations = [&](double from) {
+  const auto rotation_step = [&](double from) {
     return log_so3(curve->at(from).rotation.conjugate() * curve->at(from + 0.5).rotation);
   };
-  EXPECT_LT((rotations(t) - rotations(t + 2.0)).norm(), 1e-4);
-  EXPECT_GT(rotations(t).norm(), 0.01);
+  EXPECT_LT((rotation_step(t) - rotation_step(t + 2.0)).norm(), 1e-4);
+  EXPECT_GT(rotation_step(t).norm(), 0.01);
 }
 
 TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
@@ -184,10 +184,10 @@ TEST(SmoothingSpline, HasContinuousAngularVelocity) {
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double t = keyframes[i].stamp;
     const Pose current = curve->at(t);
-    const auto rotations = [&](double side) {
+    const auto angular_velocity = [&](double side) {
       return Vector3(log_so3(current.rotation.conjugate() * curve->at(t + side).rotation) / side);
     };
-    EXPECT_LT((rotations(h) - rotations(-h)).norm(), 1e-3) << i;
+    EXPECT_LT((angular_velocity(h) - angular_velocity(-h)).norm(), 1e-3) << i;
   }
 }
 
