@@ -15,18 +15,18 @@ struct Adjacency {
   std::vector<Incidence> incidences;
 
   explicit Adjacency(const Problem& problem) : begin(problem.keyframes.size() + 1, 0) {
-    const auto for_each_edge = [&](auto visit) {
+    const auto visit_edges = [&](auto visit) {
       for (const Edge& edge : problem.odometry) visit(edge, true);
       for (const Edge& edge : problem.closures) visit(edge, false);
     };
-    for_each_edge([&](const Edge& edge, bool) {
+    visit_edges([&](const Edge& edge, bool) {
       ++begin[edge.from + 1];
       ++begin[edge.to + 1];
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     incidences.resize(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for_each_edge([&](const Edge& edge, bool is_odometry) {
+    visit_edges([&](const Edge& edge, bool is_odometry) {
       incidences[next[edge.from]++] = {&edge, is_odometry};
       incidences[next[edge.to]++] = {&edge, is_odometry};
     });
