@@ -1,6 +1,4 @@
 // smoothing_spline and its parts.
-#include "methods/smoothers/smoothing_spline.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,6 +7,7 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/penalised/lattice.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
+#include "methods/smoothers/smoothing_spline.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/noisy_paths.hpp"
 
