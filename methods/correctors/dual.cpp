@@ -79,8 +79,7 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
     start_chordal(problem, belief, second);
   }
   if (second) {
-    constexpr double kOtherMinimum =
-        1e-6;  // relative cost difference that indicates another minimum
+    constexpr double kOtherMinimum = 1e-6;  // relative cost difference between two minima
     iterations += minimise(*second, options);
     if (second->cost() < first.cost() * (1.0 - kOtherMinimum)) {
       best = &*second;

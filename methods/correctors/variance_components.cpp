@@ -10,10 +10,9 @@
 namespace loopbench {
 namespace {
 
-constexpr double kLattice = 0.25;  // spacing of the factors [octaves]
-constexpr int kFarthest = 53;      // largest lattice index: a factor of 1e4
-constexpr double kPriorOctaves =
-    6.64385619;  // prior deviation: a factor of 10 in a standard deviation
+constexpr double kLattice = 0.25;             // spacing of the factors [octaves]
+constexpr int kFarthest = 53;                 // largest lattice index: a factor of 1e4
+constexpr double kPriorOctaves = 6.64385619;  // prior deviation: a factor of 10 in deviation
 
 using LatticePoint = std::array<int, 2>;  // lattice indices of translation and rotation
 

@@ -32,8 +32,8 @@ class SplineFactor {
 
   struct Residual {
     Twist error;
-    std::vector<Matrix6>
-        by_control;  ///< derivatives by [d; a] in [p + d; Exp(a) R], in the order of controls()
+    /// Derivatives by [d; a] in [p + d; Exp(a) R], in the order of controls().
+    std::vector<Matrix6> by_control;
   };
   /// Evaluates the residual. `controls[i]` is the control with index controls()[i]. O(k).
   Residual evaluate(const std::vector<Pose>& controls) const;

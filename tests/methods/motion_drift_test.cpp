@@ -136,8 +136,7 @@ TEST(MotionDrift, ReportsTheEstimatedModel) {
               1.0,
               1e-9);
   EXPECT_GE(count(report, "chance.steady"), 0.0);
-  EXPECT_GE(count(report, "noise.t.per_metre"),
-            0.0);  // 0 if the most probable hypothesis excludes it
+  EXPECT_GE(count(report, "noise.t.per_metre"), 0.0);  // 0 if the term is excluded
   EXPECT_GE(count(report, "drift.r.per_second.x"), 0.0);
   EXPECT_GT(count(report, "stated"), 0.0);
   EXPECT_GT(count(report, "closures.r"), 0.0);

@@ -81,8 +81,7 @@ TEST(MotionDriftWeakClosures, DoNotShrinkTheCovarianceOfTheOthers) {
   for (std::size_t j = 0; j < with.size(); ++j) {
     EXPECT_NEAR(with[j].value, without[j].value, 0.1 * without[j].value) << name_of(with[j]);
   }
-  EXPECT_EQ(with[3].value,
-            1.0);  // before the fix: 1e-8, as if all closures were stated in another unit
+  EXPECT_EQ(with[3].value, 1.0);  // before the fix: 1e-8
 }
 
 TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheScaleOfTheNoise) {
@@ -115,7 +114,7 @@ TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
   const LoopAverages loops(problem, moved, gap_of(problem));
   EXPECT_NEAR(loops.stated(Half::rotation), 0.09, 1e-12);
   EXPECT_GE(loops.motion(Half::translation, Growth::distance, false),
-            mean);  // lower bound for slow loops
+            mean);  // bound for slow loops
   EXPECT_NEAR(loops.motion(Half::translation, Growth::distance, false), mean, 0.2 * mean);
 }
 

@@ -10,13 +10,13 @@ namespace loopbench {
 /// edge's duration [s], length [m] and rotation angle [rad].
 ///
 /// - Noise: w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt, separately for
-/// translation and rotation and equal on all three axes, plus a multiple of the edge's stated
-/// covariance.
+///   translation and rotation and equal on all three axes, plus a multiple of the edge's stated
+///   covariance.
 /// - Steady drift: B_j ~ N(0, V_j), unknown rotation rates that are constant along the chain. They
-/// correlate the errors of the whole chain, and loops far apart in time determine them. Steady
-/// drift of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
-/// used only when its size is given as an option. Outside the loops, drift is extrapolated over at
-/// most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
+///   correlate the errors of the whole chain, and loops far apart in time determine them. Steady
+///   drift of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
+///   used only when its size is given as an option. Outside the loops, drift is extrapolated over
+///   at most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
 ///
 /// A few loops do not determine these variances. The method therefore draws error models from the
 /// posterior: a prior (prior.hpp) times the likelihood of the loop gaps (posterior.hpp). It
@@ -36,9 +36,10 @@ namespace loopbench {
 /// sampling, AISTATS 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
 class MotionDrift final : public Corrector {
  public:
-  /// Regressors of the error model; each model includes those before it, except that `drift` is
-  /// `rotation` plus steady drift and the stated odometry covariance. It omits speed because for
-  /// evenly spaced keyframes speed is proportional to distance.
+  /// Noise terms of the error model. `constant` noise is equal in every edge; `time`, `distance`,
+  /// `rotation` and `speed` each add a regressor to the one before. `drift` is `rotation` plus
+  /// steady drift and the stated odometry covariance; it omits speed, because for evenly spaced
+  /// keyframes speed is proportional to distance.
   enum class Model { constant, time, distance, rotation, speed, drift };
   using Values = std::array<std::optional<double>, kGrowths.size()>;  ///< indexed by Growth
 
@@ -53,10 +54,9 @@ class MotionDrift final : public Corrector {
     double tolerance = 1e-14;
     int max_closures = 300;
     bool scale = true;
-    std::array<Values, 2> noise{};  ///< indexed by Half; variances
-    std::array<Values, 2> drift{};  ///< indexed by Half; standard deviations of the rates
-    std::array<std::optional<double>, 2>
-        closures{};  ///< indexed by Half; factors on the stated covariance
+    std::array<Values, 2> noise{};                    ///< by Half; variances
+    std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates
+    std::array<std::optional<double>, 2> closures{};  ///< by Half; factors on stated covariances
   };
   explicit MotionDrift(const Options& options) : options_(options) {}
 

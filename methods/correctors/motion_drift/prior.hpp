@@ -12,8 +12,7 @@ namespace loopbench {
 /// in which steady drift exceeds noise after 4 s to 5 min.
 struct MotionPriorOptions {
   double noise_part = 0.002;  ///< translation noise along a loop / path length of the loop [-]
-  double stated_part =
-      0.33;  ///< fraction of the rotation noise proportional to the stated covariances [-]
+  double stated_part = 0.33;  ///< part of the rotation noise proportional to stated covariances [-]
   double steady_after = 60.0;    ///< loop duration at which drift and noise have equal variance [s]
   double scale_spread = 2.3;     ///< scale common to all errors of a component
   double steady_spread = 1.8;    ///< ratio of steady drift to noise
@@ -21,8 +20,7 @@ struct MotionPriorOptions {
   double share_spread = 0.7;     ///< a single term
   double stated_spread = 1.5;    ///< the stated odometry covariance relative to the scale
   double closures_spread = 0.7;  ///< factors on the closure covariances
-  double as_stated_chance =
-      0.5;  ///< probabilities of Covariance; Covariance::free has the remainder
+  double as_stated_chance = 0.5;  ///< probabilities of Covariance; `free` has the remainder
   double scaled_chance = 0.25;
   double steady_chance = 0.7;  ///< probability of steady drift
   double drift_reach = 2.0;    ///< extrapolation of drift / motion enclosed by loops [-]

@@ -25,8 +25,7 @@ inline auto choices(Meet) {
 
 struct JointRule {
   Meet meet = Meet::overlap_blend;
-  std::optional<double> c0_below =
-      std::nullopt;  ///< slower joints are continuous in position only [m/s]; none: never
+  std::optional<double> c0_below = std::nullopt;  ///< speed below which joints are C0 [m/s]
 
   /// Joint type at `node`, depending on the mean speed over its two steps.
   Meet at(const Nodes& nodes, std::size_t node) const;

@@ -8,11 +8,9 @@
 namespace loopbench::manifold {
 
 struct GapRule {
-  std::optional<double> time_max = 1.0;  ///< maximum gap without insertion [s]; none: no limit
-  std::optional<double> rotation_max =
-      1.09;  ///< maximum rotation without insertion [rad]; none: no limit
-  std::optional<double> common_min =
-      1.0;  ///< minimum common landmarks without insertion; none: no limit
+  std::optional<double> time_max = 1.0;       ///< maximum gap without insertion [s]; none: no limit
+  std::optional<double> rotation_max = 1.09;  ///< maximum rotation without insertion [rad]
+  std::optional<double> common_min = 1.0;     ///< minimum common landmarks without insertion
 };
 
 struct Densified {

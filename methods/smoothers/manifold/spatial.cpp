@@ -5,8 +5,7 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr double kRounding =
-    1e-9;  // fraction of the window size; level motion has a height range of zero
+constexpr double kRounding = 1e-9;  // fraction of the window size, for level motion
 
 bool is_tame(const Height::Surface& surface,
              const Nodes& nodes,

@@ -124,8 +124,7 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
                            double tolerance,
                            int most) {
   constexpr double kFaster = 10.0;  // growth of t from one centre to the next
-  constexpr double kCentred =
-      0.5;  // predicted decrease per row at which a centre is accurate enough
+  constexpr double kCentred = 0.5;  // sufficient predicted decrease per row at a centre
   constexpr double kRounding = 1e-4;
   constexpr double kFinest = 1e-12;  // below this the slacks are rounding errors
   const auto rows = static_cast<double>(bends.size());

@@ -9,9 +9,8 @@ namespace loopbench::manifold {
 
 struct Polynomial {
   double centre = 0.0;  ///< middle of the fitted x [m]
-  double scale = 1.0;   ///< half the range of x [m]
-  Eigen::Vector4d coefficients =
-      Eigen::Vector4d::Zero();  ///< of powers of (x - centre) / scale [m]
+  double scale = 1.0;   ///< half the range of x [m]; u = (x - centre) / scale
+  Eigen::Vector4d coefficients = Eigen::Vector4d::Zero();  ///< of powers of u [m]
 
   template <class T>
   T operator()(const T& x) const {
