@@ -1,8 +1,9 @@
-/// The three interfaces a method may implement, and the entry that lists it.
+/// Interfaces of correctors, smoothers and joint methods, and the registry entry of a method.
 ///
-/// A Corrector moves keyframes with the help of loop closures; a Smoother turns keyframes into a
-/// curve and cannot remove drift; a Method does both at once. Corrector and smoother compose
-/// (pipeline.hpp). All are const and pure: the same problem gives the same bits, on any thread.
+/// A Corrector adjusts keyframe poses using loop closures. A Smoother fits a curve to the keyframes
+/// and cannot remove drift. A Method does both jointly. A corrector and a smoother can be composed
+/// (pipeline.hpp). All functions are const and pure: the same problem gives bit-identical results
+/// on any thread.
 #pragma once
 
 #include <functional>
@@ -19,30 +20,31 @@
 
 namespace loopbench {
 
-/// Stage 1: poses in, better poses out.
+/// Stage 1: corrects the keyframe poses.
 class Corrector {
  public:
   virtual ~Corrector() = default;
 
-  /// The reason this problem is not for this method, or nothing.
+  /// Returns the reason why the method cannot process this problem, or nullopt.
   virtual std::optional<std::string> declines(const Problem&) const { return std::nullopt; }
 
-  /// One pose per keyframe, same stamps, same order. Throws std::runtime_error on failure.
+  /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
+  /// std::runtime_error on failure.
   virtual Trajectory correct(const Problem& problem, Report& report) const = 0;
 };
 
-/// Stage 2: keyframes in, a curve through or near them out.
+/// Stage 2: fits a curve through or near the keyframes.
 class Smoother {
  public:
   virtual ~Smoother() = default;
 
   virtual std::optional<std::string> declines(const Problem&) const { return std::nullopt; }
 
-  /// A curve over exactly the span of the keyframes. The curve owns what it needs.
+  /// Returns a curve over exactly the time span of the keyframes. The curve owns its data.
   virtual std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const = 0;
 };
 
-/// Both at once, or something else entirely: a problem in, a curve out.
+/// Joint method: computes a curve directly from a problem.
 class Method {
  public:
   virtual ~Method() = default;
@@ -71,7 +73,7 @@ struct MethodEntry {
   std::function<Stage(const Params&)> make;  ///< throws OptionError
 };
 
-/// Wraps a `T` constructible from `T::Options` as an entry. Other defaults make a variant.
+/// Wraps a `T` constructible from `T::Options` as an entry. Different `defaults` define a variant.
 template <class T>
 MethodEntry method(std::string name, std::string summary, typename T::Options defaults) {
   constexpr bool is_corrector = std::derived_from<T, Corrector>;
@@ -95,7 +97,7 @@ MethodEntry method(std::string name, std::string summary) {
   return method<T>(std::move(name), std::move(summary), typename T::Options{});
 }
 
-/// Every built-in, in the order tables show them.
+/// Returns all built-in methods in the order in which tables list them.
 std::vector<MethodEntry> methods();
 
 }  // namespace loopbench

@@ -14,7 +14,7 @@ namespace {
 void require_same_stamps(const Trajectory& before, const Trajectory& after) {
   const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
   if (!std::equal(before.begin(), before.end(), after.begin(), after.end(), same)) {
-    throw std::runtime_error("corrector did not keep the keyframe stamps");
+    throw std::runtime_error("the corrector changed the number or the stamps of the keyframes");
   }
 }
 
@@ -55,7 +55,7 @@ class Pipeline final : public Method {
 Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   const Trajectory& before = problem.keyframes;
   require_same_stamps(before, keyframes);
-  // Field by field: copying the whole problem would copy keyframes that are thrown away.
+  // Built field by field, because copying the whole problem would also copy the old keyframes.
   Problem moved{std::move(keyframes),
                 problem.odometry,
                 problem.closures,

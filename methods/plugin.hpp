@@ -1,11 +1,11 @@
-/// What a shared object outside this repository includes to bring methods of its own.
+/// Header for shared objects outside this repository that provide methods.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// Facts two binaries must agree on before they may hand each other our types.
+/// Properties that must be equal in both binaries before they exchange our types.
 struct Abi {
   int interface = 2;  ///< raise when method.hpp or datasets/core changes shape
   long language = __cplusplus;
@@ -31,7 +31,7 @@ struct Plugin {
 
 }  // namespace loopbench
 
-/// The one line a plugin writes: LOOPBENCH_PLUGIN(method<Mine>("mine", "what it does"))
+/// Exports the methods of a plugin: LOOPBENCH_PLUGIN(method<Mine>("mine", "what it computes"))
 #define LOOPBENCH_PLUGIN(...)                                                 \
   extern "C" const loopbench::Plugin* loopbench_plugin() {                    \
     static const loopbench::Plugin plugin{                                    \

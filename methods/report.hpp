@@ -1,4 +1,4 @@
-/// What a method says about its own work: time by phase, counts, remarks, how it cut up the way.
+/// Report of a method run: time per phase, counts, notes, and sections of the trajectory.
 #pragma once
 
 #include <chrono>
@@ -18,23 +18,23 @@ struct Count {
   double value = 0.0;
 };
 
-/// A stretch of the way that a method treated as one. Those of one kind may overlap.
+/// A time interval that a method processed as one unit. Sections of the same kind may overlap.
 struct Section {
   std::string kind;    ///< "segment", "window", "spatial window"
   double begin = 0.0;  ///< stamp [s]
   double end = 0.0;    ///< stamp [s]
-  std::string what;    ///< what was chosen there, as "cubic"; may be empty
+  std::string what;    ///< model chosen there, for example "cubic"; may be empty
 };
 
 struct Report {
   std::vector<Phase> phases;
   std::vector<Count> counts;
-  std::vector<std::string> notes;  ///< a fallback taken, a gap left: one short sentence each
-  std::vector<Section> sections;   ///< in the order of their kind, then of time
+  std::vector<std::string> notes;  ///< fallbacks taken, gaps left: one short sentence each
+  std::vector<Section> sections;   ///< sorted by kind, then by time
 
   void count(std::string name, double value) { counts.push_back({std::move(name), value}); }
 
-  /// Runs `work` and adds a phase with the time it took.
+  /// Runs `work` and adds a phase with its duration.
   template <class Work>
   auto time(std::string name, Work work) {
     const auto begin = std::chrono::steady_clock::now();

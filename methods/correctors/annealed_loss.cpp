@@ -24,19 +24,19 @@ double anneal(const std::vector<Edge>& closures,
   const std::vector<double> squared = squared_errors(start, closures, settings);
   const PoseGraphSummary direct = solve(settings);
   poses = start;
-  PoseGraphSettings rough = settings;
-  rough.max_iterations = std::min(settings.max_iterations, 30);
-  rough.tolerance = std::max(settings.tolerance, 1e-6);
-  // Smoother than dcs and as bounded: fewer wrong minima on the way.
-  rough.loss = Loss::switchable;
+  PoseGraphSettings intermediate = settings;
+  intermediate.max_iterations = std::min(settings.max_iterations, 30);
+  intermediate.tolerance = std::max(settings.tolerance, 1e-6);
+  // The switchable loss is smoother than dcs and also bounded, so it has fewer false minima.
+  intermediate.loss = Loss::switchable;
   double width = *std::ranges::max_element(squared);
   for (; width > 1.4 * settings.loss_width; width *= 0.7) {
-    rough.loss_width = width;
-    solve(rough);
+    intermediate.loss_width = width;
+    solve(intermediate);
   }
-  constexpr double kOther = 1e-6;  // of the cost: another minimum, not rounding
+  constexpr double kOtherMinimum = 1e-6;  // relative cost difference that indicates another minimum
   std::vector<ScaledPose> annealed = poses;
-  const bool is_lower = solve(settings).cost < direct.cost * (1.0 - kOther);
+  const bool is_lower = solve(settings).cost < direct.cost * (1.0 - kOtherMinimum);
   poses = is_lower ? std::move(annealed) : start;
   return direct.cost_before;
 }

@@ -1,5 +1,5 @@
-/// Bounded losses solved with a width that shrinks: which closures they reject depends on the
-/// start.
+/// Solves bounded losses with a shrinking width, because the closures they reject depend on the
+/// initial values.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,17 @@
 
 namespace loopbench {
 
-/// Losses that are bounded, so that closures with large errors no longer act.
+/// Whether the loss is bounded, so that closures with large errors have no influence.
 bool is_bounded(Loss loss);
 
-/// Derivative of the bounded loss in `settings` by the squared error, of each closure [-].
+/// Derivative of the bounded loss in `settings` with respect to the squared error, per closure [-].
 std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared);
 
-/// Sets `poses` to the start from which the loss in `settings` has the lower of two minima: where
-/// they are, or the solution under the switchable loss with a width that starts at the largest
-/// squared error and shrinks by 0.7, each solved from the one before. `solve` minimises from
-/// `poses` under the settings it is given. Returns the cost before.
+/// Chooses between two initial values and sets `poses` to the one from which the loss in `settings`
+/// reaches the lower cost: the given poses, or the solution of a continuation that uses the
+/// switchable loss and shrinks its width from the largest squared error by a factor of 0.7 per
+/// solve. `solve` minimises from `poses` under the given settings. Returns the cost at the given
+/// poses.
 double anneal(const std::vector<Edge>& closures,
               const PoseGraphSettings& settings,
               std::vector<ScaledPose>& poses,

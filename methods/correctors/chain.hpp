@@ -1,4 +1,4 @@
-/// A keyframe chain as measured: one odometry edge between every two neighbours.
+/// A keyframe chain: one odometry edge between every two neighbouring keyframes.
 #pragma once
 
 #include <vector>
@@ -7,28 +7,32 @@
 
 namespace loopbench {
 
-/// Why the odometry is not a whole chain, or empty: edge i must join keyframes i and i + 1. O(n).
+/// Returns why the odometry is not a complete chain, or an empty string. Edge i must join keyframes
+/// i and i + 1. O(n).
 inline std::string chain_fault(const Problem& problem) {
-  const std::size_t wanted = problem.keyframes.empty() ? 0 : problem.keyframes.size() - 1;
-  if (problem.odometry.size() != wanted) {
+  const std::size_t expected = problem.keyframes.empty() ? 0 : problem.keyframes.size() - 1;
+  if (problem.odometry.size() != expected) {
     return "odometry has " + std::to_string(problem.odometry.size()) +
-           " edges, a whole chain has " + std::to_string(wanted);
+           " edges, a complete chain has " + std::to_string(expected);
   }
-  for (std::size_t i = 0; i < wanted; ++i) {
+  for (std::size_t i = 0; i < expected; ++i) {
     const Edge& edge = problem.odometry[i];
     if (edge.from != i || edge.to != i + 1) {
-      return "odometry edge " + std::to_string(i) + " does not join neighbours";
+      return "odometry edge " + std::to_string(i) + " joins keyframes " +
+             std::to_string(edge.from) + " and " + std::to_string(edge.to) + ", expected " +
+             std::to_string(i) + " and " + std::to_string(i + 1);
     }
   }
   return "";
 }
 
-/// Log(measured^-1 actual): how far two poses are from an edge, in its twist [rho; phi].
+/// Returns Log(measured^-1 (from^-1 to)), the residual of an edge as a twist [rho; phi].
 inline Twist edge_error(const Edge& edge, const Pose& from, const Pose& to) {
   return log_se3(edge.from_from_to.inverse() * (from.inverse() * to));
 }
 
-/// Half the information-weighted squares over odometry and closures: chi^2 / 2. O(edges).
+/// Returns half the information-weighted squared residuals of odometry and closures, chi^2 / 2.
+/// O(edges).
 inline double chain_cost(const Problem& problem, const std::vector<Pose>& poses) {
   double sum = 0.0;
   for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {

@@ -1,4 +1,4 @@
-/// Any corrector, given only those closures that agree with one another.
+/// Runs any corrector on the pairwise consistent loop closures only.
 #pragma once
 
 #include "methods/correctors/chain.hpp"
@@ -19,8 +19,8 @@ void fields(CheckedOptions<Base>& o, Visit visit) {
   consistency_fields(o.check, visit);
 }
 
-/// consistent_closures() first, then `Base` on what is left; keyframes stay where they are when no
-/// two closures agree. Frames are not passed on.
+/// Runs consistent_closures(), then `Base` on the remaining closures. Returns the keyframes
+/// unchanged when no two closures agree. Frames are not passed on.
 template <class Base>
 class Checked final : public Corrector {
  public:
@@ -28,37 +28,37 @@ class Checked final : public Corrector {
   explicit Checked(const Options& options) : check_(options.check), base_(options.base) {}
 
   std::optional<std::string> declines(const Problem& problem) const override {
-    if (problem.closures.empty()) return "no loop closure to spread";
+    if (problem.closures.empty()) return "the problem has no loop closures";
     if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
     if (problem.closures.size() > static_cast<std::size_t>(check_.max_closures)) {
       return std::to_string(problem.closures.size()) +
-             " closures, more than pcm.max_closures = " + std::to_string(check_.max_closures);
+             " closures exceed pcm.max_closures = " + std::to_string(check_.max_closures);
     }
     return std::nullopt;
   }
 
-  /// Counts of `Base`, and `closures_consistent`. Throws what `Base` throws, and std::runtime_error
-  /// with its reason when it declines what is left.
+  /// Counts: those of `Base`, and `closures_consistent`. Throws std::runtime_error when `Base`
+  /// throws or declines the remaining closures.
   Trajectory correct(const Problem& problem, Report& report) const override {
-    Problem believed{problem.keyframes, problem.odometry, {}, {}, problem.planar};
+    Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
     const ConsistentClosures found =
         report.time("check", [&] { return consistent_closures(problem, check_); });
-    for (const std::size_t k : found.kept) believed.closures.push_back(problem.closures[k]);
+    for (const std::size_t k : found.kept) reduced.closures.push_back(problem.closures[k]);
     report.count("closures_consistent", static_cast<double>(found.kept.size()));
     if (2 * found.kept.size() < problem.closures.size() && !found.kept.empty()) {
       report.notes.push_back("only " + std::to_string(found.kept.size()) + " of " +
                              std::to_string(problem.closures.size()) +
-                             " closures agree with one another");
+                             " closures are pairwise consistent");
     }
     if (!found.is_largest) {
-      report.notes.push_back("the search for the largest consistent set stopped at its bound");
+      report.notes.push_back("the search for the largest consistent set stopped at pcm.most_steps");
     }
-    if (believed.closures.empty()) {
-      report.notes.push_back("no two closures agree: keyframes left as they were");
+    if (reduced.closures.empty()) {
+      report.notes.push_back("no two closures are consistent: keyframes returned unchanged");
       return problem.keyframes;
     }
-    if (const auto why = base_.declines(believed)) throw std::runtime_error(*why);
-    return base_.correct(believed, report);
+    if (const auto why = base_.declines(reduced)) throw std::runtime_error(*why);
+    return base_.correct(reduced, report);
   }
 
  private:

@@ -8,7 +8,8 @@
 namespace loopbench {
 namespace {
 
-/// The chain by odometry alone, from the first keyframe on, and its noise as prefix sums.
+/// The chain integrated from odometry alone, starting at the identity, with prefix sums of its
+/// covariance.
 class CheckedChain {
  public:
   explicit CheckedChain(const Problem& problem, double odometry_scale) {
@@ -31,7 +32,7 @@ class CheckedChain {
     PairError out;
     out.error = log_se3(b_from_b);
 
-    // Noise in the chain's first frame to noise in b, along either piece of odometry.
+    // Transforms noise from the chain's first frame to frame b, along either part of the odometry.
     const Matrix6 G = adjoint(c_from_b.inverse() * poses_[l.from].inverse());
     const Matrix6 H = adjoint(poses_[k.to].inverse());
     const double forward_ac = k.from <= l.from ? 1.0 : -1.0;
@@ -40,14 +41,14 @@ class CheckedChain {
     const auto [db_begin, db_end] = std::minmax(l.to, k.to);
     const std::size_t begin = std::max(ac_begin, db_begin);
     const std::size_t end = std::max(begin, std::min(ac_end, db_end));
-    const Matrix6 twice = noise_[end] - noise_[begin];
+    const Matrix6 shared = noise_[end] - noise_[begin];
     const Matrix6 M = forward_ac * G + forward_db * H;
-    const Matrix6 only_ac = noise_[ac_end] - noise_[ac_begin] - twice;
-    const Matrix6 only_db = noise_[db_end] - noise_[db_begin] - twice;
+    const Matrix6 only_ac = noise_[ac_end] - noise_[ac_begin] - shared;
+    const Matrix6 only_db = noise_[db_end] - noise_[db_begin] - shared;
     const Matrix6 D = adjoint(d_from_b.inverse());
     out.covariance = k.information.inverse() + D * l.information.inverse() * D.transpose() +
                      G * only_ac * G.transpose() + H * only_db * H.transpose() +
-                     M * twice * M.transpose();
+                     M * shared * M.transpose();
     return out;
   }
 
@@ -70,11 +71,11 @@ ConsistentClosures consistent_closures(const Problem& problem, const Consistency
   const std::vector<Edge>& closures = problem.closures;
   if (closures.size() < 2) return {std::vector<std::size_t>(closures.size(), 0), true};
   const CheckedChain chain(problem, options.odometry_scale);
-  const double most = options.chi2.value_or(problem.planar ? 11.345 : 16.812);
+  const double threshold = options.chi2.value_or(problem.planar ? 11.345 : 16.812);
   BitGraph agree(closures.size());
   for (std::size_t k = 0; k < closures.size(); ++k) {
     for (std::size_t l = 0; l < k; ++l) {
-      if (squared(chain.loop(closures[k], closures[l])) < most) agree.join(k, l);
+      if (squared(chain.loop(closures[k], closures[l])) < threshold) agree.join(k, l);
     }
   }
   Clique clique = max_clique(agree, static_cast<std::size_t>(options.most_steps));

@@ -1,4 +1,4 @@
-/// Which loop closures agree with one another: a check before any correction.
+/// Pairwise consistency check of loop closures before any correction.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,27 @@ template <class Visit>
 void consistency_fields(Consistency& o, Visit visit) {
   visit("pcm.chi2",
         o.chi2,
-        "largest squared error of a loop through two closures [-]; none: 99 % quantile",
+        "maximum squared Mahalanobis error of a loop through two closures [-]; none: 99 % quantile",
         Above{0.0});
   visit("pcm.odometry_scale",
         o.odometry_scale,
-        "on odometry's standard deviations: above 1 where drift is systematic [-]",
+        "factor on the odometry's standard deviations, above 1 for systematic drift [-]",
         Above{0.0});
-  visit("pcm.most_steps", o.most_steps, "of the exact clique search, greedy beyond", Between{0});
-  visit("pcm.max_closures", o.max_closures, "declines above: all pairs are tried", Between{1});
+  visit("pcm.most_steps",
+        o.most_steps,
+        "maximum number of steps of the exact clique search; above it the best clique found so far "
+        "is used",
+        Between{0});
+  visit("pcm.max_closures",
+        o.max_closures,
+        "maximum number of closures; all pairs are compared",
+        Between{1});
 }
 
-/// Two closures a -> b and c -> d agree when the loop through both,
-///     E = L_ab^-1 O_ac L_cd O_db   (O: odometry, either way),
-/// is the identity as far as its covariance lets it: Log(E)' S^-1 Log(E) < chi2. S is carried along
-/// to first order, odometry that is walked twice counted once with its sign; it costs O(1) by
+/// Residual and covariance of the loop through two closures a -> b and c -> d,
+///     E = L_ab^-1 O_ac L_cd O_db   (O: odometry, in either direction).
+/// The closures are consistent when Log(E)' S^-1 Log(E) < chi2. The covariance S is propagated to
+/// first order; odometry that is traversed twice enters once, with its sign. O(1) per pair with
 /// prefix sums over the chain.
 struct PairError {
   Twist error;
@@ -44,14 +51,13 @@ PairError pair_error(const Problem& problem, const Edge& first, const Edge& seco
 
 struct ConsistentClosures {
   std::vector<std::size_t> kept;  ///< ascending
-  bool is_largest = false;        ///< proved the largest set
+  bool is_largest = false;        ///< the set is proved to be the largest
 };
 
-/// The largest set of closures that all agree with one another (PCM). A closure that no other
-/// agrees with is dropped, unless it is the only one. Needs whole odometry: see chain_fault().
-/// O(n + K^2) and a clique search.
-/// Source: Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent measurement set
-/// maximization, ICRA 2018.
+/// Returns the largest set of pairwise consistent closures (PCM). A closure that is consistent with
+/// no other is dropped, unless it is the only one. Requires complete odometry: see chain_fault().
+/// O(n + K^2) plus a clique search. Source: Mangelson, Dominic, Eustice, Vasudevan, Pairwise
+/// consistent measurement set maximization, ICRA 2018.
 ConsistentClosures consistent_closures(const Problem& problem, const Consistency& options);
 
 }  // namespace loopbench

@@ -15,10 +15,10 @@
 
 namespace loopbench {
 std::optional<std::string> Dual::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(options_.max_closures)) {
     return std::to_string(problem.closures.size()) +
-           " closures, more than max_closures = " + std::to_string(options_.max_closures);
+           " closures exceed max_closures = " + std::to_string(options_.max_closures);
   }
   if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
   return std::nullopt;
@@ -31,8 +31,8 @@ Trajectory Dual::correct(const Problem& problem, Report& report) const {
 
 namespace {
 
-/// Steps until the cost is at rest; returns the number of steps.
-int settle(LoopedChain& chain, const Dual::Options& options) {
+/// Iterates until the cost converges; returns the number of iterations.
+int minimise(LoopedChain& chain, const Dual::Options& options) {
   if (!std::isfinite(chain.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = 0;
   while (iterations < options.max_iterations) {
@@ -44,7 +44,7 @@ int settle(LoopedChain& chain, const Dual::Options& options) {
   return iterations;
 }
 
-/// Sets `out` to the chain at its chordal relaxation, where that can be computed.
+/// Sets `out` to the chain at its chordal relaxation, or leaves it empty when that is singular.
 void start_chordal(const Problem& problem,
                    const ChainBelief& belief,
                    std::optional<LoopedChain>& out) {
@@ -72,16 +72,16 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
   const std::size_t degrees = freedom(problem);
   LoopedChain first(problem, belief);
   report.count("cost_before", first.cost());
-  int iterations = settle(first, options);
+  int iterations = minimise(first, options);
   const LoopedChain* best = &first;
   std::optional<LoopedChain> second;
   if (options.start == Start::automatic && is_too_large(2.0 * first.cost(), degrees)) {
     start_chordal(problem, belief, second);
   }
   if (second) {
-    constexpr double kOther = 1e-6;  // of the cost: another minimum
-    iterations += settle(*second, options);
-    if (second->cost() < first.cost() * (1.0 - kOther)) {
+    constexpr double kOtherMinimum = 1e-6;  // relative cost difference between two minima
+    iterations += minimise(*second, options);
+    if (second->cost() < first.cost() * (1.0 - kOtherMinimum)) {
       best = &*second;
       report.notes.push_back(fmt::format(
           "two minima: chi2 {:.6g} from the keyframes, {:.6g} from chordal relaxation; the lower "

@@ -1,11 +1,12 @@
-/// Maximum likelihood on a chain with few loops, in closed form through the loop multipliers.
+/// Maximum likelihood on a chain with few loops, solved in closed form for the loop multipliers.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// Corrections e_i of the odometry edges Z_i (X_i = X_{i-1} Z_i Exp(e_i)) that minimise
+/// Computes the corrections e_i of the odometry edges Z_i (X_i = X_{i-1} Z_i Exp(e_i)) that
+/// minimise
 ///
 ///     sum_i e_i' S_i^-1 e_i  +  sum_k eta_k' S_Lk^-1 eta_k,   eta_k = Log(L_k^-1 X_a^-1 X_b),
 ///
@@ -14,20 +15,22 @@ namespace loopbench {
 ///
 ///     (A S A' + S_L) lambda = c,   e_i = -S_i sum_k A_ki' lambda_k,
 ///
-/// then relinearised, and near the end curved as loops are (loop_newton.hpp), until it stands
-/// still: some ten iterations. Every block of A S A' is a difference of one prefix sum over the
-/// chain, so an iteration costs O(n + (6 K)^3) for n keyframes and K closures, and memory O(n + (6
-/// K)^2): no sparse solver. For many loops a pose graph is the better choice.
+/// The system is relinearised until convergence, about ten times; near the minimum the step
+/// includes the curvature of the loops (loop_newton.hpp). Every block of A S A' is a difference of
+/// one prefix sum over the chain, so an iteration costs O(n + (6 K)^3) time and O(n + (6 K)^2)
+/// memory for n keyframes and K closures, without a sparse solver. For many loops a pose graph is
+/// the better choice.
 ///
-/// Where edges change the unit of length (monocular chains, Sim(3)) that is settled first, in
-/// closed form too (unit_of_length.hpp); `scale` off: poses are rigid and edges' scales ignored.
+/// If edges change the scale (monocular chains, Sim(3)), scale drift is estimated and removed
+/// first, also in closed form (unit_of_length.hpp). With `scale` off, poses are rigid and the
+/// scales of edges are ignored.
 ///
-/// Starts from the keyframes. Where chi2 at that minimum is larger than its distribution allows,
-/// chordal relaxation (initial_values.hpp) is tried as a second start and the lower minimum is
-/// returned. `rescale` first scales the odometry's stated covariances by two factors estimated from
-/// the loops (variance_components.hpp).
+/// The initial values are the keyframes. If chi2 at that minimum is larger than its distribution
+/// allows, chordal relaxation (initial_values.hpp) provides a second start, and the lower minimum
+/// is returned. `rescale` first multiplies the odometry's stated covariances by two factors
+/// estimated from the loops (variance_components.hpp).
 ///
-/// Odometry edges must join every two neighbours. Information matrices are used whole.
+/// Odometry edges must join all neighbouring keyframes. Full information matrices are used.
 /// Source: generalised least squares with few constraints; design notes, methods 2.10.
 class Dual final : public Corrector {
  public:
@@ -45,8 +48,8 @@ class Dual final : public Corrector {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2), `chi2_per_dof`,
-  /// and with rescale `factor_t`, `factor_r` on standard deviations. Notes: implausible chi2, two
-  /// minima. Throws std::runtime_error when the cost cannot be lowered to a finite value.
+  /// and with `rescale` the factors `factor_t`, `factor_r` on standard deviations. Notes:
+  /// implausible chi2, two minima. Throws std::runtime_error when the cost is not finite.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -62,22 +65,22 @@ inline auto choices(Dual::Start) {
 
 template <class Visit>
 void fields(Dual::Options& o, Visit visit) {
-  visit("max_iterations", o.max_iterations, "relinearisations at most", Between{1, 1000});
+  visit("max_iterations", o.max_iterations, "maximum number of relinearisations", Between{1, 1000});
   visit("tolerance",
         o.tolerance,
-        "relative change of the cost that ends them [-]",
+        "convergence threshold: relative change of the cost [-]",
         Between{0.0, 1.0});
   visit("max_closures",
         o.max_closures,
-        "declines above: the dense solve grows with their cube",
+        "maximum number of closures; the time of the dense solve grows with its cube",
         Between{1, 2000});
-  visit("scale", o.scale, "first settle the unit of length where edges change it (Sim(3) chains)");
+  visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
   visit("start",
         o.start,
         "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
   visit("rescale",
         o.rescale,
-        "scale the odometry's covariances of translation and rotation by factors estimated from "
+        "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops");
 }
 

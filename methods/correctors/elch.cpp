@@ -7,17 +7,18 @@
 namespace loopbench {
 namespace {
 
-/// The chain 0 - 1 - ... - n-1 and the closures taken so far, with lengths.
+/// Graph of the chain 0 - 1 - ... - n-1 and the closures added so far, with edge lengths.
 class LoopGraph {
  public:
-  explicit LoopGraph(std::vector<double> steps) : steps_(std::move(steps)), jumps_(steps_.size()) {}
+  explicit LoopGraph(std::vector<double> steps)
+      : steps_(std::move(steps)), shortcuts_(steps_.size()) {}
 
   void add(const Edge& loop, double length) {
-    jumps_[loop.from].push_back({loop.to, length});
-    jumps_[loop.to].push_back({loop.from, length});
+    shortcuts_[loop.from].push_back({loop.to, length});
+    shortcuts_[loop.to].push_back({loop.from, length});
   }
 
-  /// Share of every keyframe in the closing error of a -> b.
+  /// Computes the share of every keyframe in the closing error of a -> b.
   std::vector<double> shares(std::size_t a, std::size_t b) const {
     std::vector<std::size_t> before(steps_.size());
     const std::vector<double> from_a = distances({a}, before);
@@ -29,7 +30,7 @@ class LoopGraph {
       const double by_count = 1.0 - static_cast<double>(k) / static_cast<double>(path.size() - 1);
       out[path[k]] = total > 0.0 ? from_a[path[k]] / total : by_count;
     }
-    // Everyone else follows the keyframe of the path that reached it first.
+    // Every other keyframe gets the share of the nearest path keyframe.
     const std::vector<double> off_path = distances(path, before);
     std::vector<std::size_t> order(steps_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -41,12 +42,13 @@ class LoopGraph {
   }
 
  private:
-  struct Jump {
+  struct Shortcut {
     std::size_t to;
     double length;
   };
 
-  /// Dijkstra from several sources; before[i] is the neighbour i was reached from, i for sources.
+  /// Dijkstra's algorithm from several sources. before[i] is the predecessor of i, or i for a
+  /// source.
   std::vector<double> distances(const std::vector<std::size_t>& sources,
                                 std::vector<std::size_t>& before) const {
     std::vector<double> out(steps_.size(), std::numeric_limits<double>::infinity());
@@ -61,32 +63,32 @@ class LoopGraph {
       const auto [distance, i] = queue.top();
       queue.pop();
       if (distance > out[i]) continue;
-      const auto reach = [&, at = i, here = distance](std::size_t to, double length) {
-        if (here + length < out[to]) {
-          out[to] = here + length;
+      const auto relax = [&, at = i, distance_here = distance](std::size_t to, double length) {
+        if (distance_here + length < out[to]) {
+          out[to] = distance_here + length;
           before[to] = at;
           queue.push({out[to], to});
         }
       };
-      if (i > 0) reach(i - 1, steps_[i]);
-      if (i + 1 < steps_.size()) reach(i + 1, steps_[i + 1]);
-      for (const Jump& jump : jumps_[i]) reach(jump.to, jump.length);
+      if (i > 0) relax(i - 1, steps_[i]);
+      if (i + 1 < steps_.size()) relax(i + 1, steps_[i + 1]);
+      for (const Shortcut& shortcut : shortcuts_[i]) relax(shortcut.to, shortcut.length);
     }
     return out;
   }
 
   std::vector<double> steps_;  ///< steps_[i] joins i - 1 and i
-  std::vector<std::vector<Jump>> jumps_;
+  std::vector<std::vector<Shortcut>> shortcuts_;
 };
 
-/// Length of a closure in the graph, in the unit of the steps.
-double jump_length(const Edge& loop, StepWeights weights) {
+/// Length of a closure in the graph, in the same unit as the steps.
+double shortcut_length(const Edge& loop, StepWeights weights) {
   switch (weights) {
     case StepWeights::distance:
       return loop.from_from_to.translation.norm();
     case StepWeights::rotation:
       return log_so3(loop.from_from_to.rotation).norm();
-    case StepWeights::time:  // a closure joins two moments at one place: no time passes
+    case StepWeights::time:  // a closure joins two times at the same location and takes no time
       return 0.0;
     case StepWeights::index:
       break;
@@ -94,7 +96,7 @@ double jump_length(const Edge& loop, StepWeights weights) {
   return 1.0;
 }
 
-void bend(Trajectory& poses, const Edge& loop, const std::vector<double>& shares) {
+void distribute_error(Trajectory& poses, const Edge& loop, const std::vector<double>& shares) {
   const Pose start = poses[loop.from].world_from_body;
   const Pose end = poses[loop.to].world_from_body;
   const Pose target = start * loop.from_from_to;
@@ -113,7 +115,7 @@ void bend(Trajectory& poses, const Edge& loop, const std::vector<double>& shares
 }  // namespace
 
 std::optional<std::string> Elch::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   return std::nullopt;
 }
 
@@ -122,8 +124,8 @@ Trajectory Elch::correct(const Problem& problem, Report& report) const {
   LoopGraph graph(step_shares(problem.keyframes, options_.weights));
   Trajectory out = problem.keyframes;
   for (const Edge& loop : problem.closures) {
-    bend(out, loop, graph.shares(loop.from, loop.to));
-    graph.add(loop, jump_length(loop, options_.weights));
+    distribute_error(out, loop, graph.shares(loop.from, loop.to));
+    graph.add(loop, shortcut_length(loop, options_.weights));
   }
   double gap = 0.0;
   for (const Edge& loop : problem.closures) {

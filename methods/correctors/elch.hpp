@@ -1,4 +1,4 @@
-/// Explicit loop closing heuristic: the closing error spread by distance in the pose graph.
+/// Explicit loop closing heuristic: distributes the closing error by distance in the pose graph.
 #pragma once
 
 #include "methods/correctors/shares.hpp"
@@ -6,17 +6,19 @@
 
 namespace loopbench {
 
-/// For each closure a -> b, by (to, from): the shortest path from a to b in the graph of odometry
-/// and of closures taken before; keyframes on it get the share w = d(a, i) / d(a, b), all others
-/// that of the path keyframe they are nearest to. Then, with the pivot at the loop's start,
+/// Processes the closures a -> b in the order (to, from). For each, it finds the shortest path from
+/// a to b in the graph of odometry and earlier closures. A keyframe i on the path gets the share
+/// w_i = d(a, i) / d(a, b); every other keyframe gets the share of the nearest path keyframe. With
+/// the pivot o at the loop's start,
 ///
 ///     R_i' = Exp(w_i Log dR) R_i,   p_i' = Exp(w_i Log dR) (p_i - o) + o + w_i dt
 ///
-/// for every keyframe, so that branches and crossings move as one. Without earlier closures this is
-/// `uniform`. Complexity O(K n log n) for n keyframes and K closures.
+/// for every keyframe, so branches and crossings move together. Without earlier closures this
+/// equals `uniform`. O(K n log n) for n keyframes and K closures.
 ///
-/// Source: Sprickerhof, Nuechter, Lingemann, Hertzberg, ECMR 2009; the pivot is moved from the
-/// world's origin (as common code has it) to the loop's start, so the world does not matter.
+/// Source: Sprickerhof, Nuechter, Lingemann, Hertzberg, ECMR 2009. The pivot is the loop's start
+/// instead of the world's origin as in common code, so the result does not depend on the world
+/// frame.
 class Elch final : public Corrector {
  public:
   struct Options {
@@ -27,7 +29,7 @@ class Elch final : public Corrector {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_gap_left` [m]. Throws std::runtime_error when closures are not
-  /// sorted by (to, from) or name no keyframe.
+  /// sorted by (to, from) or refer to a missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -36,7 +38,9 @@ class Elch final : public Corrector {
 
 template <class Visit>
 void fields(Elch::Options& o, Visit visit) {
-  visit("weights", o.weights, "what the length of a step in the graph is");
+  visit("weights",
+        o.weights,
+        "length of a step in the graph: 1 per step, duration, distance or rotation angle");
 }
 
 }  // namespace loopbench

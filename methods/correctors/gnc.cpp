@@ -22,20 +22,20 @@ GncResult graduate(Gnc kind,
                    const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
   GncResult out;
   out.weights.assign(squared.size(), 1.0);
-  const double worst = *std::ranges::max_element(squared);
-  if (worst <= c2) return out;
+  const double largest = *std::ranges::max_element(squared);
+  if (largest <= c2) return out;
   const bool is_tls = kind == Gnc::tls;
-  // Truncated least squares sharpens as mu grows, Geman-McClure as it shrinks to 1.
-  double mu = begin.value_or(is_tls ? c2 / (2.0 * worst - c2) : 2.0 * worst / c2);
-  constexpr int kMostRounds = 100;
-  for (bool settled = false; !settled && out.rounds < kMostRounds; ++out.rounds) {
+  // Truncated least squares becomes less convex as mu grows, Geman-McClure as mu shrinks to 1.
+  double mu = begin.value_or(is_tls ? c2 / (2.0 * largest - c2) : 2.0 * largest / c2);
+  constexpr int kMaxRounds = 100;
+  for (bool converged = false; !converged && out.rounds < kMaxRounds; ++out.rounds) {
     for (std::size_t k = 0; k < squared.size(); ++k) {
       out.weights[k] = gnc_weight(kind, squared[k], c2, mu);
     }
     squared = solve(out.weights);
-    settled = is_tls
-                  ? std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; })
-                  : mu <= 1.0;
+    converged =
+        is_tls ? std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; })
+               : mu <= 1.0;
     mu = is_tls ? 1.4 * mu : std::max(1.0, mu / 1.4);
   }
   return out;

@@ -1,4 +1,4 @@
-/// Graduated non-convexity: which closures to believe, found while solving.
+/// Graduated non-convexity: estimates inlier weights of the closures while solving.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ inline auto choices(Gnc) {
       std::pair{"off", Gnc::off}, std::pair{"tls", Gnc::tls}, std::pair{"gm", Gnc::gm}};
 }
 
-/// A closure's weight at convexity mu, c2 the largest squared error of a true one (Yang et al.,
-/// RA-L 2020, equations 14 and 12).
+/// Weight of a closure with squared error `squared` at convexity mu. c2 is the largest squared
+/// error of an inlier (Yang et al., RA-L 2020, equations 14 and 12).
 double gnc_weight(Gnc kind, double squared, double c2, double mu);
 
 struct GncResult {
@@ -24,10 +24,12 @@ struct GncResult {
   int rounds = 0;
 };
 
-/// Starts from squared errors `squared` at the solution that believes everything, or, when `mu` is
-/// given, at one that can be trusted more: then from that convexity on. `solve` takes
-/// weights and gives the squared errors at their solution. Truncated least squares sharpens until
-/// every weight is 0 or 1, Geman-McClure until mu is 1; 100 rounds at most.
+/// Alternates between weights and solutions. `squared` holds the squared errors of the closures at
+/// the initial solution. Without `mu`, that solution uses all closures with weight 1 and the
+/// initial convexity is computed from the largest error; with `mu`, the solution is more reliable
+/// and the schedule starts at that convexity. `solve` takes weights and returns the squared errors
+/// at their solution. Truncated least squares ends when every weight is 0 or 1, Geman-McClure when
+/// mu is 1, both after at most 100 rounds.
 GncResult graduate(Gnc kind,
                    double c2,
                    std::vector<double> squared,

@@ -11,10 +11,11 @@
 namespace loopbench {
 namespace {
 
-/// Rough solutions of one minimum differ by less: the first of them is kept. [-]
-constexpr double kLower = 0.999;
+/// Relative cost below which a solution replaces an earlier one; rough solutions of the same
+/// minimum differ by less. [-]
+constexpr double kSameMinimum = 0.999;
 
-/// Closures whose weights are one half at most are rejected.
+/// Number of closures with a weight above one half; the others count as rejected.
 std::size_t kept_count(const std::vector<double>& weights) {
   return static_cast<std::size_t>(
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
@@ -26,8 +27,8 @@ bool any_edge_has_scale(const Problem& problem) {
          std::ranges::any_of(problem.closures, scaled);
 }
 
-/// Indices of the closures that agree with one another; none where that cannot be computed.
-std::vector<std::size_t> agreeing(const Problem& problem) {
+/// Returns the indices of the consistent closures, or none when the check is not applicable.
+std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
   const Consistency rules;
   if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
   if (!chain_fault(problem).empty() || any_edge_has_scale(problem)) return {};
@@ -46,7 +47,7 @@ class GncRuns {
  public:
   explicit GncRuns(const GncProblem& of) : of_(of) {}
 
-  /// The best solution so far.
+  /// The solution with the lowest cost so far.
   const GncSolution& best() const { return best_; }
 
   void from_consistent(const std::vector<std::size_t>& consistent) {
@@ -56,7 +57,7 @@ class GncRuns {
       subset.closures.push_back(of_.problem.closures[k]);
       weights[k] = 1.0;
     }
-    // Past the convex stages, whose purpose is to find a start like this one.
+    // Skips the convex stages, because their purpose is to find initial values like these.
     run({of_.initial(subset), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
   }
 
@@ -66,7 +67,7 @@ class GncRuns {
 
  private:
   void run(GncStartPoint start) {
-    // Until the end only the weights are needed, and they tolerate rough solutions.
+    // Until the end only the weights are needed, and rough solutions are sufficient for them.
     PoseGraphSettings rough = of_.settings;
     rough.max_iterations = std::min(rough.max_iterations, 30);
     rough.tolerance = std::max(rough.tolerance, 1e-6);
@@ -84,7 +85,7 @@ class GncRuns {
     if (start.mu) start.poses = out.poses;
     const auto solved_with = [&](const std::vector<double>& weights) {
       out.weights = weights;
-      // False closures wind poses up; from there a minimum may not be found again.
+      // False closures can wind the chain up, and the solver may not find the minimum from there.
       out.poses = start.poses;
       solve();
       return squared();
@@ -93,12 +94,13 @@ class GncRuns {
     out.weights = result.weights;
     out.rounds = result.rounds;
     const double cost = cost_of(out.poses);
-    // From a rough solution a fine solver stops early: its first step hardly lowers the cost.
+    // Restart from the initial poses: at a rough solution the final solver stops too early, because
+    // its first step hardly lowers the cost.
     out.poses = std::move(start.poses);
     const int iterations = best_.iterations + out.iterations;
-    if (cost < kLower * least_) {
+    if (cost < kSameMinimum * lowest_cost_) {
       best_ = std::move(out);
-      least_ = cost;
+      lowest_cost_ = cost;
     }
     best_.iterations = iterations;
   }
@@ -106,16 +108,16 @@ class GncRuns {
   double cost_of(const std::vector<ScaledPose>& poses) const {
     const std::vector<double> odometry = squared_errors(poses, of_.problem.odometry, of_.settings);
     double sum = std::accumulate(odometry.begin(), odometry.end(), 0.0);
-    const double most = of_.inlier_chi2;
+    const double bound = of_.inlier_chi2;
     for (const double x : squared_errors(poses, of_.problem.closures, of_.settings)) {
-      sum += of_.kind == Gnc::tls ? std::min(x, most) : most * x / (most + x);
+      sum += of_.kind == Gnc::tls ? std::min(x, bound) : bound * x / (bound + x);
     }
     return sum;
   }
 
   const GncProblem& of_;
   GncSolution best_;
-  double least_ = std::numeric_limits<double>::infinity();
+  double lowest_cost_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -124,7 +126,7 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
   const std::size_t closures = of.problem.closures.size();
   std::vector<std::size_t> consistent;
   if (of.consistent) {
-    consistent = report.time("check", [&] { return agreeing(of.problem); });
+    consistent = report.time("check", [&] { return indices_of_consistent(of.problem); });
   }
   const GncSolution out = report.time("graduate", [&] {
     GncRuns runs(of);
@@ -137,11 +139,10 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
     return runs.best();
   });
   if (2 * kept_count(out.weights) < closures) {
-    report.notes.push_back("graduated non-convexity kept " +
-                           std::to_string(kept_count(out.weights)) + " of " +
-                           std::to_string(closures) +
-                           " closures: odometry covariances that are too small have this effect, "
-                           "too");
+    report.notes.push_back(
+        "graduated non-convexity kept " + std::to_string(kept_count(out.weights)) + " of " +
+        std::to_string(closures) +
+        " closures: either the others are false or the odometry covariances are too small");
   }
   return out;
 }

@@ -1,4 +1,4 @@
-/// Graduated non-convexity on a pose graph: where it starts, and which of two minima it returns.
+/// Graduated non-convexity on a pose graph: selection of initial values and of the better minimum.
 #pragma once
 
 #include <functional>
@@ -13,27 +13,27 @@ struct GncProblem {
   const Problem& problem;
   PoseGraphSettings settings;
   Gnc kind = Gnc::tls;
-  double inlier_chi2 = 0.0;  ///< largest squared error of a true closure [-]
-  bool consistent = true;    ///< start from the largest set of closures that agree
-  /// Initial values of a problem. A relaxation takes every closure of it for true.
+  double inlier_chi2 = 0.0;  ///< largest squared error of an inlier closure [-]
+  bool consistent = true;    ///< start from the largest consistent set of closures
+  /// Computes the initial values of a problem. A relaxation treats all its closures as inliers.
   std::function<std::vector<ScaledPose>(const Problem&)> initial;
 };
 
 struct GncSolution {
-  std::vector<ScaledPose> poses;  ///< to solve from, with the weights
+  std::vector<ScaledPose> poses;  ///< initial values of the final solve with `weights`
   std::vector<double> weights;    ///< one per closure
   int rounds = 0;
   int iterations = 0;  ///< linear solves
   double cost_before = 0.0;
 };
 
-/// Starts from the closures that agree with one another (consistency.hpp), with initial values of
-/// them alone: a relaxation over false closures leads away. Starts from all closures
-/// where no such set is known: the odometry is no whole chain, edges change the scale, or the
-/// closures are too many to compare; and if that rejects any, from the odometry's spanning tree as
-/// well. All closures are also tried when the first start keeps fewer than half of them. The
-/// solution of least cost is returned, where a closure costs as `kind` says at its end: at most
-/// `inlier_chi2`.
+/// Starts from the pairwise consistent closures (consistency.hpp), with initial values computed
+/// from them alone because a relaxation with false closures is biased. Starts from all closures
+/// when no consistent set is available: the odometry is not a complete chain, edges change the
+/// scale, or there are too many closures to compare. If that start rejects a closure, the
+/// odometry's spanning tree is tried as well. All closures are also tried when the first start
+/// keeps fewer than half of them. Returns the solution of lowest cost, where the cost of a closure
+/// is the final loss of `kind`, bounded by `inlier_chi2`.
 ///
 /// Adds the phases "check" and "graduate", and a note when fewer than half of the closures are
 /// kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.

@@ -11,7 +11,7 @@ double inner_product(const Twists& a, const Twists& b) {
   return sum;
 }
 
-/// B(q) y: the c with x' c = q' [x, y] for every x.
+/// Returns B(q) y: the c with x' c = q' [x, y] for every x.
 Twist bracket(const Twist& q, const Twist& y) {
   const Vector3 force = q.head<3>(), moment = q.tail<3>();
   const Vector3 rho = y.head<3>(), phi = y.tail<3>();
@@ -39,7 +39,7 @@ class NewtonSystem {
     for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
   }
 
-  /// M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v, with drift's shapes and variances as columns.
+  /// Returns M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v, with the drift as additional columns.
   Twists preconditioned(const Twists& v) const {
     Twists out(v.size());
     for (std::size_t i = 0; i < edges_; ++i) out[i] = belief_.covariance[i] * v[i];
@@ -62,15 +62,15 @@ class NewtonSystem {
     return out;
   }
 
-  /// N v. Of the edges j in a loop, those behind edge i count +x_j, those before it -x_j.
-  Twists curved(const Twists& v) const {
+  /// Returns N v. In each loop, edges j after edge i enter as +x_j and edges before it as -x_j.
+  Twists curvature_product(const Twists& v) const {
     const Twists errors = errors_of(v);
     Twists before(edges_ + 1);  // sum of x_j, j < i
     before[0].setZero();
     for (std::size_t i = 0; i < edges_; ++i) {
       before[i + 1] = before[i] + jacobian_.edge[i] * errors[i];
     }
-    Twists change(edges_ + 1, Twist::Zero());  // where loops begin and end
+    Twists change(edges_ + 1, Twist::Zero());  // at the first and last keyframe of each loop
     for (std::size_t k = 0; k < closures_.size(); ++k) {
       const Edge& loop = closures_[k];
       const Twist ends = bracket(wrench_of_[k], before[loop.to] + before[loop.from]);
@@ -90,7 +90,7 @@ class NewtonSystem {
     return out;
   }
 
-  /// Noise and what drift adds to it.
+  /// Total edge errors: noise plus drift.
   Twists errors_of(const Twists& v) const {
     Twists out(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(edges_));
     for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
@@ -109,20 +109,20 @@ class NewtonSystem {
   const ChainBelief& belief_;
   std::size_t edges_;
   Twists wrench_of_;  ///< of each loop
-  Twists wrench_;     ///< of the loops around each edge
+  Twists wrench_;     ///< sum over the loops that enclose each edge
 };
 
-/// Preconditioned conjugate gradients for (M + N) d = r.
+/// Solves (M + N) d = r with preconditioned conjugate gradients.
 Twists solved(const NewtonSystem& system, Twists r) {
-  constexpr int kMost = 50;
-  constexpr double kForcing = 0.03;  // of the gradient, in the norm of M^-1
+  constexpr int kMaxIterations = 50;
+  constexpr double kForcing = 0.03;  // relative residual in the norm of M^-1
   Twists d(r.size(), Twist::Zero());
   Twists z = system.preconditioned(r);
-  Twists p = z, Mp = r;  // M z = r: no product with M is ever made
+  Twists p = z, Mp = r;  // M z = r, so products with M are never computed
   double rz = inner_product(r, z);
-  const double enough = kForcing * kForcing * rz;
-  for (int k = 0; k < kMost && rz > enough; ++k) {
-    Twists Hp = system.curved(p);
+  const double threshold = kForcing * kForcing * rz;
+  for (int k = 0; k < kMaxIterations && rz > threshold; ++k) {
+    Twists Hp = system.curvature_product(p);
     for (std::size_t i = 0; i < Hp.size(); ++i) Hp[i] += Mp[i];
     const double curvature = inner_product(p, Hp);
     if (!(curvature > 0.0)) return k == 0 ? z : d;

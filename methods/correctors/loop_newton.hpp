@@ -1,27 +1,28 @@
-/// Newton's step for a chain with loops: what Gauss-Newton leaves out, put back.
+/// Newton step for a chain with loops: Gauss-Newton plus the second-order term of the loops.
 #pragma once
 
 #include "methods/correctors/loop_equations.hpp"
 
 namespace loopbench {
 
-/// Gauss-Newton takes a loop's error eta for linear in the edges' errors. With twists
-/// x_i = edge[i] e_i seen from the world, a loop really closes by
+/// Gauss-Newton assumes that a loop's error eta is linear in the edge errors. With twists x_i =
+/// edge[i] e_i in the world frame, a loop closes by
 ///
 ///     sum x_i + 1/2 sum_{i<j} [x_i, x_j]     (Baker, Campbell, Hausdorff),
 ///
-/// so that its multiplier lambda adds N_ij = 1/2 edge[i]' B(q) edge[j], i < j, to the Hessian: q is
-/// the sum of loop[k]' lambda_k over the loops around both edges, x' B(q) y = q' [x, y]. On long
-/// levers that decides how fast one converges; without it KITTI 00 takes hundreds of steps. Terms
-/// that vanish with the errors themselves are left out.
+/// so its multiplier lambda adds N_ij = 1/2 edge[i]' B(q) edge[j], i < j, to the Hessian. Here q is
+/// the sum of loop[k]' lambda_k over the loops that enclose both edges, and x' B(q) y = q' [x, y].
+/// With long lever arms this term determines the rate of convergence; without it KITTI 00 takes
+/// hundreds of steps. Terms that vanish with the errors are neglected.
 ///
-/// Solves (M + N) d = -gradient, M being Gauss-Newton's Hessian, by conjugate gradients
-/// preconditioned with M^-1. N d and M^-1 d are running sums: O(edges + closures^2) an iteration,
-/// at most 50. Where curvature is not positive it stops (Steihaug); the first iterate is
-/// Gauss-Newton's direction, scaled.
+/// Solves (M + N) d = -gradient, where M is the Gauss-Newton Hessian, by conjugate gradients
+/// preconditioned with M^-1. N d and M^-1 d are running sums: O(edges + closures^2) per iteration,
+/// at most 50 iterations. The solver stops at negative curvature (Steihaug); its first iterate is a
+/// multiple of the Gauss-Newton direction.
 ///
-/// Unknown are the edges' noise and the drift, and the gradient is by them; returned is the change
-/// of errors and drift. Source: Nocedal & Wright, Numerical optimization, 2006, 7.1 and 18.3.
+/// The unknowns are the noise of the edges and the drift rates; `gradient` is with respect to them.
+/// Returns the change of the edge errors and of the drift. Source: Nocedal & Wright, Numerical
+/// Optimization, 2006, sections 7.1 and 18.3.
 Corrections newton_direction(const LoopEquations& equations,
                              const Corrections& gradient,
                              const LoopSums& sums,

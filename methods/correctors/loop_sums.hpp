@@ -1,4 +1,5 @@
-/// Sums over the edges of every loop, and over those two loops share, from one pass of the chain.
+/// Sums over the edges of each loop, and over the edges common to two loops, from one pass over the
+/// chain.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace loopbench {
 
-/// Remembers running sums only where a loop begins or ends, so memory is O(loops), not O(edges).
+/// Stores running sums only at loop begins and ends, so memory is O(loops) instead of O(edges).
 class LoopSums {
  public:
   explicit LoopSums(const std::vector<Edge>& closures) {
@@ -20,15 +21,15 @@ class LoopSums {
     std::ranges::sort(cuts_);
     cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
     for (const Edge& loop : closures) {
-      begin_.push_back(place(loop.from));
-      end_.push_back(place(loop.to));
+      begin_.push_back(index_of(loop.from));
+      end_.push_back(index_of(loop.to));
     }
   }
 
   std::size_t loops() const { return begin_.size(); }
   const std::vector<std::size_t>& cuts() const { return cuts_; }
 
-  /// `running` holds the sum over the edges before each of cuts(). T is a matrix.
+  /// Sum over the edges of a loop. `running` holds the sum over the edges before each of cuts().
   template <class T>
   T over(const std::vector<T>& running, std::size_t loop) const {
     return running[end_[loop]] - running[begin_[loop]];
@@ -44,12 +45,12 @@ class LoopSums {
   }
 
  private:
-  std::size_t place(std::size_t keyframe) const {
+  std::size_t index_of(std::size_t keyframe) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(cuts_, keyframe) - cuts_.begin());
   }
 
   std::vector<std::size_t> cuts_;   ///< ascending keyframes
-  std::vector<std::size_t> begin_;  ///< of each loop, an index into cuts_
+  std::vector<std::size_t> begin_;  ///< per loop, an index into cuts_
   std::vector<std::size_t> end_;
 };
 

@@ -6,16 +6,16 @@
 namespace loopbench {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of a cost summed over a chain, relative
+constexpr double kRounding = 1e-12;  // relative rounding error of a cost summed over a chain
 
-/// a + share b.
-Corrections sum_of(Corrections a, double share, const Corrections& b) {
+/// Returns a + share b.
+Corrections add_scaled(Corrections a, double share, const Corrections& b) {
   for (std::size_t i = 0; i < a.errors.size(); ++i) a.errors[i] += share * b.errors[i];
   for (std::size_t j = 0; j < a.drift.size(); ++j) a.drift[j] += share * b.drift[j];
   return a;
 }
 
-/// sum of eta' S_L^-1 eta.
+/// Returns the sum of eta' S_L^-1 eta over the loops.
 double loop_squares(const Eigen::VectorXd& loop_errors, const ChainBelief& belief) {
   double sum = 0.0;
   for (std::size_t k = 0; k < belief.closure_information.size(); ++k) {
@@ -25,7 +25,7 @@ double loop_squares(const Eigen::VectorXd& loop_errors, const ChainBelief& belie
   return sum;
 }
 
-/// What no drift explains of edge i's error.
+/// Noise of edge i: its error minus the drift.
 Twist noise_of(const Corrections& at, const ChainBelief& belief, std::size_t i) {
   Twist w = at.errors[i];
   for (std::size_t j = 0; j < at.drift.size(); ++j) {
@@ -73,14 +73,14 @@ void LoopedChain::believe(ChainBelief belief) {
     }
   }
   cost_ = cost_of(at_, loop_errors(poses_));
-  near_ = false;
+  is_near_minimum_ = false;
 }
 
 void LoopedChain::correct_by(std::vector<Twist> errors) {
   at_.errors = std::move(errors);
   poses_ = integrate(at_.errors);
   cost_ = cost_of(at_, loop_errors(poses_));
-  near_ = false;
+  is_near_minimum_ = false;
 }
 
 double LoopedChain::cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const {
@@ -106,32 +106,32 @@ LoopedChain::Candidate LoopedChain::candidate(Corrections at) const {
   return out;
 }
 
-void LoopedChain::close_loops(Candidate& tried, const LoopEquations& equations) const {
+void LoopedChain::close_loops(Candidate& trial, const LoopEquations& equations) const {
   constexpr int kRounds = 3;
-  constexpr double kClosed = 1e-6;  // of the cost, what loops left open may matter
+  constexpr double kClosed = 1e-6;  // residual loop error, as a fraction of the cost
   const LoopJacobian& jacobian = equations.jacobian;
-  const Eigen::VectorXd meant = jacobian.gap + along_loops(jacobian, sums_, tried.at.errors);
+  const Eigen::VectorXd predicted = jacobian.gap + along_loops(jacobian, sums_, trial.at.errors);
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::VectorXd open = tried.loop_errors - meant;
-    if (!(loop_squares(open, belief_) > kClosed * cost_)) return;
-    tried =
-        candidate(sum_of(tried.at, 1.0, least_cost(equations, open, problem_.closures, belief_)));
+    const Eigen::VectorXd remaining = trial.loop_errors - predicted;
+    if (!(loop_squares(remaining, belief_) > kClosed * cost_)) return;
+    trial = candidate(
+        add_scaled(trial.at, 1.0, least_cost(equations, remaining, problem_.closures, belief_)));
   }
 }
 
-bool LoopedChain::step_towards(const Corrections& wanted,
+bool LoopedChain::step_towards(const Corrections& target,
                                const LoopEquations& equations,
-                               double shortest) {
-  const Corrections way = sum_of(wanted, -1.0, at_);
-  for (double length = 1.0; length >= shortest; length *= 0.5) {
-    Candidate tried = candidate(sum_of(at_, length, way));
-    close_loops(tried, equations);
-    // Where the cost is flat to rounding, the full step still brings the poses nearer.
-    if (tried.cost < cost_ || (length == 1.0 && tried.cost <= cost_ * (1.0 + kRounding))) {
-      near_ = tried.cost > 0.5 * cost_;
-      at_ = std::move(tried.at);
-      poses_ = std::move(tried.poses);
-      cost_ = tried.cost;
+                               double min_length) {
+  const Corrections direction = add_scaled(target, -1.0, at_);
+  for (double length = 1.0; length >= min_length; length *= 0.5) {
+    Candidate trial = candidate(add_scaled(at_, length, direction));
+    close_loops(trial, equations);
+    // Where the cost is flat to rounding, a full step still improves the poses.
+    if (trial.cost < cost_ || (length == 1.0 && trial.cost <= cost_ * (1.0 + kRounding))) {
+      is_near_minimum_ = trial.cost > 0.5 * cost_;
+      at_ = std::move(trial.at);
+      poses_ = std::move(trial.poses);
+      cost_ = trial.cost;
       return true;
     }
   }
@@ -140,10 +140,10 @@ bool LoopedChain::step_towards(const Corrections& wanted,
 
 bool LoopedChain::step() {
   const LoopEquations equations = loop_equations(linearised(), sums_, belief_);
-  if (near_) {
-    const Corrections way = newton_direction(
+  if (is_near_minimum_) {
+    const Corrections direction = newton_direction(
         equations, gradient(equations.jacobian), sums_, problem_.closures, belief_);
-    if (step_towards(sum_of(at_, 1.0, way), equations, 0.25)) return true;
+    if (step_towards(add_scaled(at_, 1.0, direction), equations, 0.25)) return true;
   }
   const Eigen::VectorXd& gap = equations.jacobian.gap;
   return step_towards(least_cost(equations, gap, problem_.closures, belief_), equations, 1e-4);

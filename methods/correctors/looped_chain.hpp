@@ -1,4 +1,4 @@
-/// A chain of odometry with loops, solved in closed form through the loop multipliers.
+/// An odometry chain with loops, solved in closed form for the loop multipliers.
 #pragma once
 
 #include <vector>
@@ -8,33 +8,34 @@
 
 namespace loopbench {
 
-/// As the edges and closures of the problem say, without drift.
+/// Returns the stated covariances of the problem's edges and closures, without drift.
 ChainBelief stated_belief(const Problem& problem);
 
-/// The chain at its current corrections: poses, errors e_i and drift beta. Positions are kept
-/// relative to the chain's centroid: adjoints grow with the distance from the origin and would cost
-/// digits far from it. Keeps references to the problem.
+/// State of the chain at its current corrections: poses, errors e_i and drift beta. Positions are
+/// relative to the chain's centroid, because adjoints grow with the distance from the origin and
+/// lose precision. Keeps references to the problem.
 class LoopedChain {
  public:
   LoopedChain(const Problem& problem, ChainBelief belief);
 
-  /// Half of sum w' S^-1 w + sum beta' V^-1 beta + sum eta' S_L^-1 eta. Not finite: no start.
+  /// Returns half of sum w' S^-1 w + sum beta' V^-1 beta + sum eta' S_L^-1 eta. A cost that is not
+  /// finite makes the chain unusable as a start.
   double cost() const { return cost_; }
 
-  /// Exchanges the belief and keeps poses, errors and drift as they are.
+  /// Replaces the noise model and keeps poses, errors and drift.
   void believe(ChainBelief belief);
 
-  /// Exchanges the errors e_i, one an odometry edge, and keeps the drift as it is.
+  /// Replaces the errors e_i, one per odometry edge, and keeps the drift.
   void correct_by(std::vector<Twist> errors);
 
   const std::vector<Twist>& errors() const { return at_.errors; }
 
-  /// One step that lowers the cost or, to rounding, keeps it; false when none is found.
-  /// Gauss-Newton at first, halved until it fits; Newton (loop_newton.hpp) once a step no longer
-  /// halves the cost. A straight step leaves loops open that bend, and so stiffly that hardly any
-  /// step would do: what is left of them is closed again before the cost is compared (a
-  /// second-order correction). Throws std::runtime_error when the loop equations are not positive
-  /// definite. Complexity O(edges + (6 closures)^3).
+  /// Takes one step that lowers the cost, or keeps it to rounding; returns false when none is
+  /// found. Uses Gauss-Newton with step halving, and Newton (loop_newton.hpp) once a step no longer
+  /// halves the cost. A linear step leaves a nonlinear residual in the loops, and stiff loops would
+  /// reject almost every step. Each candidate therefore first gets a second-order correction that
+  /// closes this residual. Throws std::runtime_error when the loop equations are not positive
+  /// definite. O(edges + (6 closures)^3).
   bool step();
 
   LoopJacobian linearised() const;
@@ -45,18 +46,18 @@ class LoopedChain {
   Trajectory keyframes() const;
 
  private:
-  /// A place to step to.
+  /// State after a trial step.
   struct Candidate {
     Corrections at;
     std::vector<Pose> poses;
-    Eigen::VectorXd loop_errors;  ///< eta, 6 a closure
+    Eigen::VectorXd loop_errors;  ///< eta, six numbers per closure
     double cost = 0.0;
   };
 
-  bool step_towards(const Corrections& wanted, const LoopEquations& equations, double shortest);
+  bool step_towards(const Corrections& target, const LoopEquations& equations, double min_length);
   Candidate candidate(Corrections at) const;
-  void close_loops(Candidate& tried, const LoopEquations& equations) const;
-  /// By the noise w_i of the edges, and by drift.
+  void close_loops(Candidate& trial, const LoopEquations& equations) const;
+  /// Gradient of the cost with respect to the noise w_i of the edges and to the drift.
   Corrections gradient(const LoopJacobian& jacobian) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
   Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
@@ -69,7 +70,7 @@ class LoopedChain {
   Corrections at_;
   Vector3 centre_;
   double cost_ = 0.0;
-  bool near_ = false;  ///< to a minimum: the last step did not halve the cost
+  bool is_near_minimum_ = false;  ///< the last step did not halve the cost
 };
 
 }  // namespace loopbench

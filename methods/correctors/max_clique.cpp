@@ -19,7 +19,7 @@ std::size_t first_of(const Bits& bits) {
   return 64 * word + static_cast<std::size_t>(std::countr_zero(bits[word]));
 }
 
-void take_out(Bits& bits, std::size_t at) { bits[at / 64] &= ~(std::uint64_t{1} << (at % 64)); }
+void clear_bit(Bits& bits, std::size_t at) { bits[at / 64] &= ~(std::uint64_t{1} << (at % 64)); }
 
 Bits common(const Bits& bits, const std::uint64_t* row) {
   Bits out(bits.size());
@@ -51,7 +51,7 @@ class Search {
   }
 
  private:
-  /// Always the neighbour with the most neighbours left, the lowest of equals.
+  /// Grows a clique by the candidate with the most common neighbours; ties go to the lowest index.
   void grow(std::size_t seed) {
     std::vector<std::size_t> members{seed};
     Bits left(graph_.row(seed), graph_.row(seed) + graph_.words());
@@ -60,7 +60,7 @@ class Search {
       std::size_t most = 0;
       for (Bits rest = left; !is_empty(rest);) {
         const std::size_t v = first_of(rest);
-        take_out(rest, v);
+        clear_bit(rest, v);
         const std::size_t degree = 1 + count(common(left, graph_.row(v)));
         if (degree > most) most = degree, next = v;
       }
@@ -72,17 +72,17 @@ class Search {
   }
 
   void expand(Bits left) {
-    // Vertices of one colour are not joined: a clique has at most one of each.
+    // Vertices of one colour are not adjacent, so a clique has at most one vertex per colour.
     std::vector<std::size_t> order;
     std::vector<std::size_t> colour;
     std::size_t colours = 0;
     for (Bits uncoloured = left; !is_empty(uncoloured);) {
       ++colours;
-      for (Bits fit = uncoloured; !is_empty(fit);) {
-        const std::size_t v = first_of(fit);
-        take_out(fit, v);
-        take_out(uncoloured, v);
-        for (std::size_t w = 0; w < fit.size(); ++w) fit[w] &= ~graph_.row(v)[w];
+      for (Bits independent = uncoloured; !is_empty(independent);) {
+        const std::size_t v = first_of(independent);
+        clear_bit(independent, v);
+        clear_bit(uncoloured, v);
+        for (std::size_t w = 0; w < independent.size(); ++w) independent[w] &= ~graph_.row(v)[w];
         order.push_back(v);
         colour.push_back(colours);
       }
@@ -98,7 +98,7 @@ class Search {
         best_ = current_;
       }
       current_.pop_back();
-      take_out(left, order[k]);
+      clear_bit(left, order[k]);
     }
   }
 

@@ -1,4 +1,4 @@
-/// The largest set of vertices that are all joined to one another.
+/// Maximum clique: the largest set of mutually adjacent vertices of a graph.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// Undirected, as rows of bits.
+/// Undirected graph stored as an adjacency matrix of bits.
 class BitGraph {
  public:
   explicit BitGraph(std::size_t size)
@@ -30,12 +30,12 @@ class BitGraph {
 
 struct Clique {
   std::vector<std::size_t> members;  ///< ascending
-  bool is_largest = false;           ///< proved; else the best that greed and the search found
+  bool is_largest = false;           ///< proved maximum; otherwise the largest clique found
 };
 
-/// Greedy from every vertex first, O(size^2 size / 64); then branch and bound with greedy colouring
-/// (Tomita and Seki 2003; San Segundo et al. 2011) for at most `most_steps` steps, exponential at
-/// worst. The same graph gives the same clique.
+/// First builds greedy cliques from every vertex, O(size^2 size / 64). Then runs branch and bound
+/// with greedy colouring (Tomita and Seki 2003; San Segundo et al. 2011) for at most `most_steps`
+/// steps; exponential in the worst case. Deterministic: the same graph gives the same clique.
 Clique max_clique(const BitGraph& graph, std::size_t most_steps);
 
 }  // namespace loopbench

@@ -45,7 +45,7 @@ void report_chi2(double chi2, std::size_t freedom, Report& report) {
                   "covariances are too {}",
                   ratio,
                   freedom,
-                  is_high ? "small, or closures are false" : "large"));
+                  is_high ? "small, or some closures are false" : "large"));
 }
 
 }  // namespace loopbench

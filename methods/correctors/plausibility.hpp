@@ -1,4 +1,5 @@
-/// Whether the residuals of a solution fit the covariances it was computed with.
+/// Tests whether the residuals of a solution are consistent with the covariances it was computed
+/// with.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +9,20 @@
 
 namespace loopbench {
 
-/// Degrees of freedom of the residuals: `dimensions` for each edge beyond a spanning tree. 0 when
-/// there are none.
+/// Degrees of freedom of the residuals: `dimensions` per edge beyond a spanning tree, or 0 when
+/// there are no such edges.
 std::size_t freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions);
 
-/// Degrees of freedom of a chain in SE(2) or SE(3).
+/// Degrees of freedom of a chain with poses in SE(2) (planar) or SE(3).
 std::size_t freedom(const Problem& problem);
 
-/// Whether chi2 is above the 99.95 % quantile of its distribution (Wilson and Hilferty 1931).
+/// Whether chi2 is above the 99.95 % quantile of its distribution (approximation of Wilson and
+/// Hilferty 1931).
 bool is_too_large(double chi2, std::size_t freedom);
 
-/// Adds the count `chi2_per_dof` [-] and, where it is outside the central 99.9 % of its
-/// distribution and more than a factor of 4 from 1 (standard deviations off by a factor of 2), a
-/// note. Adds nothing without degrees of freedom.
+/// Adds the count `chi2_per_dof` [-]. Adds a note if chi2 is outside the central 99.9 % of its
+/// distribution and chi2_per_dof differs from 1 by more than a factor of 4 (standard deviations
+/// wrong by a factor of 2). Adds nothing without degrees of freedom.
 void report_chi2(double chi2, std::size_t freedom, Report& report);
 
 }  // namespace loopbench

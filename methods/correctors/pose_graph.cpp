@@ -22,24 +22,24 @@ bool changes_scale(const Problem& problem) {
          std::ranges::any_of(problem.closures, scaled);
 }
 
-Group group_of(const Problem& problem, Poses wanted) {
-  if (wanted == Poses::se2) return Group::se2;
-  if (wanted == Poses::se3) return Group::se3;
-  if (wanted == Poses::sim3 || changes_scale(problem)) return Group::sim3;
+Group group_of(const Problem& problem, Poses requested) {
+  if (requested == Poses::se2) return Group::se2;
+  if (requested == Poses::se3) return Group::se3;
+  if (requested == Poses::sim3 || changes_scale(problem)) return Group::sim3;
   return problem.planar ? Group::se2 : Group::se3;
 }
 
 std::vector<ScaledPose> initial(const Problem& problem, Start start, double scale_sigma) {
   if (start == Start::chordal) return chordal_values(problem, scale_sigma);
   std::vector<ScaledPose> out = tree_values(problem);
-  if (start == Start::keyframes) {  // scales stay: keyframes have none
+  if (start == Start::keyframes) {  // keyframes have no scale: keep the scales of the tree
     for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
   }
   return out;
 }
 
-/// 99 % of a chi-squared variable with as many degrees of freedom as the group.
-double usual_chi2(Group group) {
+/// 99 % quantile of the chi-squared distribution with the group's degrees of freedom.
+double chi2_quantile(Group group) {
   if (group == Group::se2) return 11.345;
   return group == Group::se3 ? 16.812 : 18.475;
 }
@@ -52,16 +52,17 @@ std::size_t dimensions(Group group) {
 }  // namespace
 
 std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   if (options_.group == Poses::se2 && !problem.planar)
-    return "group is se2, the problem not planar";
+    return "group is se2, but the problem is not planar";
   if (options_.rescale) {
-    if (changes_scale(problem)) return "rescale is for rigid chains, and edges have scales";
+    if (changes_scale(problem))
+      return "rescale requires edges of scale 1, but edges change the scale";
     if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
   }
-  if (const auto lost = first_unjoined(problem)) {
-    return "the graph is not connected: no edges join keyframe " + std::to_string(*lost) +
-           " to keyframe 0";
+  if (const auto unreached = first_unjoined(problem)) {
+    return "the graph is not connected: no path from keyframe 0 to keyframe " +
+           std::to_string(*unreached);
   }
   return std::nullopt;
 }
@@ -69,7 +70,7 @@ std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) 
 Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) const {
   if (is_stiff(problem)) {
     report.notes.push_back(
-        "closure information above 1e6 times the odometry's is reduced to that: the normal "
+        "closure information above 1e6 times the odometry's is reduced to that bound: the normal "
         "equations would be singular to rounding");
     return correct(with_bounded_stiffness(problem), report);
   }
@@ -83,7 +84,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
       group,
       options_.scale_sigma,
       options_.loss,
-      options_.loss_width.value_or(is_bounded(options_.loss) ? usual_chi2(group) : 1.0),
+      options_.loss_width.value_or(is_bounded(options_.loss) ? chi2_quantile(group) : 1.0),
       options_.max_iterations,
       options_.tolerance};
   std::vector<ScaledPose> poses;
@@ -93,9 +94,9 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   }
   std::vector<double> weights(problem.closures.size(), 1.0);
   int iterations = 0;
-  const auto solve = [&](const PoseGraphSettings& how) {
+  const auto solve = [&](const PoseGraphSettings& solve_settings) {
     const PoseGraphSummary summary =
-        solve_pose_graph(poses, problem.odometry, problem.closures, weights, how);
+        solve_pose_graph(poses, problem.odometry, problem.closures, weights, solve_settings);
     iterations += summary.iterations;
     return summary;
   };
@@ -107,7 +108,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     GncSolution gnc = solve_gnc({problem,
                                  settings,
                                  options_.gnc,
-                                 options_.inlier_chi2.value_or(usual_chi2(settings.group)),
+                                 options_.inlier_chi2.value_or(chi2_quantile(settings.group)),
                                  options_.gnc_start == GncStart::consistent,
                                  values},
                                 report);
@@ -125,17 +126,17 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     annealed_from =
         report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
-  const std::vector<ScaledPose> near = poses;
+  const std::vector<ScaledPose> start = poses;
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
   if (annealed_from) {
-    // Under a loss the last steps are short and inexact: the same minimum from the same start, with
-    // the weights that the loss gives there, until they are at rest.
+    // Under a robust loss the last steps are short and inexact. To converge, the same minimum is
+    // solved from the same start with fixed weights taken from the loss.
     constexpr int kRounds = 3;
     PoseGraphSettings weighted = settings;
     weighted.loss = Loss::none;
     for (int round = 0; round < kRounds; ++round) {
       weights = loss_weights(settings, squared_errors(poses, problem.closures, settings));
-      poses = near;
+      poses = start;
       solve(weighted);
     }
   }
@@ -150,7 +151,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     report_chi2(2.0 * summary.cost, degrees, report);
   }
   if (!summary.converged) {
-    report.notes.push_back("the last solve stopped at max_iterations, not at the tolerance");
+    report.notes.push_back(
+        "the last solve stopped at max_iterations before reaching the tolerance");
   }
 
   Trajectory out = problem.keyframes;

@@ -1,4 +1,4 @@
-/// Pose-graph optimisation, plain and robust: the field's standard answer.
+/// Pose-graph optimisation, standard and robust.
 #pragma once
 
 #include "methods/correctors/gnc.hpp"
@@ -7,22 +7,26 @@
 
 namespace loopbench {
 
-/// Maximum likelihood over all keyframes of any connected graph: odometry and closures weighted by
-/// their information, as solve_pose_graph() says. Poses move in SE(2) when the problem is planar
-/// (the same minimum at a fraction of the cost), in Sim(3) when an edge changes the unit of length,
-/// else in SE(3); `group` overrules that. The result's poses are rigid, in the unit of the first.
+/// Maximum likelihood estimate of all keyframes of any connected graph, with odometry and closures
+/// weighted by their information (solve_pose_graph()). Poses are in SE(2) when the problem is
+/// planar (the same minimum at lower cost), in Sim(3) when an edge changes the scale, otherwise in
+/// SE(3); `group` overrides this. The resulting poses are rigid, in the scale of the first
+/// keyframe.
 ///
-/// Closures may be false: then either a bounded `loss`, which at once rejects true closures where
-/// odometry has drifted by more than a closure's deviations, so that it is also solved with a width
-/// that shrinks from the largest error (`anneal`) and the lower cost is kept; or graduated
-/// non-convexity
-/// (`gnc`), which lets go of closures that stay above `inlier_chi2`; or only closures that agree
-/// (Checked). Odometry is trusted. GNC starts from all closures, or where odometry is a whole chain
-/// from the largest set that agrees (`gnc_start: consistent`, see gnc_pose_graph.hpp), `start`
-/// being computed from these closures only: a closure's own information says nothing of how far
-/// odometry may have drifted in between, so that starting from all it drops true closures wherever
-/// drift is large; the check does know. All closures are judged either way. Closures that are
-/// stated as all but exact are solved at a bound (stiffness.hpp).
+/// False closures are handled in one of three ways. (1) A bounded `loss`. It also rejects true
+/// closures where the odometry has drifted by more than a closure's deviations. With `anneal`, the
+/// problem is therefore also solved with a width that shrinks from the largest error, and the
+/// solution of lower cost is kept. (2) Graduated non-convexity (`gnc`), which rejects closures
+/// whose squared error stays above `inlier_chi2`. (3) Pairwise consistency (Checked). Odometry is
+/// assumed to have no outliers.
+///
+/// With `gnc_start: consistent` and complete odometry, GNC starts from the largest consistent set
+/// of closures (gnc_pose_graph.hpp), and the initial values are computed from these closures only;
+/// otherwise it starts from all closures. A closure's own information does not describe the
+/// odometry drift between its keyframes, so starting from all closures rejects true closures where
+/// drift is large; the consistency check takes that drift into account. All closures are weighted
+/// in either case. Closures that are stated as almost exact are solved with bounded information
+/// (stiffness.hpp).
 ///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,
@@ -50,13 +54,14 @@ class PoseGraphOptimizer final : public Corrector {
   };
   explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
 
-  /// Without closures, when keyframes are not connected, and SE(2) for what is not planar.
+  /// Declines problems without closures, with unconnected keyframes, and non-planar ones with
+  /// SE(2).
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `iterations` (linear solves), `cost_before`, `cost` (half the sum of squared
-  /// Mahalanobis errors, or of losses), without a loss `chi2_per_dof`, with rescale `factor_t` and
-  /// `factor_r` on standard deviations, and with GNC `gnc_rounds` and `closures_kept`. Throws
-  /// std::runtime_error when there is no usable solution.
+  /// Mahalanobis errors, or of losses), without a loss `chi2_per_dof`, with `rescale` the factors
+  /// `factor_t` and `factor_r` on standard deviations, and with GNC `gnc_rounds` and
+  /// `closures_kept`. Throws std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -81,32 +86,49 @@ inline auto choices(PoseGraphOptimizer::GncStart) {
 
 template <class Visit>
 void fields(PoseGraphOptimizer::Options& o, Visit visit) {
-  visit("group", o.group, "what poses move in; auto: se2 if planar, sim3 if edges have scales");
+  visit("group",
+        o.group,
+        "Lie group of the poses; auto: se2 if planar, sim3 if edges change the scale, else se3");
   visit("start",
         o.start,
-        "initial values: the keyframes, odometry chained from the first, or chordal relaxation");
-  visit("loss", o.loss, "what a closure's squared error costs; dcs and switchable bound it");
+        "initial values: keyframes, odometry integrated from the first keyframe, or chordal "
+        "relaxation");
+  visit("loss", o.loss, "robust loss on the closures; dcs and switchable are bounded");
   visit("loss_width",
         o.loss_width,
-        "squared error where the loss bends [-]; none: the group's 99 % quantile for dcs and "
+        "width of the loss as a squared error [-]; none: the group's 99 % quantile for dcs and "
         "switchable, 1 for others",
         Above{0.0});
   visit("anneal",
         o.anneal,
         "dcs and switchable: also solve with a width that shrinks from the largest error, and keep "
-        "the lower cost");
-  visit("gnc", o.gnc, "graduated non-convexity: off, truncated least squares, Geman-McClure");
-  visit("gnc_start", o.gnc_start, "closures believed first; consistent: those that agree, if any");
+        "the solution of lower cost");
+  visit("gnc",
+        o.gnc,
+        "graduated non-convexity: off, tls (truncated least squares), gm (Geman-McClure)");
+  visit("gnc_start",
+        o.gnc_start,
+        "closures used for the initial values of gnc; consistent: the largest consistent set, if "
+        "any");
   visit("inlier_chi2",
         o.inlier_chi2,
-        "squared error a true closure stays below [-]; none: the group's 99 % quantile",
+        "maximum squared error of an inlier closure [-]; none: the group's 99 % quantile",
         Above{0.0});
-  visit("scale_sigma", o.scale_sigma, "deviation of an edge's log scale, sim3 [-]", Above{0.0});
-  visit("max_iterations", o.max_iterations, "of each solve", Between{1, 10000});
-  visit("tolerance", o.tolerance, "relative change of the cost that ends a solve [-]", Above{0.0});
+  visit("scale_sigma",
+        o.scale_sigma,
+        "standard deviation of an edge's log scale in sim3 [-]",
+        Above{0.0});
+  visit("max_iterations",
+        o.max_iterations,
+        "maximum number of iterations per solve",
+        Between{1, 10000});
+  visit("tolerance",
+        o.tolerance,
+        "convergence threshold: relative change of the cost [-]",
+        Above{0.0});
   visit("rescale",
         o.rescale,
-        "scale the odometry's covariances of translation and rotation by factors estimated from "
+        "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops (chains only)");
 }
 

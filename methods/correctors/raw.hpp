@@ -1,4 +1,4 @@
-/// No correction: the baseline every gain is measured from.
+/// No correction: the baseline for all gains.
 #pragma once
 
 #include "methods/method.hpp"

@@ -33,7 +33,7 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
     return sum;
   };
   double total = accumulate([&](std::size_t i) { return shares[i]; });
-  if (!(total > 0.0)) {  // standing still, or not turning: nothing to be proportional to
+  if (!(total > 0.0)) {  // no motion along the loop: equal shares
     total = accumulate([](std::size_t) { return 1.0; });
     if (total == 0.0) return std::nullopt;
     out.fell_back = true;
@@ -44,13 +44,14 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
 
 void check_closures(const Problem& problem, const char* method) {
   const auto order = [](const Edge& loop) { return std::tuple(loop.to, loop.from); };
-  const auto sound = [&](const Edge& loop) {
+  const auto is_valid = [&](const Edge& loop) {
     return loop.from < loop.to && loop.to < problem.keyframes.size();
   };
   if (!std::ranges::is_sorted(problem.closures, {}, order) ||
-      !std::ranges::all_of(problem.closures, sound)) {
-    throw std::runtime_error(std::string(method) +
-                             ": closures must name keyframes and be sorted by (to, from)");
+      !std::ranges::all_of(problem.closures, is_valid)) {
+    throw std::runtime_error(
+        std::string(method) +
+        ": closures must refer to existing keyframes with from < to and be sorted by (to, from)");
   }
 }
 

@@ -1,4 +1,4 @@
-/// How a loop's closing error is divided among its steps.
+/// Distribution of a loop's closing error over its steps.
 #pragma once
 
 #include <array>
@@ -18,30 +18,31 @@ inline auto choices(StepWeights) {
                     std::pair{"rotation", StepWeights::rotation}};
 }
 
-/// What a loop may bend when it overlaps one that is closed already.
+/// Steps that a loop may change when it overlaps an earlier loop.
 enum class LoopOverlap {
-  whole,  ///< all its steps: earlier loops it overlaps come open again
-  open,   ///< only steps that no earlier loop has closed: every loop stays closed
+  whole,  ///< all its steps; earlier loops that it overlaps are no longer closed
+  open,   ///< only steps that no earlier loop encloses; every loop stays closed
 };
 inline auto choices(LoopOverlap) {
   return std::array{std::pair{"whole", LoopOverlap::whole}, std::pair{"open", LoopOverlap::open}};
 }
 
-/// shares[i] >= 0 belongs to the step from keyframe i - 1 to i; shares[0] is not used. O(n).
+/// Returns the share of each step, >= 0. shares[i] belongs to the step from keyframe i - 1 to i;
+/// shares[0] is unused. O(n).
 std::vector<double> step_shares(const Trajectory& keyframes, StepWeights weights);
 
 struct LoopShares {
-  std::vector<double> cumulative;  ///< over steps from + 1 .. to; the last is exactly 1
-  bool fell_back = false;          ///< all shares were zero: spread by index instead
+  std::vector<double> cumulative;  ///< over the steps from + 1 .. to; the last value is exactly 1
+  bool fell_back = false;          ///< all shares were zero, so the steps have equal shares
 };
 
-/// Shares of the steps of a loop that are not frozen. Nothing when every step is frozen. O(loop).
+/// Returns the shares of the steps of a loop that are not frozen, or nullopt when all are. O(loop).
 std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
                                       const std::vector<bool>& frozen,
                                       const Edge& loop);
 
-/// Throws std::runtime_error, naming `method`, when closures are not sorted by (to, from) or name
-/// no keyframe.
+/// Throws std::runtime_error with the name `method` when closures are not sorted by (to, from) or
+/// refer to a missing keyframe.
 void check_closures(const Problem& problem, const char* method);
 
 }  // namespace loopbench

@@ -9,7 +9,8 @@ namespace {
 constexpr double kStiffest = 1e6;
 constexpr double kStiffSlack = 1.0 + 1e-9;
 
-/// The bound on each diagonal entry of a closure's information; none without odometry.
+/// Upper bound on each diagonal entry of a closure's information. Requires at least one odometry
+/// edge.
 Twist bound_of(const Problem& problem) {
   Twist largest = Twist::Zero();
   for (const Edge& edge : problem.odometry) {

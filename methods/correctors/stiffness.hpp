@@ -1,17 +1,18 @@
-/// Closures that are so certain that the equations of a sparse solver lose all digits.
+/// Bounds the information of nearly exact closures, which makes sparse normal equations singular.
 #pragma once
 
 #include "datasets/core/problem.hpp"
 
 namespace loopbench {
 
-/// Whether a closure's information exceeds 1e6 times the largest of the odometry, for translation
-/// or rotation. A closure a thousand times as certain as one odometry edge takes a millionth of a
-/// gap; what is above changes the solution less than rounding changes the equations. O(edges).
+/// Whether a closure's information exceeds 1e6 times the largest information of the odometry, for
+/// translation or rotation. A closure with a thousandth of an odometry edge's deviation takes a
+/// millionth of a gap; a larger information changes the solution by less than rounding does.
+/// O(edges).
 bool is_stiff(const Problem& problem);
 
-/// The same problem, information of closures scaled down to that bound: rows and columns alike, so
-/// that correlations stay. O(edges).
+/// Returns the problem with the closures' information scaled down to that bound. Rows and columns
+/// are scaled alike, so correlations do not change. O(edges).
 Problem with_bounded_stiffness(const Problem& problem);
 
 }  // namespace loopbench

@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-/// x -> scale * rotation * x + translation.
+/// Similarity transform x -> scale * rotation * x + translation.
 struct Similarity {
   Rotation rotation = Rotation::Identity();
   Vector3 translation = Vector3::Zero();
@@ -17,17 +17,17 @@ struct Similarity {
   }
 };
 
-/// Poses being corrected; those after the last closed loop share one similarity.
-class BentChain {
+/// Poses during correction. Those after the last closed loop share one similarity transform.
+class TwoPassChain {
  public:
-  explicit BentChain(const Trajectory& keyframes)
-      : poses_(keyframes), unit_(keyframes.size(), 1.0) {}
+  explicit TwoPassChain(const Trajectory& keyframes)
+      : poses_(keyframes), scale_(keyframes.size(), 1.0) {}
 
-  void settle(std::size_t end) {
-    for (; settled_ < end; ++settled_) {
-      Pose& pose = poses_[settled_].world_from_body;
+  void apply_tail(std::size_t end) {
+    for (; applied_ < end; ++applied_) {
+      Pose& pose = poses_[applied_].world_from_body;
       pose = normalized(tail_ * pose);
-      unit_[settled_] = tail_.scale;
+      scale_[applied_] = tail_.scale;
     }
   }
 
@@ -35,10 +35,10 @@ class BentChain {
              const std::vector<double>& w,
              const std::vector<double>& v,
              bool scaled) {
-    settle(loop.to + 1);
-    // What the loop says of the unit is of the chain as measured; loops before have done their
-    // part.
-    const double scale = scaled ? loop.scale * unit_[loop.from] / unit_[loop.to] : 1.0;
+    apply_tail(loop.to + 1);
+    // The closure measures the scale change of the original chain; earlier loops have already
+    // corrected part of it.
+    const double scale = scaled ? loop.scale * scale_[loop.from] / scale_[loop.to] : 1.0;
     const Pose start = pose(loop.from);
     const Pose old_end = pose(loop.to);
     const Pose target = start * measured(loop);
@@ -59,13 +59,13 @@ class BentChain {
     const Vector3 shift = target.translation - pose(loop.to).translation;
     for (std::size_t k = 0; k < v.size(); ++k) {
       poses_[loop.from + 1 + k].world_from_body.translation += v[k] * shift;
-      unit_[loop.from + 1 + k] *= std::pow(scale, w[k]);
+      scale_[loop.from + 1 + k] *= std::pow(scale, w[k]);
     }
-    // The tail keeps its place relative to the loop's end: from old_end to the corrected one.
-    const Rotation turn = exp_so3(phi);
+    // The poses after the loop keep their pose relative to its end.
+    const Rotation rotation = exp_so3(phi);
     const Vector3 end = pose(loop.to).translation;
-    tail_ = {(turn * tail_.rotation).normalized(),
-             scale * (turn * Vector3(tail_.translation - old_end.translation)) + end,
+    tail_ = {(rotation * tail_.rotation).normalized(),
+             scale * (rotation * Vector3(tail_.translation - old_end.translation)) + end,
              scale * tail_.scale};
   }
 
@@ -78,35 +78,36 @@ class BentChain {
  private:
   const Pose& pose(std::size_t i) const { return poses_[i].world_from_body; }
 
-  /// In the unit that the chain has at the loop's start by now.
+  /// Measured pose of the closure, in the current scale of the chain at the loop's start.
   Pose measured(const Edge& loop) const {
-    return {loop.from_from_to.rotation, unit_[loop.from] * loop.from_from_to.translation};
+    return {loop.from_from_to.rotation, scale_[loop.from] * loop.from_from_to.translation};
   }
 
   Trajectory poses_;
-  std::vector<double> unit_;  ///< by how much the chain has been stretched at each pose
+  std::vector<double> scale_;  ///< scale applied to the chain so far, per pose
   Similarity tail_;
-  std::size_t settled_ = 0;
+  std::size_t applied_ = 0;
 };
 
 }  // namespace
 
 std::optional<std::string> TwoPass::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   return std::nullopt;
 }
 
 Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "two_pass");
   const Trajectory& keyframes = problem.keyframes;
-  const std::vector<double> turns = step_shares(keyframes, options_.rotation_weights);
-  const std::vector<double> shifts = step_shares(keyframes, options_.translation_weights);
+  const std::vector<double> rotation_shares = step_shares(keyframes, options_.rotation_weights);
+  const std::vector<double> translation_shares =
+      step_shares(keyframes, options_.translation_weights);
   std::vector<bool> frozen(keyframes.size(), false);
-  BentChain chain(keyframes);
+  TwoPassChain chain(keyframes);
   std::size_t skipped = 0;
   for (const Edge& loop : problem.closures) {
-    const auto w = loop_shares(turns, frozen, loop);
-    const auto v = loop_shares(shifts, frozen, loop);
+    const auto w = loop_shares(rotation_shares, frozen, loop);
+    const auto v = loop_shares(translation_shares, frozen, loop);
     if (!w || !v) {
       ++skipped;
       continue;
@@ -117,7 +118,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
       std::fill_n(first, w->cumulative.size(), true);
     }
   }
-  chain.settle(keyframes.size());
+  chain.apply_tail(keyframes.size());
 
   double gap = 0.0;
   for (const Edge& loop : problem.closures) gap = std::max(gap, chain.gap(loop));
@@ -125,7 +126,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   report.count("largest_gap_left", gap);
   if (skipped > 0) {
     report.notes.push_back(std::to_string(skipped) +
-                           " closures: every step lies inside an earlier loop, left as it was");
+                           " closures ignored: every step lies inside an earlier loop");
   }
   return std::move(chain).take();
 }

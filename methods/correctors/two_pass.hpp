@@ -1,5 +1,5 @@
-/// Two passes a loop: first rotation (and scale) is spread and the chain re-integrated, then what
-/// is left of the translation.
+/// Closes each loop in two passes: rotation (and scale) first, with re-integration of the chain,
+/// then the remaining translation.
 #pragma once
 
 #include "methods/correctors/shares.hpp"
@@ -13,14 +13,14 @@ namespace loopbench {
 ///     p_i' = p_{i-1}' + s^w_{i-1} Exp(w_{i-1} phi) (p_i - p_{i-1})        (re-integrated)
 ///     p_i'' = p_i' + v_i (p_a + R_a L_t - p_b')
 ///
-/// with s the closure's scale when `scale` is on: a monocular chain's unit creeps, and s is how
-/// much, less what earlier loops have stretched between a and b. The poses after b follow by one
-/// similarity. Unlike `uniform`, turning a step turns only what comes after it, as an odometer's
-/// error does.
+/// where s is the closure's scale change when `scale` is on, divided by the scale that earlier
+/// loops applied between a and b (scale drift of a monocular chain). The poses after b follow by
+/// one similarity transform. Unlike in `uniform`, rotating a step moves only the poses after it, as
+/// an odometry error does.
 ///
-/// Loops are closed one after the other, by (to, from). Complexity O(keyframes + sum of loop
-/// lengths). Source: the trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO
-/// 2015), from its mathematics, with the shares an option.
+/// Loops are closed one after the other in the order (to, from). O(keyframes + sum of loop
+/// lengths). Source: trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO 2015),
+/// implemented from the equations, with the shares as an option.
 class TwoPass final : public Corrector {
  public:
   struct Options {
@@ -34,7 +34,7 @@ class TwoPass final : public Corrector {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_gap_left` [m]. Throws std::runtime_error when closures are not
-  /// sorted by (to, from) or name no keyframe.
+  /// sorted by (to, from) or refer to a missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -43,13 +43,17 @@ class TwoPass final : public Corrector {
 
 template <class Visit>
 void fields(TwoPass::Options& o, Visit visit) {
-  visit(
-      "rotation_weights", o.rotation_weights, "what a step's share of the turn is proportional to");
+  visit("rotation_weights",
+        o.rotation_weights,
+        "weights of the steps for the rotation error: equal, duration, distance or rotation angle");
   visit("translation_weights",
         o.translation_weights,
-        "what a step's share of the shift is proportional to");
-  visit("overlap", o.overlap, "what a loop bends: all its steps, or those no earlier one closed");
-  visit("scale", o.scale, "spread the closures' change of scale as well (Sim(3) chains)");
+        "weights of the steps for the translation error: equal, duration, distance or rotation "
+        "angle");
+  visit("overlap",
+        o.overlap,
+        "steps that a loop changes: all its steps, or only those that no earlier loop encloses");
+  visit("scale", o.scale, "also distribute the closures' scale change (Sim(3) chains)");
 }
 
 }  // namespace loopbench

@@ -5,26 +5,26 @@
 namespace loopbench {
 namespace {
 
-/// Poses being corrected. Those after the last closed loop share one rigid motion, which is
-/// applied when a loop reaches them: otherwise every loop would touch the whole tail.
+/// Poses during correction. Those after the last closed loop share one rigid motion, which is
+/// applied only when a loop reaches them; otherwise every loop would update the whole tail.
 class UniformChain {
  public:
   explicit UniformChain(const Trajectory& keyframes) : poses_(keyframes) {}
 
-  void settle(std::size_t end) {
-    for (; settled_ < end; ++settled_) {
-      Pose& pose = poses_[settled_].world_from_body;
+  void apply_tail(std::size_t end) {
+    for (; applied_ < end; ++applied_) {
+      Pose& pose = poses_[applied_].world_from_body;
       pose = normalized(world_from_tail_ * pose);
     }
   }
 
-  void close(const Edge& loop, const std::vector<double>& w, bool turn) {
-    settle(loop.to + 1);
+  void close(const Edge& loop, const std::vector<double>& w, bool with_rotation) {
+    apply_tail(loop.to + 1);
     const Pose target = pose(loop.from) * loop.from_from_to;
     const Pose end = pose(loop.to);
     const Vector3 pivot = pose(loop.from).translation;
-    const Vector3 phi =
-        turn ? log_so3(target.rotation * end.rotation.conjugate()) : Vector3(Vector3::Zero());
+    const Vector3 phi = with_rotation ? log_so3(target.rotation * end.rotation.conjugate())
+                                      : Vector3(Vector3::Zero());
     const Vector3 shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
     const auto moved = [&](double share, const Pose& before) {
       const Rotation part = exp_so3(share * phi);
@@ -49,13 +49,13 @@ class UniformChain {
 
   Trajectory poses_;
   Pose world_from_tail_;
-  std::size_t settled_ = 0;
+  std::size_t applied_ = 0;
 };
 
 }  // namespace
 
 std::optional<std::string> Uniform::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   return std::nullopt;
 }
 
@@ -80,7 +80,7 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
       std::fill_n(first, w->cumulative.size(), true);
     }
   }
-  chain.settle(problem.keyframes.size());
+  chain.apply_tail(problem.keyframes.size());
 
   double gap = 0.0;
   for (const Edge& loop : loops) gap = std::max(gap, chain.gap(loop));
@@ -89,9 +89,9 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   const auto remark = [&](std::size_t count, const std::string& what) {
     if (count > 0) report.notes.push_back(std::to_string(count) + " closures: " + what);
   };
-  remark(fallbacks, to_text(options_.weights) + " is zero along the loop, spread by index");
-  remark(skipped, "every step lies inside an earlier loop, left as it was");
-  remark(scaled, "their change of scale is ignored");
+  remark(fallbacks, to_text(options_.weights) + " is zero along the loop, distributed by index");
+  remark(skipped, "ignored, every step lies inside an earlier loop");
+  remark(scaled, "scale change ignored");
   return std::move(chain).take();
 }
 

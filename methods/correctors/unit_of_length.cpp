@@ -14,10 +14,11 @@ bool changes_unit(const std::vector<Edge>& edges) {
   return std::ranges::any_of(edges, [](const Edge& edge) { return edge.scale != 1.0; });
 }
 
-constexpr double kScaleSigma = 0.01;  // of an edge's log scale, as pose_graph takes it [-]
+constexpr double kScaleSigma = 0.01;  // deviation of an edge's log scale, as in pose_graph [-]
 
-/// The logarithm of each keyframe's unit over the first one's when edges' change by so much more.
-std::vector<double> log_units(const Problem& problem, const std::vector<double>& changes) {
+/// Log scale of each keyframe relative to the first, given the corrections of the edges' log
+/// scales.
+std::vector<double> log_scales(const Problem& problem, const std::vector<double>& changes) {
   std::vector<double> out{0.0};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     out.push_back(out.back() + std::log(problem.odometry[i].scale) + changes[i]);
@@ -25,7 +26,7 @@ std::vector<double> log_units(const Problem& problem, const std::vector<double>&
   return out;
 }
 
-Edge measured_in(double unit, Edge edge) {
+Edge scaled_by(double unit, Edge edge) {
   edge.from_from_to.translation *= unit;
   Twist shrink = Twist::Ones();
   shrink.head<3>().setConstant(1.0 / unit);
@@ -35,22 +36,22 @@ Edge measured_in(double unit, Edge edge) {
 }
 
 Problem rigid_with(const Problem& problem, const std::vector<double>& changes) {
-  const std::vector<double> units = log_units(problem, changes);
+  const std::vector<double> units = log_scales(problem, changes);
   Problem out = problem;
   for (std::vector<Edge>* edges : {&out.odometry, &out.closures}) {
-    for (Edge& edge : *edges) edge = measured_in(std::exp(units[edge.from]), edge);
+    for (Edge& edge : *edges) edge = scaled_by(std::exp(units[edge.from]), edge);
   }
   for (const Edge& edge : out.odometry) {
     out.keyframes[edge.to].world_from_body =
         normalized(out.keyframes[edge.from].world_from_body * edge.from_from_to);
   }
-  out.frames.clear();  // in units of their own
+  out.frames.clear();  // their scale is unknown
   return out;
 }
 
-/// What closures' scales are off when edges change by `changes`.
+/// Log scale errors of the closures, given the corrections of the edges' log scales.
 Eigen::VectorXd scale_gaps(const Problem& problem, const std::vector<double>& changes) {
-  const std::vector<double> units = log_units(problem, changes);
+  const std::vector<double> units = log_scales(problem, changes);
   Eigen::VectorXd out(static_cast<Eigen::Index>(problem.closures.size()));
   for (std::size_t k = 0; k < problem.closures.size(); ++k) {
     const Edge& loop = problem.closures[k];
@@ -59,27 +60,30 @@ Eigen::VectorXd scale_gaps(const Problem& problem, const std::vector<double>& ch
   return out;
 }
 
-/// How a closure's seven errors move with the changes: sum over its edges of (*this) [q_i; 1] s_i.
-using Growing = Eigen::Matrix<double, 7, 4>;
+/// Jacobian of a closure's seven errors: their change is the sum over its edges of (*this) [q_i; 1]
+/// s_i.
+using ScaleJacobian = Eigen::Matrix<double, 7, 4>;
 using Point = Eigen::Vector4d;
 
-struct GrowingChain {
-  std::vector<Point> ends;        ///< [q_i; 1] of each edge, relative to the centroid
-  std::vector<Growing> closures;  ///< pose, then scale
+struct ScaleLinearisation {
+  std::vector<Point> ends;              ///< [q_i; 1] of each edge, relative to the centroid
+  std::vector<ScaleJacobian> closures;  ///< pose, then scale
 };
 
-/// Without `jacobian`, of the scales alone.
-GrowingChain growing(const Problem& rigid, const Trajectory& at, const LoopJacobian* jacobian) {
+/// Without `jacobian`, only the scale errors are linearised.
+ScaleLinearisation linearise_scales(const Problem& rigid,
+                                    const Trajectory& at,
+                                    const LoopJacobian* jacobian) {
   Vector3 centre = Vector3::Zero();
   for (const StampedPose& k : at) {
     centre += k.world_from_body.translation / static_cast<double>(at.size());
   }
-  GrowingChain out;
+  ScaleLinearisation out;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     out.ends.emplace_back((at[i + 1].world_from_body.translation - centre).homogeneous());
   }
   for (std::size_t k = 0; k < rigid.closures.size(); ++k) {
-    Growing one = Growing::Zero();
+    ScaleJacobian one = ScaleJacobian::Zero();
     if (jacobian) {
       Eigen::Matrix<double, 3, 4> lever;
       lever << -Matrix3::Identity(), at[rigid.closures[k].to].world_from_body.translation - centre;
@@ -91,13 +95,13 @@ GrowingChain growing(const Problem& rigid, const Trajectory& at, const LoopJacob
   return out;
 }
 
-/// The changes of least cost, given the closures' errors without any, seven each, and the
-/// covariance that poses give them.
-std::vector<double> least_changes(const GrowingChain& chain,
-                                  const LoopSums& sums,
-                                  const std::vector<Edge>& closures,
-                                  const Eigen::VectorXd& gap,
-                                  Eigen::MatrixXd covariance) {
+/// Returns the corrections of minimum cost. `gap` holds the closure errors without corrections,
+/// seven per closure; `covariance` is their covariance due to the poses.
+std::vector<double> min_cost_changes(const ScaleLinearisation& chain,
+                                     const LoopSums& sums,
+                                     const std::vector<Edge>& closures,
+                                     const Eigen::VectorXd& gap,
+                                     Eigen::MatrixXd covariance) {
   constexpr double kVariance = kScaleSigma * kScaleSigma;
   std::vector<Eigen::Matrix4d> running;
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
@@ -118,7 +122,7 @@ std::vector<double> least_changes(const GrowingChain& chain,
   }
   const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(covariance);
   if (factor.info() != Eigen::Success) {
-    throw std::runtime_error("the equations of the loops' scales are not positive definite");
+    throw std::runtime_error("scale drift: the loop equations are not positive definite");
   }
   const Eigen::VectorXd lambda = factor.solve(gap);
   std::vector<Point> begins(chain.ends.size() + 1, Point::Zero());
@@ -137,7 +141,7 @@ std::vector<double> least_changes(const GrowingChain& chain,
   return out;
 }
 
-/// Errors that hold for the scales alone: poses neither know nor matter.
+/// Initial corrections from the scale errors alone, without the poses.
 std::vector<double> changes_by_scale(const Problem& problem) {
   const std::size_t loops = problem.closures.size();
   const std::vector<double> none(problem.odometry.size(), 0.0);
@@ -149,31 +153,31 @@ std::vector<double> changes_by_scale(const Problem& problem) {
     gap[7 * k + 6] = scales[k];
     covariance(7 * k + 6, 7 * k + 6) = 0.0;
   }
-  return least_changes(growing(problem, problem.keyframes, nullptr),
-                       LoopSums(problem.closures),
-                       problem.closures,
-                       gap,
-                       std::move(covariance));
+  return min_cost_changes(linearise_scales(problem, problem.keyframes, nullptr),
+                          LoopSums(problem.closures),
+                          problem.closures,
+                          gap,
+                          std::move(covariance));
 }
 
-struct SettledUnits {
+struct ScaleEstimate {
   std::vector<double> changes;
   Problem rigid;
   double cost = 0.0;
-  std::vector<double> next;  ///< changes of least cost as linearised here
+  std::vector<double> next;  ///< corrections of minimum cost at this linearisation point
 };
 
-/// Poses of least cost in these units, and where scales would go from there.
-SettledUnits settled(const Problem& problem, std::vector<double> changes) {
+/// Minimises the cost over the poses for fixed scales, and linearises the scales there.
+ScaleEstimate estimate_at(const Problem& problem, std::vector<double> changes) {
   constexpr int kSteps = 30;
-  constexpr double kRest = 1e-8;  // of the cost
-  SettledUnits out{std::move(changes), {}, 0.0, {}};
+  constexpr double kConverged = 1e-8;  // relative change of the cost
+  ScaleEstimate out{std::move(changes), {}, 0.0, {}};
   out.rigid = rigid_with(problem, out.changes);
   const ChainBelief belief = stated_belief(out.rigid);
   LoopedChain chain(out.rigid, belief);
   for (int i = 0; i < kSteps; ++i) {
     const double before = chain.cost();
-    if (!chain.step() || before - chain.cost() <= kRest * before) break;
+    if (!chain.step() || before - chain.cost() <= kConverged * before) break;
   }
   const Eigen::VectorXd scales = scale_gaps(problem, out.changes);
   double squares = scales.squaredNorm();
@@ -182,7 +186,8 @@ SettledUnits settled(const Problem& problem, std::vector<double> changes) {
 
   const LoopJacobian jacobian = chain.linearised();
   const LoopSums& sums = chain.sums();
-  const GrowingChain grows = growing(out.rigid, chain.keyframes(), &jacobian);
+  const ScaleLinearisation linearisation =
+      linearise_scales(out.rigid, chain.keyframes(), &jacobian);
   const Eigen::MatrixXd poses =
       through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
                       return jacobian.edge[i] * belief.covariance[i] * jacobian.edge[i].transpose();
@@ -191,7 +196,7 @@ SettledUnits settled(const Problem& problem, std::vector<double> changes) {
   Point moved = Point::Zero();
   std::size_t i = 0;
   for (const std::size_t cut : sums.cuts()) {
-    for (; i < cut; ++i) moved += out.changes[i] * grows.ends[i];
+    for (; i < cut; ++i) moved += out.changes[i] * linearisation.ends[i];
     running.push_back(moved);
   }
   const auto loops = static_cast<Eigen::Index>(problem.closures.size());
@@ -200,13 +205,13 @@ SettledUnits settled(const Problem& problem, std::vector<double> changes) {
   for (Eigen::Index k = 0; k < loops; ++k) {
     const auto at = static_cast<std::size_t>(k);
     gap.segment<7>(7 * k) << jacobian.gap.segment<6>(6 * k), scales[k];
-    gap.segment<7>(7 * k) -= grows.closures[at] * sums.over(running, at);
+    gap.segment<7>(7 * k) -= linearisation.closures[at] * sums.over(running, at);
     for (Eigen::Index l = 0; l <= k; ++l) {
       covariance.block<6, 6>(7 * k, 7 * l) = poses.block<6, 6>(6 * k, 6 * l);
     }
     covariance.block<6, 6>(7 * k, 7 * k) += belief.closure_covariance[at];
   }
-  out.next = least_changes(grows, sums, problem.closures, gap, std::move(covariance));
+  out.next = min_cost_changes(linearisation, sums, problem.closures, gap, std::move(covariance));
   return out;
 }
 
@@ -217,24 +222,24 @@ bool changes_unit(const Problem& problem) {
 }
 
 Problem in_one_unit(const Problem& problem) {
-  constexpr int kMost = 30;
-  constexpr double kRest = 1e-8;  // of the cost
-  constexpr double kShortest = 0.05;
-  SettledUnits at = settled(problem, changes_by_scale(problem));
-  for (int iteration = 0; iteration < kMost; ++iteration) {
+  constexpr int kMaxIterations = 30;
+  constexpr double kConverged = 1e-8;  // relative change of the cost
+  constexpr double kMinLength = 0.05;
+  ScaleEstimate at = estimate_at(problem, changes_by_scale(problem));
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const double before = at.cost;
-    for (double length = 1.0; length > kShortest; length *= 0.5) {
+    for (double length = 1.0; length > kMinLength; length *= 0.5) {
       std::vector<double> changes = at.changes;
       for (std::size_t i = 0; i < changes.size(); ++i) {
         changes[i] += length * (at.next[i] - changes[i]);
       }
-      SettledUnits tried = settled(problem, std::move(changes));
-      if (tried.cost < at.cost) {
-        at = std::move(tried);
+      ScaleEstimate trial = estimate_at(problem, std::move(changes));
+      if (trial.cost < at.cost) {
+        at = std::move(trial);
         break;
       }
     }
-    if (!(before - at.cost > kRest * before)) break;
+    if (!(before - at.cost > kConverged * before)) break;
   }
   return std::move(at.rigid);
 }

@@ -10,16 +10,16 @@
 namespace loopbench {
 namespace {
 
-constexpr double kLattice = 0.25;             // of a factor [octaves]
-constexpr int kFarthest = 53;                 // steps of the lattice: a factor of 1e4
-constexpr double kPriorOctaves = 6.64385619;  // factor of 10 in a standard deviation
+constexpr double kLattice = 0.25;             // spacing of the factors [octaves]
+constexpr int kFarthest = 53;                 // largest lattice index: a factor of 1e4
+constexpr double kPriorOctaves = 6.64385619;  // prior deviation: a factor of 10 in deviation
 
-using Octaves = std::array<int, 2>;  // of translation and rotation, in steps of the lattice
+using LatticePoint = std::array<int, 2>;  // lattice indices of translation and rotation
 
 double factor_of(int steps) { return std::exp2(kLattice * steps); }
 
-/// Covariance of the loop errors: factor_t translation + factor_r rotation + sqrt(both) mixed +
-/// closures, each the lower triangle.
+/// Covariance of the loop errors: factor_t translation + factor_r rotation + sqrt(factor_t
+/// factor_r) mixed + closures. Only the lower triangles are valid.
 struct LoopCovariance {
   Eigen::VectorXd gap;
   Eigen::MatrixXd translation, rotation, mixed, closures;
@@ -67,8 +67,9 @@ LoopCovariance loop_covariance(const Problem& problem,
   return out;
 }
 
-/// -log posterior up to a constant; infinite where the covariance is not positive definite.
-double objective(const LoopCovariance& loops, const Octaves& steps) {
+/// Returns -log posterior up to a constant, or infinity when the covariance is not positive
+/// definite.
+double objective(const LoopCovariance& loops, const LatticePoint& steps) {
   const double t = factor_of(steps[0]), r = factor_of(steps[1]);
   const Eigen::MatrixXd covariance =
       t * loops.translation + r * loops.rotation + std::sqrt(t * r) * loops.mixed + loops.closures;
@@ -77,21 +78,21 @@ double objective(const LoopCovariance& loops, const Octaves& steps) {
   const Eigen::VectorXd white = factor.matrixL().solve(loops.gap);
   double out = 0.5 * white.squaredNorm() + factor.matrixLLT().diagonal().array().log().sum();
   for (const int each : steps) {
-    const double octaves = kLattice * each / kPriorOctaves;  // a factor is of variances
+    const double octaves = kLattice * each / kPriorOctaves;  // factors are of variances
     out += 0.5 * octaves * octaves;
   }
   return out;
 }
 
-/// Descends one factor at a time, in steps of 4 octaves first, then finer.
-Octaves descended(const LoopCovariance& loops, Octaves at) {
+/// Coordinate descent over both factors, with steps of 4 octaves at first and then halved steps.
+LatticePoint minimise_factors(const LoopCovariance& loops, LatticePoint at) {
   double least = objective(loops, at);
   for (int step = 16; step >= 1; step /= 2) {
     for (bool improved = true; improved;) {
       improved = false;
       for (const std::size_t which : {0u, 1u}) {
         for (const int by : {step, -step}) {
-          Octaves trial = at;
+          LatticePoint trial = at;
           trial[which] += by;
           if (std::abs(trial[which]) > kFarthest) continue;
           const double value = objective(loops, trial);
@@ -122,18 +123,18 @@ Problem with_factors(Problem problem, const VarianceFactors& factors) {
 VarianceFactors variance_factors(const Problem& problem) {
   constexpr int kRounds = 5;
   constexpr int kSteps = 30;
-  constexpr double kRest = 1e-6;  // of the cost
+  constexpr double kConverged = 1e-6;  // relative change of the cost
   const ChainBelief stated = stated_belief(problem);
   LoopedChain chain(problem, stated);
-  Octaves at{0, 0};
+  LatticePoint at{0, 0};
   for (int round = 0; round < kRounds; ++round) {
-    const Octaves next = descended(loop_covariance(problem, stated, chain), at);
+    const LatticePoint next = minimise_factors(loop_covariance(problem, stated, chain), at);
     if (round > 0 && next == at) break;
     at = next;
     chain.believe(stated_belief(with_factors(problem, {factor_of(at[0]), factor_of(at[1])})));
     for (int i = 0; i < kSteps; ++i) {
       const double before = chain.cost();
-      if (!chain.step() || before - chain.cost() <= kRest * before) break;
+      if (!chain.step() || before - chain.cost() <= kConverged * before) break;
     }
   }
   return {factor_of(at[0]), factor_of(at[1])};

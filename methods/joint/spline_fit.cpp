@@ -9,7 +9,8 @@ namespace loopbench {
 
 std::optional<std::string> SplineFit::declines(const Problem& problem) const {
   if (problem.keyframes.size() < static_cast<std::size_t>(options_.order)) {
-    return "fewer keyframes than the order, " + std::to_string(options_.order);
+    return std::to_string(problem.keyframes.size()) + " keyframes, fewer than the order " +
+           std::to_string(options_.order);
   }
   if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
   return std::nullopt;
@@ -19,7 +20,7 @@ std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report&
   const Trajectory& keyframes = problem.keyframes;
   const SplineBasis basis = basis_among(
       static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
-  // The cost knows no world: near the origin no digits are lost.
+  // The cost does not depend on the world frame. Near the origin the rounding error is small.
   const Pose world_from_start = keyframes.front().world_from_body;
   std::vector<Pose> controls = controls_along(basis, keyframes);
   for (Pose& control : controls) control = normalized(world_from_start.inverse() * control);
@@ -37,7 +38,7 @@ std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report&
   report.count("iterations", summary.iterations);
   report.count("cost_before", summary.cost_before);
   report.count("cost", summary.cost);
-  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
+  if (!summary.converged) report.notes.push_back("stopped at max_iterations before convergence");
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 

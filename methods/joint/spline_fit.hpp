@@ -1,21 +1,21 @@
-/// A continuous-time trajectory fitted to odometry and loop closures at once.
+/// Fits a continuous-time trajectory to odometry and loop closures jointly.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// The cumulative B-spline of order k on SO(3) x R^3 (spline/curve.hpp) whose controls minimise
+/// Cumulative B-spline of order k on SO(3) x R^3 (spline/curve.hpp) whose controls minimise
 ///
 ///     1/2 sum over odometry and closures of e' Omega e,   e = Log(Z^-1 X(t_from)^-1 X(t_to)),
 ///
-/// the cost of a pose graph, with the first keyframe held. With one knot a keyframe the poses are
-/// those of the pose graph and the curve is the spline through them; with fewer, odometry is
-/// smoothed as its information allows, and motion that the knots cannot follow raises the cost.
-/// Edges must join every two neighbours. Closures are all believed. Starts from the keyframes.
-/// O(n k^2) an iteration and the fill-in of the closures; O(k^2) amortised to ask.
-/// Source: Furgale, Barfoot & Sibley 2012; Sommer et al., CVPR 2020; Cioffi, Cieslewski &
-/// Scaramuzza 2022 on when it pays.
+/// the cost of a pose graph with the first keyframe fixed. With one knot per keyframe the poses are
+/// those of the pose graph and the curve is the spline through them. With fewer knots the odometry
+/// is smoothed according to its information, and motion faster than the knot spacing raises the
+/// cost. Odometry edges must join all neighbouring keyframes. All closures are used without outlier
+/// rejection. The initial values are the keyframes. O(n k^2) per iteration plus the fill-in of the
+/// closures; O(k^2) amortised per query. Sources: Furgale, Barfoot & Sibley 2012; Sommer et al.,
+/// CVPR 2020; Cioffi, Cieslewski & Scaramuzza 2022 (comparison with discrete-time optimisation).
 class SplineFit final : public Method {
  public:
   struct Options {
@@ -36,9 +36,15 @@ class SplineFit final : public Method {
 
 template <class Visit>
 void fields(SplineFit::Options& o, Visit visit) {
-  visit("order", o.order, "of the spline, its degree plus one", Between{4, 6});
-  visit("knots_per_keyframe", o.knots_per_keyframe, "fewer smooth more", Between{0.01, 1.0});
-  visit("max_iterations", o.max_iterations, "of Levenberg-Marquardt", Between{1, 1000});
+  visit("order", o.order, "order of the spline (degree plus one)", Between{4, 6});
+  visit("knots_per_keyframe",
+        o.knots_per_keyframe,
+        "number of knots per keyframe; smaller values smooth more [-]",
+        Between{0.01, 1.0});
+  visit("max_iterations",
+        o.max_iterations,
+        "maximum number of Levenberg-Marquardt iterations",
+        Between{1, 1000});
 }
 
 }  // namespace loopbench

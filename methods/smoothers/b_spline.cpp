@@ -20,28 +20,29 @@ std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Repo
   const std::vector<double> sites = stamps(keyframes);
   const auto basis = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), sites);
   const std::vector<Vector3> points = points_through(basis, sites, places(keyframes));
-  const auto turned = rotations_through(basis, sites, attitudes(keyframes));
+  const auto solution = rotations_through(basis, sites, attitudes(keyframes));
   std::vector<Pose> controls(basis.size());
   for (std::size_t j = 0; j < controls.size(); ++j) {
     controls[j].translation = points[j];
-    if (turned) controls[j].rotation = turned->controls[j];
+    if (solution) controls[j].rotation = solution->controls[j];
   }
   auto spline = std::make_unique<CumulativeCurve>(basis, controls);
-  if (turned) {
-    report.count("iterations", turned->iterations);
+  if (solution) {
+    report.count("iterations", solution->iterations);
     return spline;
   }
-  const auto through = [&](const Trajectory& part) -> std::unique_ptr<const Curve> {
-    const std::vector<double> own = stamps(part);
-    const auto on = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), own);
-    const auto found = rotations_through(on, own, attitudes(part));
-    if (!found) return nullptr;
-    std::vector<Pose> rotations(on.size());
-    for (std::size_t j = 0; j < rotations.size(); ++j) rotations[j].rotation = found->controls[j];
-    return std::make_unique<CumulativeCurve>(on, rotations);
+  const auto spline_through = [&](const Trajectory& part) -> std::unique_ptr<const Curve> {
+    const std::vector<double> part_sites = stamps(part);
+    const auto part_basis =
+        SplineBasis::for_sites(static_cast<std::size_t>(options_.order), part_sites);
+    const auto solved = rotations_through(part_basis, part_sites, attitudes(part));
+    if (!solved) return nullptr;
+    std::vector<Pose> rotations(part_basis.size());
+    for (std::size_t j = 0; j < rotations.size(); ++j) rotations[j].rotation = solved->controls[j];
+    return std::make_unique<CumulativeCurve>(part_basis, rotations);
   };
   return std::make_unique<TwoCurves>(std::move(spline),
-                                     attitudes_apart(keyframes, report, through));
+                                     attitudes_apart(keyframes, report, spline_through));
 }
 
 }  // namespace loopbench

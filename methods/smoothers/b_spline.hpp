@@ -1,17 +1,17 @@
-/// The interpolating B-spline of order k in time through the keyframes.
+/// Interpolating B-spline of order k in time through the keyframes.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// Positions: sum of N_j(t) c_j through every keyframe, inner knots in the mean of k - 1 stamps
-/// (no end condition: polynomials of degree k - 1 are reproduced). Attitude: the cumulative spline
-/// on SO(3) through the keyframes, on the same knots; where none is found, on stretches joined by
-/// great arcs (stretches.hpp). C^{k-2} in time; order 2 is the polyline. With fewer than k
-/// keyframes the order is their number. A system of k - 1 diagonals on either side: O(n k^2) to
-/// make, O(k^2) amortised to ask. Source: de Boor, A Practical Guide to Splines, ch. XIII; Kim, Kim
-/// & Shin 1995.
+/// Positions: sum of N_j(t) c_j through every keyframe. Inner knots are means of k - 1 stamps, so
+/// no end condition is needed and polynomials of degree k - 1 are reproduced. Rotation: the
+/// cumulative spline on SO(3) through the keyframes, on the same knots; if it does not exist,
+/// splines through parts of the trajectory, joined by great arcs (stretches.hpp). C^{k-2} in time;
+/// order 2 is the polyline. With fewer than k keyframes the order is their number. Solves a banded
+/// system with k - 1 diagonals on each side: O(n k^2) to construct, O(k^2) amortised per query.
+/// Sources: de Boor, A Practical Guide to Splines, ch. XIII; Kim, Kim & Shin 1995.
 class BSplineThrough final : public Smoother {
  public:
   struct Options {
@@ -21,7 +21,7 @@ class BSplineThrough final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations` of the rotation solve. Great arcs are counted and noted.
+  /// Counts: `iterations` of the rotation solve, and `great_arcs` with a note if there are any.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -30,7 +30,7 @@ class BSplineThrough final : public Smoother {
 
 template <class Visit>
 void fields(BSplineThrough::Options& o, Visit visit) {
-  visit("order", o.order, "of the spline, its degree plus one", Between{2, 6});
+  visit("order", o.order, "order of the spline (degree plus one)", Between{2, 6});
 }
 
 }  // namespace loopbench

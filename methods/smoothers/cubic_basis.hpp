@@ -1,4 +1,5 @@
-/// Cubic B-splines on uneven knots: one knot at every stamp, the end knots fourfold.
+/// Cubic B-spline basis on uneven knots: one knot at every stamp, the end knots repeated four
+/// times.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +9,11 @@
 
 namespace loopbench {
 
-/// n >= 2 stamps carry n + 2 basis functions N_0..N_{n+1}; on stamps[i]..stamps[i+1] only
-/// N_i..N_{i+3} differ from zero. Source: de Boor, A Practical Guide to Splines, ch. IX-X.
+/// n >= 2 stamps have n + 2 basis functions N_0..N_{n+1}. Between stamps[i] and stamps[i+1] only
+/// N_i..N_{i+3} are nonzero. Source: de Boor, A Practical Guide to Splines, ch. IX-X.
 class CubicBasis {
  public:
-  /// `stamps` strictly increase, at least two.
+  /// `stamps` must be strictly increasing and have at least two entries.
   explicit CubicBasis(std::vector<double> stamps) : stamps_(std::move(stamps)) {}
 
   const std::vector<double>& stamps() const { return stamps_; }
@@ -20,7 +21,7 @@ class CubicBasis {
 
   /// Values of N_i..N_{i+3} at a time in stamps[i]..stamps[i+1]; all >= 0, sum 1. O(1).
   std::array<double, 4> values(std::size_t i, double time) const {
-    // Cox-de Boor, raising the degree from 0 to 3 over the knots around the interval.
+    // Cox-de Boor recursion from degree 0 to 3 over the knots around the interval.
     std::array<double, 4> out{1.0, 0.0, 0.0, 0.0};
     for (std::size_t degree = 1; degree <= 3; ++degree) {
       double carried = 0.0;
@@ -36,11 +37,11 @@ class CubicBasis {
     return out;
   }
 
-  /// Greville abscissa of N_j: where its coefficient sits when the curve is a straight line [s].
+  /// Greville abscissa of N_j: the time of its coefficient when the curve is a straight line [s].
   double greville(std::size_t j) const { return (knot(j + 1) + knot(j + 2) + knot(j + 3)) / 3.0; }
 
-  /// Natural ends are a condition on three coefficients: the second lies between its neighbours,
-  /// at this fraction from the outer (0 or size - 1) to the inner one (2 or size - 3).
+  /// Natural ends: the second coefficient lies on the line between its neighbours, at this fraction
+  /// from the outer coefficient (0 or size - 1) to the inner one (2 or size - 3).
   double natural_fraction_at_start() const {
     return (greville(1) - greville(0)) / (greville(2) - greville(0));
   }
@@ -50,7 +51,7 @@ class CubicBasis {
   }
 
  private:
-  /// Knot k of stamps[0] x 4, stamps[1], ..., stamps[n-1] x 4.
+  /// Knot k of the sequence stamps[0] x 4, stamps[1], ..., stamps[n-1] x 4.
   double knot(std::size_t k) const {
     return stamps_[std::min(std::max<std::size_t>(k, 3) - 3, stamps_.size() - 1)];
   }

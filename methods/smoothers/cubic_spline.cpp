@@ -13,7 +13,7 @@
 namespace loopbench {
 namespace {
 
-/// What one interval reads: side by side in memory, four neighbours at a time.
+/// Coefficients of one basis function; an interval reads four consecutive ones.
 struct Control {
   Vector3 point;                   ///< [m]
   Rotation rotation;               ///< C_j
@@ -48,21 +48,22 @@ class SplineCurve final : public Curve {
   std::vector<Control> controls_;
 };
 
-void set_rotations(std::vector<Control>& controls, const ControlRotations& turned) {
+void set_rotations(std::vector<Control>& controls, const ControlRotations& solution) {
   for (std::size_t j = 0; j < controls.size(); ++j) {
-    controls[j].rotation = turned.rotations[j];
+    controls[j].rotation = solution.rotations[j];
     if (j > 0)
       controls[j].step = log_so3(controls[j - 1].rotation.conjugate() * controls[j].rotation);
   }
 }
 
-/// The attitude spline through two poses or more, at position zero; null where there is none.
-std::unique_ptr<const Curve> attitude_spline(const Trajectory& keyframes) {
+/// Returns the rotation spline through two or more poses, with zero positions, or null if it does
+/// not exist.
+std::unique_ptr<const Curve> rotation_spline(const Trajectory& keyframes) {
   CubicBasis basis(stamps(keyframes));
-  const auto turned = interpolating_rotations(basis, attitudes(keyframes));
-  if (!turned) return nullptr;
+  const auto solution = interpolating_rotations(basis, attitudes(keyframes));
+  if (!solution) return nullptr;
   std::vector<Control> controls(basis.size(), Control{Vector3::Zero(), Rotation::Identity()});
-  set_rotations(controls, *turned);
+  set_rotations(controls, *solution);
   return std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
 }
 
@@ -85,15 +86,15 @@ std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report&
     auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
     return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
   }
-  const auto turned = interpolating_rotations(basis, attitudes(keyframes));
-  if (turned) {
-    report.count("iterations", turned->iterations);
-    set_rotations(controls, *turned);
+  const auto solution = interpolating_rotations(basis, attitudes(keyframes));
+  if (solution) {
+    report.count("iterations", solution->iterations);
+    set_rotations(controls, *solution);
     return std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
   }
   auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
   return std::make_unique<TwoCurves>(std::move(spline),
-                                     attitudes_apart(keyframes, report, attitude_spline));
+                                     attitudes_apart(keyframes, report, rotation_spline));
 }
 
 }  // namespace loopbench

@@ -1,15 +1,15 @@
-/// A natural cubic spline in time through the keyframes: the smooth curve to beat.
+/// Natural cubic spline in time through the keyframes.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// Positions: the interpolating cubic B-spline with natural ends (zero acceleration), knots at
-/// the keyframes. Attitude: a cumulative cubic B-spline on SO(3) through the keyframes with zero
-/// angular acceleration at the ends (spline_controls.hpp), or great arcs. Both are C2 in time.
-/// One keyframe gives a constant, two a straight line and a great arc.
-/// Complexity O(n) to make; O(1) amortised for sorted times, O(log n) otherwise.
+/// Positions: the interpolating cubic B-spline with natural ends (zero acceleration) and knots at
+/// the keyframes. Rotation: a cumulative cubic B-spline on SO(3) through the keyframes with zero
+/// angular acceleration at the ends (spline_controls.hpp), or great arcs. Both splines are C2 in
+/// time. One keyframe gives a constant, two a straight line and a great arc. O(n) to construct;
+/// O(1) amortised per query for sorted times, O(log n) otherwise.
 class CubicSpline final : public Smoother {
  public:
   enum class Turn { slerp, spline };
@@ -20,9 +20,9 @@ class CubicSpline final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations` of the rotation solve. When it finds no spline through all
-  /// keyframes, splines through stretches of them are joined by great arcs: `great_arcs` and a
-  /// note.
+  /// Counts: `iterations` of the rotation solve. If no rotation spline through all keyframes
+  /// exists, splines through parts of them are joined by great arcs, with the count `great_arcs`
+  /// and a note.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -36,7 +36,9 @@ inline auto choices(CubicSpline::Turn) {
 
 template <class Visit>
 void fields(CubicSpline::Options& o, Visit visit) {
-  visit("rotation", o.rotation, "slerp: great arcs; spline: smooth as the positions are");
+  visit("rotation",
+        o.rotation,
+        "interpolation of rotation; slerp: great arcs; spline: C2 cumulative spline");
 }
 
 }  // namespace loopbench

@@ -18,7 +18,7 @@ class GpCurve final : public Curve {
           const GpPosterior<P>& posterior,
           std::vector<GpState<P>> states)
       : stamps_(std::move(stamps)), states_(std::move(states)) {
-    // Derivatives in units of each interval: weights are then those of the unit interval.
+    // Derivatives are scaled by the interval length, so the weights are those of a unit interval.
     for (std::size_t i = 0; i + 1 < states_.size(); ++i) {
       Interval each;
       each.to = local_state(states_[i], states_[i + 1]).value;
@@ -79,7 +79,7 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   int iterations = 0, evaluations = 0;
   GpParameters parameters = report.time("evidence", [&] {
     GpParameters best;
-    double least = std::numeric_limits<double>::infinity();
+    double lowest = std::numeric_limits<double>::infinity();
     for (const Criterion criterion : {Criterion::reml, Criterion::gcv}) {
       const GpParameters start = first_parameters(keyframes, P, criterion, given);
       auto trial = posterior.first_guess();
@@ -88,8 +88,8 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
       evaluations += chosen.evaluations;
       iterations += posterior.solve(trial, chosen.parameters);
       const double evidence = posterior.negative_evidence(trial, chosen.parameters);
-      if (!(evidence < least - 1e-3)) continue;  // less is rounding or does not matter
-      least = evidence;
+      if (!(evidence < lowest - 1e-3)) continue;  // a smaller difference may be rounding
+      lowest = evidence;
       best = chosen.parameters;
       states = std::move(trial);
     }
@@ -108,34 +108,37 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
 }
 
 std::optional<std::string> GaussianProcess::declines(const Problem& problem) const {
-  if (problem.keyframes.size() >= least_keyframes()) return std::nullopt;
-  return "fewer than " + std::to_string(least_keyframes()) + " keyframes";
+  if (problem.keyframes.size() >= min_keyframes()) return std::nullopt;
+  return std::to_string(problem.keyframes.size()) + " keyframes, fewer than " +
+         std::to_string(min_keyframes());
 }
 
-std::size_t GaussianProcess::least_keyframes() const {
+std::size_t GaussianProcess::min_keyframes() const {
   return options_.prior == Prior::velocity ? 3 : 4;
 }
 
 std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Report& report) const {
-  // Covariances of the prior grow with the third (fifth) power of an interval: 50 medians are 1e5
-  // (3e8) times the usual, beyond which digits run out, and nothing is known of such a gap anyway.
+  // The covariance of the prior grows with the third (fifth) power of the interval: for 50 medians
+  // it is 1e5 (3e8) times the usual one. Beyond that precision is lost, and the prior does not
+  // constrain such a gap anyway.
   constexpr double kLongest = 50.0;
   constexpr double kShortest = 0.05;
   const Trajectory& keyframes = problem.keyframes;
   const double median = median_interval(keyframes);
-  const auto apart = stretches(keyframes.size(), [&](std::size_t i) {
+  const auto segments = stretches(keyframes.size(), [&](std::size_t i) {
     const double interval = keyframes[i + 1].stamp - keyframes[i].stamp;
     return interval > kLongest * median || interval < kShortest * median;
   });
-  const std::size_t least = least_keyframes();
+  const std::size_t lowest = min_keyframes();
   return smoothed_apart(keyframes,
-                        apart,
+                        segments,
                         "intervals above 50 or below 0.05 times the median",
                         report,
-                        [&](Trajectory part, Report& own) -> std::unique_ptr<const Curve> {
-                          if (part.size() < least) return std::make_unique<Polyline>(part);
-                          if (options_.prior == Prior::velocity) return smooth_with<2>(part, own);
-                          return smooth_with<3>(part, own);
+                        [&](Trajectory part, Report& part_report) -> std::unique_ptr<const Curve> {
+                          if (part.size() < lowest) return std::make_unique<Polyline>(part);
+                          if (options_.prior == Prior::velocity)
+                            return smooth_with<2>(part, part_report);
+                          return smooth_with<3>(part, part_report);
                         });
 }
 

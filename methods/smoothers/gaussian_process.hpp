@@ -1,22 +1,24 @@
-/// Batch estimation of a Gaussian process on SE(3): keyframes as noisy samples of smooth motion.
+/// Batch Gaussian process regression on SE(3): keyframes are noisy samples of a smooth motion.
 #pragma once
 
 #include "methods/method.hpp"
 
 namespace loopbench {
 
-/// White noise drives the body's acceleration (prior velocity: constant velocity is what is
-/// expected, WNOA) or its jerk (prior acceleration, WNOJ); keyframes are poses measured with white
-/// noise. The most probable poses and velocities, and between keyframes the posterior mean, which
-/// in local coordinates xi = Log(T_i^-1 T) reads Lambda(t) gamma_i + Psi(t) gamma_{i+1}: C1 for
-/// WNOA, C2 for WNOJ but for terms of the order of the turn within an interval. In translation
-/// alone, WNOA is the smoothing spline.
-/// The noise of poses and motion, of translation and rotation each, comes from the marginal
-/// likelihood (Laplace, relinearised once, from two starts) unless given. As with every smoother,
-/// drift that is slow against the keyframes looks like motion and stays. Intervals above 50 or
-/// below 0.05 times the median are chords between stretches smoothed apart. O(n): some 150 block
-/// tridiagonal eliminations, blocks of 12 (18), and 2 (5) kB a keyframe. Source: Anderson & Barfoot
-/// 2015 (WNOA); Tang, Yoon & Barfoot 2019 (WNOJ); Barfoot, ch. 11.
+/// The motion prior is driven by white noise on acceleration (prior velocity: constant velocity is
+/// expected, WNOA) or on jerk (prior acceleration, WNOJ). Keyframes are pose measurements with
+/// white noise. The method computes the most probable poses and velocities. Between keyframes it
+/// evaluates the posterior mean, in local coordinates xi = Log(T_i^-1 T) = Lambda(t) gamma_i +
+/// Psi(t) gamma_{i+1}: C1 for WNOA, C2 for WNOJ up to terms of the order of the rotation angle
+/// within an interval. For translation alone, WNOA is the smoothing spline.
+///
+/// The measurement and motion noise of translation and rotation are estimated by maximum marginal
+/// likelihood (Laplace approximation, relinearised once, from two starts) unless given. As with
+/// every smoother, drift that is slow relative to the keyframe rate cannot be distinguished from
+/// motion and remains. Intervals above 50 or below 0.05 times the median are bridged by chords
+/// between separately smoothed segments. O(n): about 150 block tridiagonal eliminations with blocks
+/// of 12 (18), and 2 (5) kB per keyframe. Sources: Anderson & Barfoot 2015 (WNOA); Tang, Yoon &
+/// Barfoot 2019 (WNOJ); Barfoot, ch. 11.
 class GaussianProcess final : public Smoother {
  public:
   enum class Prior { velocity, acceleration };
@@ -33,11 +35,11 @@ class GaussianProcess final : public Smoother {
 
   /// Counts: `sigma_t` [m], `sigma_r` [rad], `power_t`, `power_r` (per s^3 or s^5), `iterations`,
   /// `evaluations` of the evidence. Phases: `evidence`, `solve`. Throws std::runtime_error when the
-  /// normal equations break down.
+  /// normal equations are singular.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
-  std::size_t least_keyframes() const;
+  std::size_t min_keyframes() const;
 
   template <int P>
   std::unique_ptr<const Curve> smooth_with(const Trajectory& keyframes, Report& report) const;
@@ -52,11 +54,26 @@ inline auto choices(GaussianProcess::Prior) {
 
 template <class Visit>
 void fields(GaussianProcess::Options& o, Visit visit) {
-  visit("prior", o.prior, "what is constant but for white noise: WNOA, WNOJ");
-  visit("sigma_t", o.sigma_t, "of keyframe positions [m]; none: by evidence", Above{0.0});
-  visit("sigma_r", o.sigma_r, "of keyframe attitudes [rad]; none: by evidence", Above{0.0});
-  visit("power_t", o.power_t, "of the noise [m^2/s^3 or /s^5]; none: by evidence", Above{0.0});
-  visit("power_r", o.power_r, "of the noise [rad^2/s^3 or /s^5]; none: by evidence", Above{0.0});
+  visit("prior",
+        o.prior,
+        "motion prior; velocity: white noise on acceleration (WNOA), acceleration: white noise on "
+        "jerk (WNOJ)");
+  visit("sigma_t",
+        o.sigma_t,
+        "standard deviation of keyframe positions [m]; none: estimated",
+        Above{0.0});
+  visit("sigma_r",
+        o.sigma_r,
+        "standard deviation of keyframe rotations [rad]; none: estimated",
+        Above{0.0});
+  visit("power_t",
+        o.power_t,
+        "power spectral density of the translation prior [m^2/s^3 or m^2/s^5]; none: estimated",
+        Above{0.0});
+  visit("power_r",
+        o.power_r,
+        "power spectral density of the rotation prior [rad^2/s^3 or rad^2/s^5]; none: estimated",
+        Above{0.0});
 }
 
 }  // namespace loopbench

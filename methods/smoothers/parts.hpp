@@ -1,4 +1,4 @@
-/// The two halves of a keyframe list that smoothers treat apart.
+/// Positions and rotations of a keyframe list, for smoothers that process them separately.
 #pragma once
 
 #include <vector>

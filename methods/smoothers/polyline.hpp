@@ -1,4 +1,5 @@
-/// Straight lines and great arcs between the keyframes: the smoother every gain is measured from.
+/// Linear interpolation of positions and slerp of rotations between the keyframes: the baseline
+/// smoother.
 #pragma once
 
 #include "datasets/core/polyline.hpp"

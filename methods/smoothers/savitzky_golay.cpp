@@ -18,18 +18,18 @@ struct Neighbours {
   std::size_t size() const { return last - first; }
 };
 
-/// The tangent vector of `rotation` nearest to `near`: a window may turn by more than pi.
+/// Logarithm of `rotation` nearest to `near`; the rotation angle within a window may exceed pi.
 Vector3 log_near(const Rotation& rotation, const Vector3& near) {
   const Vector3 shortest = log_so3(rotation);
   const double angle = shortest.norm();
-  if (angle < 1e-6) return shortest;  // its axis is noise
+  if (angle < 1e-6) return shortest;  // the axis is undetermined
   const Vector3 axis = shortest / angle;
-  const double turns = std::round((axis.dot(near) - angle) / (2.0 * std::numbers::pi));
-  return (angle + 2.0 * std::numbers::pi * turns) * axis;
+  const double revolutions = std::round((axis.dot(near) - angle) / (2.0 * std::numbers::pi));
+  return (angle + 2.0 * std::numbers::pi * revolutions) * axis;
 }
 
-/// A polynomial in x = (t - centre) / half, by orthogonal polynomials on the window's times:
-/// p_{k+1} = (x - alpha_k) p_k - beta_k p_{k-1}.
+/// Polynomial in x = (t - centre) / half, in the basis of polynomials orthogonal on the window's
+/// times: p_{k+1} = (x - alpha_k) p_k - beta_k p_{k-1}.
 class LocalPolynomial {
  public:
   LocalPolynomial(const Trajectory& keyframes,
@@ -40,62 +40,63 @@ class LocalPolynomial {
     half_ = std::max(keyframes[window.last - 1].stamp - centre_.stamp,
                      centre_.stamp - keyframes[window.first].stamp);
     if (half_ == 0.0) half_ = 1.0;
-    const std::vector<Twist> values = around(keyframes, centre, window);
-    std::vector<double> x, now(window.size(), 1.0), before(window.size(), 0.0);
+    const std::vector<Twist> values = relative_twists(keyframes, centre, window);
+    std::vector<double> x, current(window.size(), 1.0), previous(window.size(), 0.0);
     for (std::size_t i = window.first; i < window.last; ++i) {
       x.push_back((keyframes[i].stamp - centre_.stamp) / half_);
     }
-    double square_before = 1.0;
+    double square_previous = 1.0;
     for (std::size_t k = 0; k < terms; ++k) {
       Term& term = term_[k];
       double square = 0.0;
       for (std::size_t i = 0; i < x.size(); ++i) {
-        square += now[i] * now[i];
-        term.alpha += x[i] * now[i] * now[i];
-        term.weight += now[i] * values[i];
+        square += current[i] * current[i];
+        term.alpha += x[i] * current[i] * current[i];
+        term.weight += current[i] * values[i];
       }
       term.alpha /= square;
-      term.beta = k == 0 ? 0.0 : square / square_before;
+      term.beta = k == 0 ? 0.0 : square / square_previous;
       term.weight /= square;
       for (std::size_t i = 0; i < x.size(); ++i) {
-        const double next = (x[i] - term.alpha) * now[i] - term.beta * before[i];
-        before[i] = std::exchange(now[i], next);
+        const double next = (x[i] - term.alpha) * current[i] - term.beta * previous[i];
+        previous[i] = std::exchange(current[i], next);
       }
-      square_before = square;
+      square_previous = square;
     }
   }
 
   Pose at(double time) const {
     const double x = (time - centre_.stamp) / half_;
     Twist sum = Twist::Zero();
-    double now = 1.0, before = 0.0;
+    double current = 1.0, previous = 0.0;
     for (std::size_t k = 0; k < terms_; ++k) {
       const Term& term = term_[k];
-      sum += now * term.weight;
-      const double next = (x - term.alpha) * now - term.beta * before;
-      before = std::exchange(now, next);
+      sum += current * term.weight;
+      const double next = (x - term.alpha) * current - term.beta * previous;
+      previous = std::exchange(current, next);
     }
     return {(centre_.world_from_body.rotation * exp_so3(sum.tail<3>())).normalized(),
             centre_.world_from_body.translation + sum.head<3>()};
   }
 
  private:
-  /// [offset in the world; turn in the body] of the window's keyframes from the centre.
-  static std::vector<Twist> around(const Trajectory& keyframes,
-                                   std::size_t centre,
-                                   Neighbours window) {
+  /// [world position offset; body rotation vector] of the window's keyframes relative to the
+  /// centre.
+  static std::vector<Twist> relative_twists(const Trajectory& keyframes,
+                                            std::size_t centre,
+                                            Neighbours window) {
     std::vector<Twist> out(window.size());
     const Pose& origin = keyframes[centre].world_from_body;
-    const auto put = [&](std::size_t i, const Vector3& near) {
+    const auto relative_to_centre = [&](std::size_t i, const Vector3& near) {
       const Pose& pose = keyframes[i].world_from_body;
-      const Vector3 turn = log_near(origin.rotation.conjugate() * pose.rotation, near);
-      out[i - window.first] = twist(pose.translation - origin.translation, turn);
-      return turn;
+      const Vector3 rotation_vector = log_near(origin.rotation.conjugate() * pose.rotation, near);
+      out[i - window.first] = twist(pose.translation - origin.translation, rotation_vector);
+      return rotation_vector;
     };
     Vector3 near = Vector3::Zero();
-    for (std::size_t i = centre; i < window.last; ++i) near = put(i, near);
+    for (std::size_t i = centre; i < window.last; ++i) near = relative_to_centre(i, near);
     near.setZero();
-    for (std::size_t i = centre; i-- > window.first;) near = put(i, near);
+    for (std::size_t i = centre; i-- > window.first;) near = relative_to_centre(i, near);
     return out;
   }
 
@@ -105,7 +106,7 @@ class LocalPolynomial {
   };
 
   StampedPose centre_;
-  double half_ = 1.0;  ///< [s]
+  double half_ = 1.0;  ///< half width of the window [s]
   std::size_t terms_;
   std::array<Term, kMostTerms> term_;
 };
@@ -124,7 +125,7 @@ class LocalCurve final : public Curve {
     for (std::size_t k = 0; k < times.size(); ++k) {
       const std::size_t i = span.find(times[k]);
       poses[k] = pieces_[i].at(times[k]);
-      if (i + 1 == stamps_.size()) continue;  // a single keyframe
+      if (i + 1 == stamps_.size()) continue;  // only one keyframe
       const double u = (times[k] - stamps_[i]) / (stamps_[i + 1] - stamps_[i]);
       const double share = u * u * (3.0 - 2.0 * u);
       poses[k] = normalized(interpolate(poses[k], pieces_[i + 1].at(times[k]), share));
@@ -136,16 +137,16 @@ class LocalCurve final : public Curve {
   std::vector<LocalPolynomial> pieces_;
 };
 
-/// Grows towards the nearer neighbour until it holds `least` keyframes.
+/// Extends the window towards the nearer neighbour until it holds `least` keyframes.
 Neighbours widened(Neighbours window,
                    const Trajectory& keyframes,
                    std::size_t centre,
                    std::size_t least) {
   while (window.size() < least) {
-    const bool can_left = window.first > 0;
-    const bool can_right = window.last < keyframes.size();
+    const bool has_left = window.first > 0;
+    const bool has_right = window.last < keyframes.size();
     const double time = keyframes[centre].stamp;
-    const bool left = can_left && (!can_right || time - keyframes[window.first - 1].stamp <=
+    const bool left = has_left && (!has_right || time - keyframes[window.first - 1].stamp <=
                                                      keyframes[window.last].stamp - time);
     left ? --window.first : ++window.last;
   }
@@ -158,14 +159,15 @@ SavitzkyGolay::SavitzkyGolay(const Options& options) : options_(options) {
   if (!options.seconds && options.window <= options.degree) {
     throw OptionError("window",
                       "window = " + std::to_string(options.window) +
-                          " breaks window > degree = " + std::to_string(options.degree));
+                          ": expected more than degree = " + std::to_string(options.degree));
   }
 }
 
 std::optional<std::string> SavitzkyGolay::declines(const Problem& problem) const {
-  const int needed = options_.degree + 1;
-  if (problem.keyframes.size() >= static_cast<std::size_t>(needed)) return std::nullopt;
-  return "fewer than degree + 1 = " + std::to_string(needed) + " keyframes";
+  const auto needed = static_cast<std::size_t>(options_.degree + 1);
+  if (problem.keyframes.size() >= needed) return std::nullopt;
+  return std::to_string(problem.keyframes.size()) +
+         " keyframes, fewer than degree + 1 = " + std::to_string(needed);
 }
 
 std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Report& report) const {
@@ -185,13 +187,13 @@ std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Repor
         ++window.last;
       }
     } else {
-      const std::size_t wanted = i - std::min(i, width / 2);
-      window.first = std::min(wanted, keyframes.size() - width);
+      const std::size_t centred_first = i - std::min(i, width / 2);
+      window.first = std::min(centred_first, keyframes.size() - width);
       window.last = window.first + width;
     }
-    const Neighbours enough = widened(window, keyframes, i, terms);
-    members += static_cast<double>(enough.size());
-    pieces.emplace_back(keyframes, i, enough, terms);
+    const Neighbours widened_window = widened(window, keyframes, i, terms);
+    members += static_cast<double>(widened_window.size());
+    pieces.emplace_back(keyframes, i, widened_window, terms);
   }
   report.count("window", members / static_cast<double>(keyframes.size()));
   return std::make_unique<LocalCurve>(stamps(keyframes), std::move(pieces));

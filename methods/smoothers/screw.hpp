@@ -1,4 +1,4 @@
-/// Along one screw from keyframe to keyframe: the geodesic of SE(3).
+/// Screw interpolation between keyframes: the geodesic of SE(3).
 #pragma once
 
 #include <utility>
@@ -9,10 +9,11 @@
 
 namespace loopbench {
 
-/// X(t) = X_i Exp(u Log(X_i^-1 X_{i+1})), u = (t - t_i) / (t_{i+1} - t_i): the body's twist is
-/// constant in every interval, so a wheeled arc or a helix is exact. Position and attitude are
-/// coupled: right for what turns as it travels, wrong for a hand. Exact at the keyframes.
-/// Source: Barfoot, State Estimation for Robotics, 7.1.7. O(n) to make, O(1) amortised to ask.
+/// X(t) = X_i Exp(u Log(X_i^-1 X_{i+1})), u = (t - t_i) / (t_{i+1} - t_i). The body twist is
+/// constant in every interval, so a circular arc or a helix is exact. Position and rotation are
+/// coupled, which suits wheeled vehicles but not handheld sensors. Interpolates the keyframes.
+/// Source: Barfoot, State Estimation for Robotics, 7.1.7. O(n) to construct, O(1) amortised per
+/// query.
 class Screw final : public Smoother {
  public:
   struct Options {};
@@ -23,13 +24,13 @@ class Screw final : public Smoother {
   }
 
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
-    return std::make_unique<Along>(problem.keyframes);
+    return std::make_unique<ScrewCurve>(problem.keyframes);
   }
 
  private:
-  class Along final : public Curve {
+  class ScrewCurve final : public Curve {
    public:
-    explicit Along(const Trajectory& poses) : poses_(poses), stamps_(stamps(poses)) {
+    explicit ScrewCurve(const Trajectory& poses) : poses_(poses), stamps_(stamps(poses)) {
       for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
         twists_.push_back(
             log_se3(poses[i].world_from_body.inverse() * poses[i + 1].world_from_body));
@@ -44,7 +45,7 @@ class Screw final : public Smoother {
       KnotSpan span(stamps_);
       for (std::size_t k = 0; k < times.size(); ++k) {
         const std::size_t i = span.find(times[k]);
-        if (times[k] == stamps_[i]) {  // exact at the nodes, no rounding
+        if (times[k] == stamps_[i]) {  // return nodes without rounding
           poses[k] = poses_[i].world_from_body;
         } else if (times[k] == stamps_[i + 1]) {
           poses[k] = poses_[i + 1].world_from_body;
@@ -58,7 +59,7 @@ class Screw final : public Smoother {
    private:
     Trajectory poses_;
     std::vector<double> stamps_;
-    std::vector<Twist> twists_;  ///< of each interval, over its whole length
+    std::vector<Twist> twists_;  ///< relative motion over each interval
   };
 };
 

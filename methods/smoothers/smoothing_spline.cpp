@@ -11,7 +11,7 @@
 namespace loopbench {
 namespace {
 
-/// A natural cubic spline by values and second derivatives at its knots.
+/// Knot of a natural cubic spline: value and second derivative.
 struct Knot {
   Vector3 value, bend;
 };
@@ -30,9 +30,9 @@ Vector3 between(const Knot* knot, double u, double interval) {
          sixth * (v * u * ((1.0 + v) * knot[0].bend + (1.0 + u) * knot[1].bend));
 }
 
-class Places final : public Curve {
+class PositionSpline final : public Curve {
  public:
-  Places(std::vector<double> stamps, std::vector<Knot> knots)
+  PositionSpline(std::vector<double> stamps, std::vector<Knot> knots)
       : stamps_(std::move(stamps)), knots_(std::move(knots)) {}
 
   double start() const override { return stamps_.front(); }
@@ -54,9 +54,9 @@ class Places final : public Curve {
   std::vector<Knot> knots_;
 };
 
-class Attitudes final : public Curve {
+class RotationSpline final : public Curve {
  public:
-  Attitudes(std::vector<double> stamps, Unrolled path, std::vector<Knot> knots)
+  RotationSpline(std::vector<double> stamps, Unrolled path, std::vector<Knot> knots)
       : stamps_(std::move(stamps)), path_(std::move(path)), knots_(std::move(knots)) {}
 
   double start() const override { return stamps_.front(); }
@@ -79,7 +79,7 @@ class Attitudes final : public Curve {
   std::vector<Knot> knots_;
 };
 
-/// One lambda for each axis of the world.
+/// Fits each world axis with its own lambda.
 Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
                           const std::vector<double>& stamps,
                           const std::vector<Vector3>& y,
@@ -87,11 +87,11 @@ Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
                           Report& report) {
   Reinsch::Fit out;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Vector3> alone(y.size(), Vector3::Zero());
-    for (std::size_t i = 0; i < y.size(); ++i) alone[i][axis] = y[i][axis] - y.front()[axis];
-    const double lambda = chosen_lambda(reinsch, stamps, alone, criterion);
+    std::vector<Vector3> one_axis(y.size(), Vector3::Zero());
+    for (std::size_t i = 0; i < y.size(); ++i) one_axis[i][axis] = y[i][axis] - y.front()[axis];
+    const double lambda = chosen_lambda(reinsch, stamps, one_axis, criterion);
     report.count(std::string("lambda_") + "xyz"[axis], lambda);
-    const Reinsch::Fit fit = reinsch.fit(alone, lambda);
+    const Reinsch::Fit fit = reinsch.fit(one_axis, lambda);
     if (axis == 0) {
       out = fit;
       out.free = 0.0;
@@ -110,7 +110,8 @@ Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
 }  // namespace
 
 std::optional<std::string> SmoothingSpline::declines(const Problem& problem) const {
-  if (problem.keyframes.size() < 3) return "fewer than 3 keyframes bend nowhere";
+  if (problem.keyframes.size() < 3)
+    return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
   return std::nullopt;
 }
 
@@ -131,16 +132,16 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
     positions = reinsch.fit(points, lambda);
   }
   report.count("free_t", size - positions.free);
-  auto where = std::make_unique<Places>(times, knots(positions));
+  auto position_curve = std::make_unique<PositionSpline>(times, knots(positions));
   if (options_.rotation == Turn::slerp) {
-    return std::make_unique<TwoCurves>(std::move(where),
+    return std::make_unique<TwoCurves>(std::move(position_curve),
                                        std::make_unique<Polyline>(problem.keyframes));
   }
 
-  // The first rounds move the data's flat image; once chosen on a settled one, lambda is kept.
+  // The first rounds change the unrolled data; after kChoices rounds lambda is kept.
   double lambda = options_.lambda_r.value_or(0.0);
   int rounds = 0;
-  const auto turned =
+  const auto rotation =
       smoothed_rotations(attitudes(problem.keyframes), [&](const std::vector<Vector3>& flat) {
         constexpr int kChoices = 3;
         if (!options_.lambda_r && rounds++ < kChoices) {
@@ -149,11 +150,12 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
         return reinsch.fit(flat, lambda);
       });
   report.count("lambda_r", lambda);
-  report.count("free_r", size - turned.fit.free);
-  report.count("iterations", turned.iterations);
-  if (!turned.settled) report.notes.push_back("the attitude did not settle");
+  report.count("free_r", size - rotation.fit.free);
+  report.count("iterations", rotation.iterations);
+  if (!rotation.settled) report.notes.push_back("the rotation fit did not converge");
   return std::make_unique<TwoCurves>(
-      std::move(where), std::make_unique<Attitudes>(times, turned.path, knots(turned.fit)));
+      std::move(position_curve),
+      std::make_unique<RotationSpline>(times, rotation.path, knots(rotation.fit)));
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// The penalised cubic smoothing spline, its stiffness chosen from the data.
+/// Penalised cubic smoothing spline with a penalty chosen from the data.
 #pragma once
 
 #include "methods/method.hpp"
@@ -6,14 +6,14 @@
 
 namespace loopbench {
 
-/// Minimises sum |y_i - f(t_i)|^2 + lambda int |f''|^2 over position, and the same over attitude
-/// with great-arc distance and angular acceleration (unrolled.hpp: flattened, smoothed, rolled up
-/// until it stands still). lambda by generalised cross-validation or restricted maximum likelihood,
-/// for position and attitude apart. GCV is the default: on a motion that is smooth rather than a
-/// random walk of velocity, the likelihood smooths too little (Wahba 1985). The curve is C2 in
-/// position, C1 in attitude. White noise on the keyframes is what it removes; of a slow drift both
-/// criteria see nothing. O(n) for each of some 35 values of lambda, O(1) amortised to ask. Source:
-/// Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
+/// Minimises sum |y_i - f(t_i)|^2 + lambda int |f''|^2 over positions, and the same over rotations
+/// with geodesic distance and angular acceleration (unrolled.hpp: unrolled to R^3, smoothed, rolled
+/// back, iterated to convergence). lambda is chosen by generalised cross-validation or restricted
+/// maximum likelihood, separately for position and rotation. GCV is the default: if the motion is
+/// smooth rather than a random walk in velocity, the likelihood smooths too little (Wahba 1985).
+/// The curve is C2 in position and C1 in rotation. The method removes white noise of the keyframes;
+/// neither criterion detects slow drift. O(n) for each of about 35 values of lambda, O(1) amortised
+/// per query. Sources: Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
 class SmoothingSpline final : public Smoother {
  public:
   enum class Axes { joint, each };
@@ -29,9 +29,9 @@ class SmoothingSpline final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` when axes are apart), `free_t`,
-  /// `free_r` (degrees of freedom an axis, of n), `iterations` of the attitude. A note when the
-  /// attitude does not settle.
+  /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` with axes: each); `free_t`,
+  /// `free_r`, residual degrees of freedom per axis, of n; `iterations` of the rotation fit. Adds a
+  /// note when the rotation fit does not converge.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -49,11 +49,25 @@ inline auto choices(SmoothingSpline::Turn) {
 
 template <class Visit>
 void fields(SmoothingSpline::Options& o, Visit visit) {
-  visit("criterion", o.criterion, "how lambda is chosen");
-  visit("lambda_t", o.lambda_t, "of position [s^3]; none: by the criterion", Above{0.0});
-  visit("lambda_r", o.lambda_r, "of attitude [s^3]; none: by the criterion", Above{0.0});
-  visit("axes", o.axes, "each: a lambda for each axis of the world, whose choice then matters");
-  visit("rotation", o.rotation, "slerp: keyframes kept, great arcs; spline: smoothed too");
+  visit("criterion",
+        o.criterion,
+        "selection criterion of lambda: generalised cross-validation or restricted maximum "
+        "likelihood");
+  visit("lambda_t",
+        o.lambda_t,
+        "penalty on acceleration [s^3]; none: chosen by the criterion",
+        Above{0.0});
+  visit("lambda_r",
+        o.lambda_r,
+        "penalty on angular acceleration [s^3]; none: chosen by the criterion",
+        Above{0.0});
+  visit("axes",
+        o.axes,
+        "joint: one lambda for all position axes; each: one per world axis, so the result depends "
+        "on the world frame");
+  visit("rotation",
+        o.rotation,
+        "slerp: rotations not smoothed, great arcs between keyframes; spline: smoothed");
 }
 
 }  // namespace loopbench

@@ -8,7 +8,8 @@ namespace loopbench {
 
 std::optional<std::string> SplineRegression::declines(const Problem& problem) const {
   if (problem.keyframes.size() >= static_cast<std::size_t>(options_.order)) return std::nullopt;
-  return "fewer keyframes than the order, " + std::to_string(options_.order);
+  return std::to_string(problem.keyframes.size()) + " keyframes, fewer than the order " +
+         std::to_string(options_.order);
 }
 
 std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
@@ -18,7 +19,7 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
       static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
   std::vector<Pose> controls = controls_along(basis, keyframes);
   SplineProblem fit;
-  // Near the origin, so that a far world costs no digits.
+  // Positions relative to the first keyframe, to avoid rounding errors far from the world origin.
   const Vector3 origin = keyframes.front().world_from_body.translation;
   for (Pose& control : controls) control.translation -= origin;
   for (const auto& [stamp, pose] : keyframes) {
@@ -29,7 +30,8 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);
   report.count("cost", summary.cost);
-  if (!summary.converged) report.notes.push_back("iterations ran out before it converged");
+  if (!summary.converged)
+    report.notes.push_back("stopped at the iteration limit before convergence");
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 

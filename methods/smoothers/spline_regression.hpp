@@ -1,4 +1,4 @@
-/// A cumulative B-spline with fewer controls than keyframes, fitted to them by least squares.
+/// Least-squares fit of a cumulative B-spline with fewer controls than keyframes.
 #pragma once
 
 #include "methods/method.hpp"
@@ -6,10 +6,11 @@
 namespace loopbench {
 
 /// Minimises sum |p(t_i) - p_i|^2 and sum |Log(R_i' R(t_i))|^2 over the controls of the spline of
-/// order k on SO(3) x R^3 (spline/curve.hpp). Its knots, `knots_per_keyframe` of them, are all that
-/// smooths: a motion that they cannot follow is cut off, whatever the noise. 1 is `b_spline`.
-/// O(n k^2) an iteration, a handful of iterations; O(k^2) amortised to ask.
-/// Source: de Boor, ch. XIV; Kim, Kim & Shin 1995; Sommer et al., CVPR 2020.
+/// order k on SO(3) x R^3 (spline/curve.hpp). Smoothing is determined only by the number of knots,
+/// `knots_per_keyframe` times the number of keyframes: motion faster than the knot spacing is
+/// removed regardless of the noise. A value of 1 equals `b_spline`. O(n k^2) per iteration, a few
+/// iterations; O(k^2) amortised per query. Source: de Boor, ch. XIV; Kim, Kim & Shin 1995; Sommer
+/// et al., CVPR 2020.
 class SplineRegression final : public Smoother {
  public:
   struct Options {
@@ -20,7 +21,7 @@ class SplineRegression final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `controls`, `iterations`, `cost` (half the sum of both [m^2, rad^2]).
+  /// Counts: `controls`, `iterations`, `cost` (half the sum of both terms [m^2, rad^2]).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -29,8 +30,11 @@ class SplineRegression final : public Smoother {
 
 template <class Visit>
 void fields(SplineRegression::Options& o, Visit visit) {
-  visit("order", o.order, "of the spline, its degree plus one", Between{2, 6});
-  visit("knots_per_keyframe", o.knots_per_keyframe, "1 interpolates", Between{0.01, 1.0});
+  visit("order", o.order, "order of the spline (degree plus one)", Between{2, 6});
+  visit("knots_per_keyframe",
+        o.knots_per_keyframe,
+        "number of knots per keyframe; 1 interpolates the keyframes [-]",
+        Between{0.01, 1.0});
 }
 
 }  // namespace loopbench

@@ -13,9 +13,10 @@
 namespace loopbench {
 namespace {
 
-class Joined final : public Curve {
+class JoinedCurve final : public Curve {
  public:
-  explicit Joined(std::vector<std::unique_ptr<const Curve>> pieces) : pieces_(std::move(pieces)) {
+  explicit JoinedCurve(std::vector<std::unique_ptr<const Curve>> pieces)
+      : pieces_(std::move(pieces)) {
     for (const auto& piece : pieces_) begins_.push_back(piece->start());
     begins_.push_back(pieces_.back()->end());
   }
@@ -38,7 +39,7 @@ class Joined final : public Curve {
 
  private:
   std::vector<std::unique_ptr<const Curve>> pieces_;
-  std::vector<double> begins_;  ///< of each piece, and the end of the last
+  std::vector<double> begins_;  ///< start of each piece, and the end of the last
 };
 
 Trajectory part_of(const Trajectory& poses, const Stretch& stretch) {
@@ -52,7 +53,7 @@ double step_angle(const Trajectory& poses, std::size_t i) {
 
 using Solve = std::function<std::unique_ptr<const Curve>(const Trajectory&)>;
 
-void add_attitudes(const Trajectory& poses,
+void add_rotations(const Trajectory& poses,
                    const Stretch& stretch,
                    const Solve& solve,
                    std::vector<std::unique_ptr<const Curve>>& parts) {
@@ -68,8 +69,8 @@ void add_attitudes(const Trajectory& poses,
   for (std::size_t i = stretch.first; i < stretch.last; ++i) {
     if (step_angle(poses, i) > step_angle(poses, largest)) largest = i;
   }
-  add_attitudes(poses, {stretch.first, largest}, solve, parts);
-  add_attitudes(poses, {largest + 1, stretch.last}, solve, parts);
+  add_rotations(poses, {stretch.first, largest}, solve, parts);
+  add_rotations(poses, {largest + 1, stretch.last}, solve, parts);
 }
 
 }  // namespace
@@ -98,15 +99,16 @@ std::vector<Stretch> stretches(std::size_t poses, const std::function<bool(std::
 
 std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> parts) {
   std::vector<std::unique_ptr<const Curve>> pieces;
-  std::optional<StampedPose> reached;
+  std::optional<StampedPose> previous_end;
   for (auto& part : parts) {
     const StampedPose begin{part->start(), part->at(part->start())};
     const StampedPose end{part->end(), part->at(part->end())};
-    if (reached) pieces.push_back(std::make_unique<Polyline>(Trajectory{*reached, begin}));
+    if (previous_end)
+      pieces.push_back(std::make_unique<Polyline>(Trajectory{*previous_end, begin}));
     if (begin.stamp < end.stamp) pieces.push_back(std::move(part));
-    reached = end;
+    previous_end = end;
   }
-  return std::make_unique<Joined>(std::move(pieces));
+  return std::make_unique<JoinedCurve>(std::move(pieces));
 }
 
 std::unique_ptr<const Curve> smoothed_apart(
@@ -120,15 +122,15 @@ std::unique_ptr<const Curve> smoothed_apart(
   std::vector<Count> counts;
   std::size_t longest = 0;
   for (const Stretch& stretch : stretches) {
-    Report own;
-    parts.push_back(smooth(part_of(poses, stretch), own));
-    std::ranges::move(own.phases, std::back_inserter(report.phases));
-    std::ranges::move(own.sections, std::back_inserter(report.sections));
-    std::ranges::move(own.notes, std::back_inserter(report.notes));
+    Report part_report;
+    parts.push_back(smooth(part_of(poses, stretch), part_report));
+    std::ranges::move(part_report.phases, std::back_inserter(report.phases));
+    std::ranges::move(part_report.sections, std::back_inserter(report.sections));
+    std::ranges::move(part_report.notes, std::back_inserter(report.notes));
     const std::size_t size = stretch.last - stretch.first + 1;
     if (size > longest) {
       longest = size;
-      counts = std::move(own.counts);
+      counts = std::move(part_report.counts);
     }
   }
   std::ranges::move(counts, std::back_inserter(report.counts));
@@ -151,12 +153,12 @@ std::unique_ptr<const Curve> attitudes_apart(const Trajectory& poses,
   std::vector<std::unique_ptr<const Curve>> parts;
   const auto cut =
       stretches(poses.size(), [&](std::size_t i) { return step_angle(poses, i) > kLarge; });
-  for (const Stretch& stretch : cut) add_attitudes(poses, stretch, solve, parts);
+  for (const Stretch& stretch : cut) add_rotations(poses, stretch, solve, parts);
   report.count("great_arcs", static_cast<double>(parts.size() - 1));
-  report.notes.push_back(
-      fmt::format("no attitude spline through all keyframes: {} of {} intervals are great arcs",
-                  parts.size() - 1,
-                  poses.size() - 1));
+  report.notes.push_back(fmt::format(
+      "no rotation spline through all keyframes exists: {} of {} intervals are great arcs",
+      parts.size() - 1,
+      poses.size() - 1));
   return joined(std::move(parts));
 }
 

@@ -1,4 +1,4 @@
-/// Trajectories cut where no smooth curve is meant, and curves put together again with chords.
+/// Splits trajectories at intervals that no smooth curve should bridge, and joins curves by chords.
 #pragma once
 
 #include <functional>
@@ -10,26 +10,29 @@
 
 namespace loopbench {
 
-/// Poses first .. last, both included.
+/// Segment of consecutive poses first .. last, both included.
 struct Stretch {
   std::size_t first, last;
 
   bool operator==(const Stretch&) const = default;
 };
 
-/// Median time between consecutive poses [s]; two poses or more. O(n).
+/// Returns the median time between consecutive poses [s]. Requires at least two poses. O(n).
 double median_interval(const Trajectory& poses);
 
-/// The poses without the intervals for which `cut(i)`, i to i + 1, holds. One pose or more. O(n).
+/// Splits at least one pose into segments at the intervals (i, i + 1) for which `cut(i)` holds.
+/// O(n).
 std::vector<Stretch> stretches(std::size_t poses, const std::function<bool(std::size_t)>& cut);
 
-/// The parts, in the order of time and without overlap, joined by straight lines and great arcs
-/// from the end of each to the start of the next: chords. At least two different times.
+/// Joins the parts by chords: straight lines and great arcs from the end of each part to the start
+/// of the next. The parts must be in order of time, must not overlap, and must contain at least two
+/// different times.
 std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> parts);
 
-/// Smooths each stretch on its own and joins the results. Counts of `report` are those of the
-/// longest stretch, and `chords`; phases, sections and notes are those of all, and a note names
-/// `reason` and where the first chord is. With one stretch, exactly `smooth` of everything.
+/// Smooths each segment separately and joins the results. `report` gets the counts of the longest
+/// segment, the count `chords`, the phases, sections and notes of all segments, and a note with
+/// `reason` and the location of the first chord. With one segment the result is exactly that of
+/// `smooth`.
 std::unique_ptr<const Curve> smoothed_apart(
     const Trajectory& poses,
     const std::vector<Stretch>& stretches,
@@ -37,9 +40,10 @@ std::unique_ptr<const Curve> smoothed_apart(
     Report& report,
     const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth);
 
-/// Attitudes that one curve cannot follow: cut at every step above 2 rad, then where the solution
-/// still fails at its largest step. `solve` gives a curve through the poses, or null. A great arc
-/// joins what was cut, with a note. Positions are not meant. O(n) solves at worst.
+/// Interpolates rotations that a single curve cannot follow. Splits the trajectory at every step
+/// above 2 rad, and where `solve` still fails at the largest step. `solve` returns a curve through
+/// the poses, or null. Great arcs join the parts, with a note. Positions are ignored. O(n) calls of
+/// `solve` in the worst case.
 std::unique_ptr<const Curve> attitudes_apart(
     const Trajectory& poses,
     Report& report,

@@ -1,4 +1,4 @@
-/// The tracked frames between the keyframes: the estimate that a system leaves before any
+/// Uses the tracked frames between the keyframes: the trajectory of the SLAM system before any
 /// smoothing.
 #pragma once
 
@@ -7,24 +7,24 @@
 
 namespace loopbench {
 
-/// Straight lines and great arcs through keyframes and frames. A corrector before it moves every
-/// frame with the corrections of the two keyframes around it, blended by time (with_keyframes), so
-/// that frames stay attached to the corrected keyframes. A smoother of keyframes earns its place
-/// when it beats this, not the polyline of the keyframes alone. Without frames the curve is that
-/// polyline. O(keyframes + frames) to make, O(1) amortised to ask.
+/// Linear interpolation and slerp through keyframes and tracked frames. A preceding corrector moves
+/// every frame with the corrections of the two keyframes around it, interpolated by time
+/// (with_keyframes), so frames stay attached to the corrected keyframes. This is the baseline for
+/// smoothers of keyframes, rather than the polyline of the keyframes alone. Without frames the
+/// curve equals that polyline. O(keyframes + frames) to construct, O(1) amortised per query.
 class TrackedFrames final : public Smoother {
  public:
   struct Options {};
   explicit TrackedFrames(const Options&) {}
 
-  /// Without keyframes, or without a tracked frame between them.
+  /// Declines problems without keyframes, or without a tracked frame between them.
   std::optional<std::string> declines(const Problem& problem) const override {
     if (problem.keyframes.empty()) return "no keyframes";
     if (with_frames(problem).size() > problem.keyframes.size()) return std::nullopt;
     return "no tracked frames between the keyframes";
   }
 
-  /// Counts the frames used as `frames`.
+  /// Counts: `frames`, the number of frames used.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
     Trajectory poses = with_frames(problem);
     report.count("frames", static_cast<double>(poses.size() - problem.keyframes.size()));
@@ -32,7 +32,7 @@ class TrackedFrames final : public Smoother {
   }
 
  private:
-  /// Keyframes and the frames strictly between them, by stamp.
+  /// Returns the keyframes and the frames strictly between them, sorted by stamp.
   static Trajectory with_frames(const Problem& problem) {
     Trajectory out;
     out.reserve(problem.keyframes.size() + problem.frames.size());

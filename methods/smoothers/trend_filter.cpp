@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-struct Chosen {
+struct TrendChoice {
   Trend::Fit fit;
   double lambda = 0.0;  ///< [unit times mean intervals]
   int iterations = 0;
@@ -25,39 +25,40 @@ double extent_of(const std::vector<Vector3>& y) {
   return out;
 }
 
-/// log of GCV, or BIC / N when the fit is not pulled by a penalty; less is better.
+/// Returns log GCV, or BIC / N for a refitted (unpenalised) fit; lower is better.
 double score(const std::vector<Vector3>& y, const Trend::Fit& fit, double extent, bool refitted) {
   double squares = 0.0;
   for (std::size_t i = 0; i < y.size(); ++i) squares += (y[i] - fit.values[i]).squaredNorm();
   const auto size = 3.0 * static_cast<double>(y.size());
   const auto used = 3.0 * static_cast<double>(fit.kinks.size() + 2) / size;
-  // What is exact to rounding is exact: there, fewer kinks win.
+  // Residuals at rounding level count as equal, so that the fit with fewer kinks is preferred.
   const double rounding = 1e-9 * extent;
   const double fidelity = std::log(squares / size + rounding * rounding + 1e-300);
   if (refitted) return fidelity + used * std::log(size);
-  if (used >= 1.0) return std::numeric_limits<double>::infinity();  // nothing is left to judge by
+  if (used >= 1.0)
+    return std::numeric_limits<double>::infinity();  // no residual degrees of freedom
   return fidelity - 2.0 * std::log(1.0 - used);
 }
 
-constexpr int kSteps = 24;  // of the path of lambda, four a decade
+constexpr int kSteps = 24;  // number of values of lambda, four per decade
 
-/// The straight line of regression, which every lambda from `straight_from` up gives.
+/// The regression line, which is the fit for every lambda >= trend.straight_from(y).
 Trend::Fit line(const Trend& trend, const std::vector<Vector3>& y) {
   return {trend.refitted(y, {}), {}, 0, true};
 }
 
-Chosen chosen(const Trend& trend,
-              const std::vector<Vector3>& y,
-              const TrendFilter::Options& options) {
+TrendChoice choose_fit(const Trend& trend,
+                       const std::vector<Vector3>& y,
+                       const TrendFilter::Options& options) {
   const Trend::Settings settings{options.tolerance, options.max_iterations};
   const double extent = extent_of(y);
   const double straight = trend.straight_from(y);
   if (straight <= 1e-9 * extent) return {line(trend, y)};
-  // On a lattice, so that rounding decides nothing.
+  // lambda lies on a fixed lattice, so that rounding does not change the choice.
   const double top = std::pow(10.0, std::ceil(4.0 * std::log10(straight)) / 4.0);
 
-  Chosen best{line(trend, y), top};
-  double least = score(y, best.fit, extent, options.refit);
+  TrendChoice best{line(trend, y), top};
+  double lowest = score(y, best.fit, extent, options.refit);
   const auto fitted = [&](double lambda) {
     Trend::Fit fit = trend.fit(y, lambda, settings);
     best.iterations += fit.iterations;
@@ -74,9 +75,9 @@ Chosen chosen(const Trend& trend,
     const double lambda = top * std::pow(10.0, -k / 4.0);
     Trend::Fit fit = fitted(lambda);
     if (options.refit && 2 * fit.kinks.size() > y.size()) break;
-    const double now = score(y, fit, extent, options.refit);
-    if (now >= least) continue;
-    least = now;
+    const double value = score(y, fit, extent, options.refit);
+    if (value >= lowest) continue;
+    lowest = value;
     best.lambda = lambda;
     best.fit = std::move(fit);
   }
@@ -86,7 +87,8 @@ Chosen chosen(const Trend& trend,
 }  // namespace
 
 std::optional<std::string> TrendFilter::declines(const Problem& problem) const {
-  if (problem.keyframes.size() < 3) return "fewer than 3 keyframes bend nowhere";
+  if (problem.keyframes.size() < 3)
+    return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
   return std::nullopt;
 }
 
@@ -94,7 +96,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   const std::vector<double> times = stamps(problem.keyframes);
   const Trend trend(times);
   Trajectory out = problem.keyframes;
-  const Chosen positions = chosen(trend, places(problem.keyframes), options_);
+  const TrendChoice positions = choose_fit(trend, places(problem.keyframes), options_);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].world_from_body.translation = positions.fit.values[i];
   }
@@ -104,35 +106,36 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   bool converged = positions.converged;
 
   if (options_.rotation == Turn::filtered) {
-    Chosen attitude;
+    TrendChoice rotation_choice;
     int rounds = 0;
-    // The first rounds move the data's flat image; then lambda, or the kinks, stand.
+    // The first rounds change the unrolled data; after kChoices rounds lambda, or the kinks, are
+    // kept.
     const auto fit_points = [&](const std::vector<Vector3>& flat) {
       constexpr int kChoices = 2;
       if (rounds++ < kChoices) {
-        attitude = chosen(trend, flat, options_);
-        iterations += attitude.iterations;
-        converged = converged && attitude.converged;
-      } else if (options_.refit || attitude.fit.kinks.empty()) {
-        attitude.fit.values = trend.refitted(flat, attitude.fit.kinks);
+        rotation_choice = choose_fit(trend, flat, options_);
+        iterations += rotation_choice.iterations;
+        converged = converged && rotation_choice.converged;
+      } else if (options_.refit || rotation_choice.fit.kinks.empty()) {
+        rotation_choice.fit.values = trend.refitted(flat, rotation_choice.fit.kinks);
       } else {
-        attitude.fit =
-            trend.fit(flat, attitude.lambda, {options_.tolerance, options_.max_iterations});
-        iterations += attitude.fit.iterations;
+        rotation_choice.fit =
+            trend.fit(flat, rotation_choice.lambda, {options_.tolerance, options_.max_iterations});
+        iterations += rotation_choice.fit.iterations;
       }
-      return attitude.fit;
+      return rotation_choice.fit;
     };
-    const double still = options_.refit ? 1e-11 : 1e-2 * options_.tolerance;
-    const auto turned = smoothed_rotations(attitudes(problem.keyframes), fit_points, still);
+    const double tolerance = options_.refit ? 1e-11 : 1e-2 * options_.tolerance;
+    const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].world_from_body.rotation = turned.path.rolled(i, 0.0, turned.fit.values[i]);
+      out[i].world_from_body.rotation = rotation.path.rolled(i, 0.0, rotation.fit.values[i]);
     }
-    report.count("kinks_r", static_cast<double>(turned.fit.kinks.size()));
-    report.count("lambda_r", attitude.lambda * trend.interval());
-    if (!turned.settled) report.notes.push_back("the attitude did not settle");
+    report.count("kinks_r", static_cast<double>(rotation.fit.kinks.size()));
+    report.count("lambda_r", rotation_choice.lambda * trend.interval());
+    if (!rotation.settled) report.notes.push_back("the rotation fit did not converge");
   }
   report.count("iterations", iterations);
-  if (!converged) report.notes.push_back("an interior-point solve ended before it converged");
+  if (!converged) report.notes.push_back("an interior-point solve stopped before convergence");
   return std::make_unique<Polyline>(std::move(out));
 }
 

@@ -1,4 +1,4 @@
-/// L1 trend filter: piecewise straight motion with as few bends as the data ask for.
+/// L1 trend filter: piecewise linear motion with a sparse set of velocity changes.
 #pragma once
 
 #include "methods/method.hpp"
@@ -6,16 +6,16 @@
 namespace loopbench {
 
 /// Minimises 1/2 sum |y_i - x_i|^2 + lambda sum |change of velocity| over positions, and the same
-/// over attitudes with great arcs for straight lines (unrolled.hpp), then joins the keyframes so
-/// found by straight lines and great arcs: right for what stops, goes and turns on the spot.
-/// lambda: a share of the least one that gives a straight line; or, with none, the best of a path
-/// from that one down to 1e-6 of it, four a decade, by GCV = (RSS / N) / (1 - df / N)^2, N = 3 n,
-/// df = 3 (kinks + 2). On a motion that is curved rather than piecewise straight, kinks are
-/// everywhere and steps are cut: other smoothers are better there.
-/// `refit` keeps the bends and fits the lines between them without penalty (the relaxed lasso), for
-/// motion known to be piecewise straight: chosen by BIC = N log(RSS / N) + df log N among fits with
-/// one kink for two keyframes at most. Near O(n): some 30 Newton steps for each lambda.
-/// Source: Kim, Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
+/// over rotations with great arcs instead of straight lines (unrolled.hpp). The resulting keyframes
+/// are joined by straight lines and great arcs. Suitable for vehicles that stop, start and rotate
+/// on the spot. lambda is a given share of the smallest value that yields a straight line. Without
+/// `share`, it is the best of 24 values from that one down to 1e-6 of it, four per decade, by GCV =
+/// (RSS / N) / (1 - df / N)^2, N = 3 n, df = 3 (kinks + 2). For curved rather than piecewise linear
+/// motion the fit has kinks everywhere; other smoothers are better there. `refit` keeps the kinks
+/// and refits the lines between them without penalty (relaxed lasso), for motion known to be
+/// piecewise linear. The fit is then chosen by BIC = N log(RSS / N) + df log N among fits with at
+/// most one kink per two keyframes. Nearly O(n): about 30 Newton steps per lambda. Source: Kim,
+/// Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
 class TrendFilter final : public Smoother {
  public:
   enum class Turn { slerp, filtered };
@@ -30,8 +30,8 @@ class TrendFilter final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `kinks_t`, `kinks_r`, `lambda_t` [m s], `lambda_r` [rad s], `iterations`
-  /// (Newton steps) in all. Notes when they or the attitude's rounds end before they converge.
+  /// Counts: `kinks_t`, `kinks_r`, `lambda_t` [m s], `lambda_r` [rad s], `iterations` (total Newton
+  /// steps). Adds notes when a solve or the rotation rounds stop before convergence.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -47,15 +47,21 @@ template <class Visit>
 void fields(TrendFilter::Options& o, Visit visit) {
   visit("share",
         o.share,
-        "of the lambda that gives a straight line; none: by GCV or BIC",
+        "lambda as a fraction of the smallest value that yields a straight line [-]; none: chosen "
+        "by GCV or BIC",
         Between{1e-6, 1});
-  visit("refit", o.refit, "keep the bends found, fit the lines between them without penalty");
+  visit("refit", o.refit, "keep the kinks found and refit the lines between them without penalty");
   visit("tolerance",
         o.tolerance,
-        "distance from the optimum over that from the data [-]",
+        "convergence threshold: distance from the optimum / distance from the data [-]",
         Between{1e-12, 0.1});
-  visit("max_iterations", o.max_iterations, "Newton steps for each lambda", Between{1, 1e6});
-  visit("rotation", o.rotation, "slerp: attitudes kept; filtered: as the positions are");
+  visit("max_iterations",
+        o.max_iterations,
+        "maximum number of Newton steps per lambda",
+        Between{1, 1e6});
+  visit("rotation",
+        o.rotation,
+        "slerp: rotations not filtered, great arcs between keyframes; filtered: like positions");
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Positions of one curve, attitudes of another over the same span.
+/// Combines the positions of one curve with the rotations of another over the same time span.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,10 @@ class TwoCurves final : public Curve {
   using Curve::sample;
   void sample(std::span<const double> times, std::span<Pose> poses) const override {
     attitudes_->sample(times, poses);
-    std::vector<Pose> places(times.size());
-    positions_->sample(times, places);
-    for (std::size_t k = 0; k < poses.size(); ++k) poses[k].translation = places[k].translation;
+    std::vector<Pose> translations(times.size());
+    positions_->sample(times, translations);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      poses[k].translation = translations[k].translation;
   }
 
  private:

@@ -22,7 +22,8 @@ Weights weights_of(const Edge& edge) {
           3.0 / covariance.topLeftCorner<3, 3>().trace()};
 }
 
-/// Unknowns are blocks of `size` rows for keyframes 1, 2, ..; keyframe 0 is given.
+/// Normal equations whose unknowns are blocks of `size` rows for keyframes 1, 2, ..; keyframe 0 is
+/// fixed.
 class System {
  public:
   System(std::size_t keyframes, Eigen::Index size)
@@ -30,11 +31,11 @@ class System {
         rows_(size * static_cast<Eigen::Index>(keyframes - 1)),
         right_(Rows::Zero(rows_, 3)) {}
 
-  /// weight |x_to - M x_from - c|^2 with M orthogonal (or 1), x_0 = first.
+  /// Adds weight |x_to - M x_from - c|^2, where M is orthogonal (or 1) and x_0 = first.
   template <class Square, class Block>
   void add(const Edge& edge, double weight, const Square& M, const Block& c, const Block& first) {
-    const Eigen::Index i = place(edge.from);
-    const Eigen::Index j = place(edge.to);  // never keyframe 0: from < to
+    const Eigen::Index i = row_of(edge.from);
+    const Eigen::Index j = row_of(edge.to);  // never keyframe 0: from < to
     diagonal(j, weight);
     right_.middleRows(j, size_) += weight * c;
     if (i < 0) {
@@ -54,14 +55,14 @@ class System {
     H.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor(H);
     if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) {
-      throw std::runtime_error(std::string("pose graph: the chordal system of ") + what +
-                               " is singular");
+      throw std::runtime_error(std::string("pose graph: the chordal relaxation of ") + what +
+                               " is singular; all keyframes must be connected by edges");
     }
     return factor.solve(right_);
   }
 
  private:
-  Eigen::Index place(std::size_t keyframe) const {
+  Eigen::Index row_of(std::size_t keyframe) const {
     return size_ * (static_cast<Eigen::Index>(keyframe) - 1);
   }
   void diagonal(Eigen::Index at, double weight) {
@@ -86,7 +87,7 @@ Rotation nearest_rotation(const Matrix3& M) {
 }
 
 template <class Visit>
-void each_edge(const Problem& problem, Visit visit) {
+void for_each_edge(const Problem& problem, Visit visit) {
   for (const Edge& edge : problem.odometry) visit(edge, weights_of(edge));
   for (const Edge& edge : problem.closures) visit(edge, weights_of(edge));
 }
@@ -100,14 +101,15 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   out[0].pose = problem.keyframes[0].world_from_body;
   if (n == 1) return out;
 
-  // R_j = R_i Z says R_j' = Z' R_i': unknown are the transposes, three rows a keyframe.
-  System turns(n, 3);
+  // R_j = R_i Z is equivalent to R_j' = Z' R_i': the unknowns are the transposes, three rows per
+  // keyframe.
+  System rotations(n, 3);
   const Matrix3 first = out[0].pose.rotation.toRotationMatrix().transpose();
-  each_edge(problem, [&](const Edge& edge, const Weights& w) {
-    const Matrix3 back = edge.from_from_to.rotation.toRotationMatrix().transpose();
-    turns.add(edge, w.kappa, back, Matrix3(Matrix3::Zero()), first);
+  for_each_edge(problem, [&](const Edge& edge, const Weights& w) {
+    const Matrix3 inverse_rotation = edge.from_from_to.rotation.toRotationMatrix().transpose();
+    rotations.add(edge, w.kappa, inverse_rotation, Matrix3(Matrix3::Zero()), first);
   });
-  const Rows transposed = turns.solve("rotations");
+  const Rows transposed = rotations.solve("rotations");
   for (std::size_t i = 1; i < n; ++i) {
     const Matrix3 M = transposed.middleRows<3>(3 * static_cast<Eigen::Index>(i - 1)).transpose();
     out[i].pose.rotation = nearest_rotation(M);
@@ -116,10 +118,10 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   using Row = Eigen::RowVector3d;
   const Eigen::Matrix<double, 1, 1> one = Eigen::Matrix<double, 1, 1>::Identity();
   bool has_scale = false;
-  each_edge(problem, [&](const Edge& edge, const Weights&) { has_scale |= edge.scale != 1.0; });
+  for_each_edge(problem, [&](const Edge& edge, const Weights&) { has_scale |= edge.scale != 1.0; });
   if (has_scale) {
     System scales(n, 1);
-    each_edge(problem, [&](const Edge& edge, const Weights&) {
+    for_each_edge(problem, [&](const Edge& edge, const Weights&) {
       const double weight = 1.0 / (scale_sigma * scale_sigma);
       scales.add(edge, weight, one, Row(std::log(edge.scale), 0.0, 0.0), Row(Row::Zero()));
     });
@@ -129,15 +131,16 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
     }
   }
 
-  System places(n, 1);
-  each_edge(problem, [&](const Edge& edge, const Weights& w) {
+  System translations(n, 1);
+  for_each_edge(problem, [&](const Edge& edge, const Weights& w) {
     const ScaledPose& from = out[edge.from];
     const Vector3 step = from.scale * (from.pose.rotation * edge.from_from_to.translation);
-    // A measurement in a unit twice as long is half as sure.
+    // The deviations of a measurement are in the scale of its first keyframe.
     const double weight = w.tau / (from.scale * from.scale);
-    places.add(edge, weight, one, Row(step.transpose()), Row(out[0].pose.translation.transpose()));
+    translations.add(
+        edge, weight, one, Row(step.transpose()), Row(out[0].pose.translation.transpose()));
   });
-  const Rows positions = places.solve("positions");
+  const Rows positions = translations.solve("positions");
   for (std::size_t i = 1; i < n; ++i) {
     out[i].pose.translation = positions.row(static_cast<Eigen::Index>(i - 1)).transpose();
   }

@@ -1,4 +1,4 @@
-/// What a pose graph's edge says about its two ends, and its derivatives, in any group.
+/// Residual of a pose-graph edge and its derivatives with respect to both poses, in any group.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// e = Log(Z^-1 X_i^-1 X_j), and its derivatives by d in X Exp(d).
+/// e = Log(Z^-1 X_i^-1 X_j) and its derivatives with respect to d in X Exp(d).
 template <class G>
 struct EdgeResidual {
   typename G::Tangent error;
@@ -21,14 +21,15 @@ typename G::Tangent edge_error_in(const typename G::Element& to_from_measured_fr
   return G::log(G::compose(to_from_measured_from, from_from_to));
 }
 
-/// `back` is Z^-1. X_i Exp(d): Exp(-d) X_i^-1 X_j = X_i^-1 X_j Exp(-Ad(X_j^-1 X_i) d).
+/// `to_from_measured_from` is Z^-1. For X_i Exp(d): Exp(-d) X_i^-1 X_j = X_i^-1 X_j Exp(-Ad(X_j^-1
+/// X_i) d).
 template <class G>
-EdgeResidual<G> edge_residual(const typename G::Element& back,
+EdgeResidual<G> edge_residual(const typename G::Element& to_from_measured_from,
                               const typename G::Element& from,
                               const typename G::Element& to) {
   const typename G::Element from_from_to = G::compose(G::inverse(from), to);
   EdgeResidual<G> out;
-  out.error = edge_error_in<G>(back, from_from_to);
+  out.error = edge_error_in<G>(to_from_measured_from, from_from_to);
   out.by_to = G::inverse_right_jacobian(out.error);
   out.by_from = -out.by_to * G::adjoint(G::inverse(from_from_to));
   return out;

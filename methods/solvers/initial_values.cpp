@@ -5,35 +5,36 @@
 namespace loopbench {
 namespace {
 
-/// Each keyframe's edges, one list after the other.
+/// Edges of each keyframe, stored as one concatenated list.
 struct Adjacency {
-  struct Way {
+  struct Incidence {
     const Edge* edge;
     bool is_odometry;
   };
   std::vector<std::size_t> begin;
-  std::vector<Way> ways;
+  std::vector<Incidence> incidences;
 
   explicit Adjacency(const Problem& problem) : begin(problem.keyframes.size() + 1, 0) {
-    const auto each = [&](auto visit) {
+    const auto visit_edges = [&](auto visit) {
       for (const Edge& edge : problem.odometry) visit(edge, true);
       for (const Edge& edge : problem.closures) visit(edge, false);
     };
-    each([&](const Edge& edge, bool) {
+    visit_edges([&](const Edge& edge, bool) {
       ++begin[edge.from + 1];
       ++begin[edge.to + 1];
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    ways.resize(begin.back());
+    incidences.resize(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    each([&](const Edge& edge, bool is_odometry) {
-      ways[next[edge.from]++] = {&edge, is_odometry};
-      ways[next[edge.to]++] = {&edge, is_odometry};
+    visit_edges([&](const Edge& edge, bool is_odometry) {
+      incidences[next[edge.from]++] = {&edge, is_odometry};
+      incidences[next[edge.to]++] = {&edge, is_odometry};
     });
   }
 };
 
-/// Visits keyframes from 0 on with the edge that led there: odometry before closures.
+/// Traverses a spanning tree from keyframe 0, odometry before closures. Calls `visit` for each
+/// reached keyframe with the edge that reached it; returns which keyframes were reached.
 template <class Visit>
 std::vector<bool> walk_tree(const Problem& problem, Visit visit) {
   const Adjacency graph(problem);
@@ -43,21 +44,21 @@ std::vector<bool> walk_tree(const Problem& problem, Visit visit) {
     std::size_t from;
     const Edge* edge;
   };
-  std::deque<Step> waiting{{0, 0, nullptr}};
-  while (!waiting.empty()) {
-    const Step step = waiting.front();
-    waiting.pop_front();
+  std::deque<Step> queue{{0, 0, nullptr}};
+  while (!queue.empty()) {
+    const Step step = queue.front();
+    queue.pop_front();
     if (reached[step.to]) continue;
     reached[step.to] = true;
     if (step.edge != nullptr) visit(*step.edge, step.from, step.to);
     for (std::size_t w = graph.begin[step.to]; w < graph.begin[step.to + 1]; ++w) {
-      const auto& [edge, is_odometry] = graph.ways[w];
+      const auto& [edge, is_odometry] = graph.incidences[w];
       const std::size_t other = edge->from == step.to ? edge->to : edge->from;
       if (reached[other]) continue;
       if (is_odometry) {
-        waiting.push_front({other, step.to, edge});
+        queue.push_front({other, step.to, edge});
       } else {
-        waiting.push_back({other, step.to, edge});
+        queue.push_back({other, step.to, edge});
       }
     }
   }

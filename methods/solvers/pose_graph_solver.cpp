@@ -14,8 +14,9 @@
 namespace loopbench {
 namespace {
 
-/// X * Exp(d). Cost functions put their derivative by d into the first columns of the ambient
-/// Jacobian, so that this one is a plain projection: no chain through quaternion entries.
+/// X * Exp(d). Cost functions write their derivative with respect to d into the first columns of
+/// the ambient Jacobian, so this Jacobian is a projection and no derivatives of quaternion entries
+/// are needed.
 template <class G>
 class RightPerturbation final : public ceres::Manifold {
  public:
@@ -43,7 +44,7 @@ class RightPerturbation final : public ceres::Manifold {
   }
 };
 
-/// root * e with Omega = root' root.
+/// Residual root * e with Omega = root' root.
 template <class G>
 class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSize> {
  public:
@@ -51,8 +52,9 @@ class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSi
       : back_(G::inverse(G::from(measured(edge)))) {
     const Eigen::LLT<typename G::Square> factor(weight * G::information(edge, scale_sigma));
     if (factor.info() != Eigen::Success) {
-      throw std::runtime_error("pose graph: information of edge " + std::to_string(edge.from) +
-                               " - " + std::to_string(edge.to) + " is not positive definite");
+      throw std::runtime_error("pose graph: the information matrix of edge " +
+                               std::to_string(edge.from) + " - " + std::to_string(edge.to) +
+                               " is not positive definite");
     }
     root_ = factor.matrixU();
   }
@@ -84,7 +86,7 @@ class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSi
   typename G::Square root_;
 };
 
-/// rho and its two derivatives; x is the squared residual.
+/// rho and its first two derivatives; x is the squared residual.
 class DynamicCovarianceScaling final : public ceres::LossFunction {
  public:
   explicit DynamicCovarianceScaling(double width) : width_(width) {}
@@ -103,9 +105,9 @@ class DynamicCovarianceScaling final : public ceres::LossFunction {
   double width_;
 };
 
-class SolvedSwitch final : public ceres::LossFunction {
+class SwitchableConstraint final : public ceres::LossFunction {
  public:
-  explicit SolvedSwitch(double width) : width_(width) {}
+  explicit SwitchableConstraint(double width) : width_(width) {}
   void Evaluate(double x, double rho[3]) const override {
     const double sum = width_ + x;
     const double s = width_ / sum;  // the switch
@@ -128,7 +130,7 @@ std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& settings
     case Loss::dcs:
       return std::make_unique<DynamicCovarianceScaling>(width);
     case Loss::switchable:
-      return std::make_unique<SolvedSwitch>(width);
+      return std::make_unique<SwitchableConstraint>(width);
   }
   return nullptr;
 }
@@ -138,43 +140,43 @@ ceres::Solver::Options solver_options(const PoseGraphSettings& settings) {
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = settings.max_iterations;
   options.function_tolerance = settings.tolerance;
-  // The cost decides when to stop: a gradient's size depends on units, a step's on the way's
-  // length.
+  // Only the change of the cost ends the iterations: gradients depend on units, and steps on the
+  // length of the trajectory.
   options.gradient_tolerance = 1e-16;
   options.parameter_tolerance = 1e-16;
-  // Long chains have directions a billion times weaker than their diagonal: Ceres's usual damping
-  // of 1e-4 would crawl along them. A step that fails shrinks the region soon enough.
+  // Long chains have directions with 1e-9 of the stiffness of their diagonal, along which Ceres's
+  // default damping of 1e-4 converges very slowly. Unsuccessful steps shrink the region quickly.
   options.initial_trust_region_radius = 1e12;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;
 }
 
-/// The last steps were refused although they were no mere rounding: the cost is flat to its own
-/// rounding, and the poses not yet still. On long chains a millionth of a millionth of the cost is
-/// a tenth of a millimetre.
+/// Whether the last steps were rejected although they exceed rounding: the cost is flat to its
+/// rounding error, but the poses have not converged. On long chains 1e-12 of the cost corresponds
+/// to a tenth of a millimetre.
 bool stalled(const ceres::Solver::Summary& summary) {
-  constexpr double kStill = 1e-6;  // [m], [rad], all poses together
+  constexpr double kConverged = 1e-6;  // [m], [rad], norm over all poses
   if (summary.termination_type != ceres::CONVERGENCE) return false;
-  double refused = 0.0;
+  double rejected = 0.0;
   for (auto last = summary.iterations.rbegin(); last != summary.iterations.rend(); ++last) {
     if (last->step_is_successful) break;
-    refused = last->step_norm;  // the earliest of them, least damped
+    rejected = last->step_norm;  // ends with the earliest of them, which is damped least
   }
-  return refused > kStill;
+  return rejected > kConverged;
 }
 
-/// A few steps more that need not lower the cost one by one.
+/// Options for a few more steps that may raise the cost.
 ceres::Solver::Options polishing_options(const PoseGraphSettings& settings) {
-  constexpr int kMost = 50;
+  constexpr int kMaxIterations = 50;
   ceres::Solver::Options options = solver_options(settings);
-  options.max_num_iterations = std::min(kMost, settings.max_iterations);
+  options.max_num_iterations = std::min(kMaxIterations, settings.max_iterations);
   options.use_nonmonotonic_steps = true;
   return options;
 }
 
-/// Everything is seen from pose 0: far from the world's origin costs no digits, and a plane that
-/// is tilted in the world is none here.
+/// Poses are expressed relative to pose 0: a large distance from the world origin costs no
+/// precision, and the motion plane need not be horizontal in the world.
 template <class G>
 PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
                           const std::vector<Edge>& odometry,
@@ -185,11 +187,11 @@ PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
   const ScaledPose first_from_world = world_from_first.inverse();
   RightPerturbation<G> manifold;
   const auto loss = make_loss(settings);
-  ceres::Problem::Options ours;
-  ours.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ours.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ours.disable_all_safety_checks = true;
-  ceres::Problem problem(ours);
+  ceres::Problem::Options problem_options;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.disable_all_safety_checks = true;
+  ceres::Problem problem(problem_options);
   std::vector<std::array<double, static_cast<std::size_t>(G::kSize)>> blocks(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     G::write(G::from(first_from_world * poses[i]), blocks[i].data());
@@ -233,10 +235,11 @@ std::vector<double> squared_in(const std::vector<ScaledPose>& poses,
   std::vector<double> out;
   out.reserve(edges.size());
   const ScaledPose first_from_world = poses.front().inverse();
-  const auto place = [&](std::size_t i) { return G::from(first_from_world * poses[i]); };
+  const auto relative_pose = [&](std::size_t i) { return G::from(first_from_world * poses[i]); };
   for (const Edge& edge : edges) {
     const auto back = G::inverse(G::from(measured(edge)));
-    const auto from_from_to = G::compose(G::inverse(place(edge.from)), place(edge.to));
+    const auto from_from_to =
+        G::compose(G::inverse(relative_pose(edge.from)), relative_pose(edge.to));
     const typename G::Tangent e = edge_error_in<G>(back, from_from_to);
     out.push_back(e.dot(G::information(edge, scale_sigma) * e));
   }

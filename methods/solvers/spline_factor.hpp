@@ -1,4 +1,4 @@
-/// What a measurement says about the controls of a cumulative B-spline on SO(3) x R^3.
+/// Residuals of measurements as functions of the controls of a cumulative B-spline on SO(3) x R^3.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace loopbench {
 
-/// "At this time the pose was this": e = [p(t) - p; Log(R' R(t))].
+/// Pose measurement at a time: e = [p(t) - p; Log(R' R(t))].
 struct PoseAt {
   double time;
   Pose pose;
 };
 
-/// An edge between two times: e = Log(Z^-1 X(from)^-1 X(to)).
+/// Relative pose measurement between two times: e = Log(Z^-1 X(from)^-1 X(to)).
 struct EdgeBetween {
   double from, to;
   Edge edge;
@@ -23,33 +23,34 @@ struct EdgeBetween {
 
 class SplineFactor {
  public:
-  /// Times within the breaks of the basis.
+  /// The times must lie within the breaks of the basis.
   SplineFactor(const SplineBasis& basis, const PoseAt& measured);
   SplineFactor(const SplineBasis& basis, const EdgeBetween& measured);
 
-  /// The controls that have a say, ascending: k, or up to 2 k of them for an edge.
+  /// Indices of the controls that affect the residual, ascending: k, or up to 2 k for an edge.
   const std::vector<std::size_t>& controls() const { return controls_; }
 
   struct Residual {
     Twist error;
-    std::vector<Matrix6> by_control;  ///< by [d; a] in [p + d; Exp(a) R], in their order
+    /// Derivatives by [d; a] in [p + d; Exp(a) R], in the order of controls().
+    std::vector<Matrix6> by_control;
   };
-  /// `controls[i]` is the control named by controls()[i]. O(k).
+  /// Evaluates the residual. `controls[i]` is the control with index controls()[i]. O(k).
   Residual evaluate(const std::vector<Pose>& controls) const;
 
  private:
   struct Time {
-    std::size_t at;  ///< of the first of `order` controls in controls_
+    std::size_t at;  ///< position in controls_ of the first of `order` controls
     SplineBasis::Values values, cumulative;
   };
-  struct Here;
-  Here pose_at(const Time& time, const std::vector<Pose>& controls) const;
-  void name_controls(std::vector<std::size_t> firsts);
+  struct PoseDerivative;
+  PoseDerivative pose_at(const Time& time, const std::vector<Pose>& controls) const;
+  void collect_controls(std::vector<std::size_t> firsts);
 
   std::size_t order_;
   std::vector<std::size_t> controls_;
-  Time from_{};  ///< of a pose, or where an edge starts
-  std::optional<Time> to_;
+  Time from_{};             ///< time of a pose, or start time of an edge
+  std::optional<Time> to_;  ///< end time of an edge
   Pose measured_;
 };
 

@@ -21,16 +21,16 @@ void write(const Pose& pose, double* block) {
   translation = pose.translation;
 }
 
-/// [p + d; Exp(a) R]. Cost functions put their derivative by [d; a] into the first six columns of
-/// the ambient Jacobian, so that this one is a plain projection.
+/// Perturbation [p + d; Exp(a) R]. Cost functions write their derivative with respect to [d; a]
+/// into the first six columns of the ambient Jacobian, so this Jacobian is a projection.
 class SplitPerturbation final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }
   int TangentSize() const override { return 6; }
   bool Plus(const double* x, const double* d, double* out) const override {
     const Pose pose = read(x);
-    const Vector3 turn(d[3], d[4], d[5]);
-    write({(exp_so3(turn) * pose.rotation).normalized(),
+    const Vector3 rotation(d[3], d[4], d[5]);
+    write({(exp_so3(rotation) * pose.rotation).normalized(),
            pose.translation + Vector3(d[0], d[1], d[2])},
           out);
     return true;
@@ -52,7 +52,7 @@ class SplitPerturbation final : public ceres::Manifold {
   }
 };
 
-/// root * e with Omega = root' root.
+/// Residual root * e with Omega = root' root.
 class SplineCost final : public ceres::CostFunction {
  public:
   SplineCost(SplineFactor factor, const Matrix6& root) : factor_(std::move(factor)), root_(root) {
@@ -63,13 +63,13 @@ class SplineCost final : public ceres::CostFunction {
   bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
     std::vector<Pose> controls(factor_.controls().size());
     for (std::size_t k = 0; k < controls.size(); ++k) controls[k] = read(x[k]);
-    const SplineFactor::Residual here = factor_.evaluate(controls);
+    const SplineFactor::Residual evaluated = factor_.evaluate(controls);
     Eigen::Map<Twist> out(residual);
-    out = root_ * here.error;
+    out = root_ * evaluated.error;
     for (std::size_t k = 0; jacobians != nullptr && k < controls.size(); ++k) {
       if (jacobians[k] == nullptr) continue;
       Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[k]);
-      J.leftCols<6>() = root_ * here.by_control[k];
+      J.leftCols<6>() = root_ * evaluated.by_control[k];
       J.col(6).setZero();
     }
     return true;
@@ -83,8 +83,9 @@ class SplineCost final : public ceres::CostFunction {
 Matrix6 root_of(const Edge& edge) {
   const Eigen::LLT<Matrix6> factor(edge.information);
   if (factor.info() != Eigen::Success) {
-    throw std::runtime_error("spline fit: information of edge " + std::to_string(edge.from) +
-                             " - " + std::to_string(edge.to) + " is not positive definite");
+    throw std::runtime_error("spline fit: the information matrix of edge " +
+                             std::to_string(edge.from) + " - " + std::to_string(edge.to) +
+                             " is not positive definite");
   }
   return factor.matrixU();
 }
@@ -96,18 +97,18 @@ SplineSummary fit_controls(const SplineBasis& basis,
                            const SplineProblem& problem,
                            const SplineSettings& settings) {
   SplitPerturbation manifold;
-  ceres::Problem::Options ours;
-  ours.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem least_squares(ours);
+  ceres::Problem::Options problem_options;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem least_squares(problem_options);
   std::vector<Block> blocks(controls.size());
   for (std::size_t j = 0; j < blocks.size(); ++j) {
     write(controls[j], blocks[j].data());
     least_squares.AddParameterBlock(blocks[j].data(), 7, &manifold);
   }
   const auto add = [&](SplineFactor factor, const Matrix6& root) {
-    std::vector<double*> named;
-    for (const std::size_t j : factor.controls()) named.push_back(blocks[j].data());
-    least_squares.AddResidualBlock(new SplineCost(std::move(factor), root), nullptr, named);
+    std::vector<double*> parameters;
+    for (const std::size_t j : factor.controls()) parameters.push_back(blocks[j].data());
+    least_squares.AddResidualBlock(new SplineCost(std::move(factor), root), nullptr, parameters);
   };
   for (const PoseAt& pose : problem.poses) add({basis, pose}, Matrix6::Identity());
   for (const EdgeBetween& edge : problem.edges) add({basis, edge}, root_of(edge.edge));
@@ -119,7 +120,7 @@ SplineSummary fit_controls(const SplineBasis& basis,
   options.function_tolerance = settings.tolerance;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-14;
-  // Starts are good: nearly undamped steps converge quadratically, and to the last digits.
+  // The initial values are close, so nearly undamped steps converge quadratically.
   options.initial_trust_region_radius = 1e8;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;

@@ -7,31 +7,31 @@
 
 namespace loopbench {
 
-/// Half the sum of |e|^2 over poses (their two halves share no unknown, so a weight between [m] and
-/// [rad] would not matter) and of e' Omega e over edges is what is minimised.
+/// Minimises half the sum of |e|^2 over poses and of e' Omega e over edges. Translation and
+/// rotation of the poses share no unknown, so no weight between [m] and [rad] is needed.
 struct SplineProblem {
   std::vector<PoseAt> poses;
   std::vector<EdgeBetween> edges;
-  bool hold_start = false;  ///< the first control, which is where the curve starts, does not move
+  bool hold_start = false;  ///< keep the first control, the start of the curve, fixed
 };
 
 struct SplineSettings {
   int max_iterations = 100;
-  double tolerance = 1e-16;  ///< relative change of the cost that ends it [-]
+  double tolerance = 1e-16;  ///< relative change of the cost at convergence [-]
 };
 
 struct SplineSummary {
   int iterations = 0;
   double cost_before = 0.0;
   double cost = 0.0;
-  bool converged = false;  ///< false: the iterations ran out first
+  bool converged = false;  ///< reached the tolerance before max_iterations
 };
 
-/// Moves the controls, one for each function of the basis, to a minimum. Levenberg-Marquardt,
-/// analytic Jacobians (spline_factor.hpp), sparse Cholesky, one thread: the same bits every time.
-/// O(n k^2) an iteration for n factors, and the fill-in of long edges. Throws std::runtime_error
-/// with Ceres's own words when there is no usable solution, or when information is not positive
-/// definite.
+/// Minimises the problem over the controls, one per basis function. Levenberg-Marquardt, analytic
+/// Jacobians (spline_factor.hpp), sparse Cholesky, one thread; results are bit-identical between
+/// runs. O(n k^2) per iteration for n factors, plus the fill-in of long edges. Throws
+/// std::runtime_error with the message of Ceres when there is no usable solution, and when an
+/// information matrix is not positive definite.
 SplineSummary fit_controls(const SplineBasis& basis,
                            std::vector<Pose>& controls,
                            const SplineProblem& problem,

@@ -1,4 +1,4 @@
-// Dynamic covariance scaling and switchable constraints at their defaults.
+// Dynamic covariance scaling and switchable constraints with default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Sequence driving(std::int64_t seed, double false_share) {
   return load_simulated(options);
 }
 
-/// Root mean square distance of positions [m]; the first pose is shared.
+/// RMS position error [m], not aligned: the first pose is exact.
 double error(const Sequence& sequence, const PoseGraphOptimizer::Options& options) {
   Report report;
   const Trajectory out = PoseGraphOptimizer(options).correct(sequence.problem, report);
@@ -35,7 +35,7 @@ double error(const Sequence& sequence, const PoseGraphOptimizer::Options& option
   return std::sqrt(sum / static_cast<double>(out.size()));
 }
 
-TEST(BoundedLosses, KeepTrueClosuresOnADriveWithThreeInTenFalse) {
+TEST(BoundedLosses, KeepTrueClosuresOnADriveWith30PercentFalse) {
   for (const Loss loss : kBounded) {
     double without = 0.0, robust = 0.0, narrow = 0.0;
     for (int seed = 1; seed <= 5; ++seed) {
@@ -43,7 +43,7 @@ TEST(BoundedLosses, KeepTrueClosuresOnADriveWithThreeInTenFalse) {
       robust += error(driving(seed, 0.3), {.loss = loss});
       narrow += error(driving(seed, 0.3), {.loss = loss, .loss_width = 1.0, .anneal = false});
     }
-    EXPECT_GT(narrow, 2.0 * without) << to_text(loss);  // hardly better than no correction
+    EXPECT_GT(narrow, 2.0 * without) << to_text(loss);  // almost no gain over no correction
     EXPECT_LT(robust, 1.25 * without) << to_text(loss);
   }
 }

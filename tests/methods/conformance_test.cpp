@@ -1,4 +1,5 @@
-// What every method in the catalogue must hold to; a new line in methods.cpp inherits all of it.
+// Properties required of every method in the catalogue. Methods added to methods.cpp are tested
+// automatically.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,28 +12,29 @@
 
 namespace loopbench {
 
-/// ctest shows this as the name; the default would be the bytes of the entry.
+/// Name of the test parameter in ctest; the default would print the bytes of the entry.
 void PrintTo(const MethodEntry& entry, std::ostream* out) { *out << entry.name; }
 
 namespace {
 
 using namespace test;
 
-/// A law that a listed method does not keep, and why that is right. Keep it short.
+/// A property that a method does not have, and the reason.
 struct Exemption {
   std::string method, law, reason;
 };
 std::vector<Exemption> exemptions() {
   const std::string axes = "fits y = f(x) in the axes of the world, as the article does";
   return {{"tracked_frames",
-           "TakesOrdinaryProblems",
-           "is for problems with tracked frames, which not every ordinary one has"},
-          {"paper_literal_fr1", "DoesNotCareWhereTheWorldIs", axes},
-          {"paper_literal_fr3", "DoesNotCareWhereTheWorldIs", axes}};
+           "AcceptsOrdinaryProblems",
+           "requires tracked frames, which some ordinary problems do not have"},
+          {"paper_literal_fr1", "IsIndependentOfTheWorldFrame", axes},
+          {"paper_literal_fr3", "IsIndependentOfTheWorldFrame", axes}};
 }
 
-/// Corrector alone (then a polyline), smoother alone, or the method itself.
-std::unique_ptr<const Method> made(const MethodEntry& entry, const Params& params = {}) {
+/// Composes a corrector with a polyline, or a smoother without a corrector; returns a joint method
+/// unchanged.
+std::unique_ptr<const Method> build(const MethodEntry& entry, const Params& params = {}) {
   Stage stage = entry.make(params);
   if (auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
     return compose(std::move(*corrector), nullptr);
@@ -43,8 +45,8 @@ std::unique_ptr<const Method> made(const MethodEntry& entry, const Params& param
   return std::get<std::unique_ptr<const Method>>(std::move(stage));
 }
 
-/// Every keyframe, and `between` times in every gap.
-std::vector<double> asked(const Trajectory& keyframes, int between = 3) {
+/// Times of all keyframes, and `between` evenly spaced times in every interval.
+std::vector<double> query_times(const Trajectory& keyframes, int between = 3) {
   std::vector<double> out;
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
     const double step = (keyframes[i + 1].stamp - keyframes[i].stamp) / (between + 1);
@@ -58,7 +60,7 @@ bool same_bits(const Trajectory& a, const Trajectory& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
-/// Extent of the keyframes [m], at least 1: what 1e-9 is relative to.
+/// Extent of the keyframes [m], at least 1; the scale of the tolerance 1e-9.
 double size_of(const Problem& problem) {
   double out = 1.0;
   for (const StampedPose& pose : problem.keyframes) {
@@ -80,7 +82,7 @@ void expect_close(const Trajectory& a, const Trajectory& b, double metres, doubl
   }
 }
 
-void expect_sound(const Trajectory& poses) {
+void expect_valid(const Trajectory& poses) {
   for (const StampedPose& pose : poses) {
     ASSERT_TRUE(is_finite(pose.world_from_body)) << "at " << pose.stamp << " s";
     ASSERT_NEAR(pose.world_from_body.rotation.norm(), 1.0, 1e-12) << "at " << pose.stamp << " s";
@@ -102,20 +104,20 @@ class Conformance : public ::testing::TestWithParam<MethodEntry> {
 
   static Trajectory sampled(const Method& method, const Problem& problem) {
     Report report;
-    return method.estimate(problem, report)->sample(asked(problem.keyframes));
+    return method.estimate(problem, report)->sample(query_times(problem.keyframes));
   }
 
-  std::unique_ptr<const Method> method_ = made(GetParam());
+  std::unique_ptr<const Method> method_ = build(GetParam());
 };
 
-TEST_P(Conformance, TakesOrdinaryProblems) {
+TEST_P(Conformance, AcceptsOrdinaryProblems) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
     EXPECT_EQ(method_->declines(problem), std::nullopt);
   }
 }
 
-TEST_P(Conformance, KeepsTheSpan) {
+TEST_P(Conformance, KeepsTheTimeSpan) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
     Report report;
@@ -139,11 +141,11 @@ TEST_P(Conformance, CorrectorKeepsEveryStamp) {
 TEST_P(Conformance, GivesFiniteUnitPoses) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
-    expect_sound(sampled(problem));
+    expect_valid(sampled(problem));
   }
 }
 
-TEST_P(Conformance, RefusesTimesOutsideTheSpan) {
+TEST_P(Conformance, RejectsTimesOutsideTheSpan) {
   const Problem problem = hand_held();
   Report report;
   const auto curve = method_->estimate(problem, report);
@@ -152,14 +154,14 @@ TEST_P(Conformance, RefusesTimesOutsideTheSpan) {
   EXPECT_THROW(curve->at(std::nan("")), std::out_of_range);
 }
 
-TEST_P(Conformance, SameInputTwiceGivesTheSameBits) {
+TEST_P(Conformance, IsDeterministic) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
-    EXPECT_TRUE(same_bits(sampled(problem), sampled(*made(GetParam()), problem)));
+    EXPECT_TRUE(same_bits(sampled(problem), sampled(*build(GetParam()), problem)));
   }
 }
 
-TEST_P(Conformance, ThreadsDoNotMatter) {
+TEST_P(Conformance, IsBitIdenticalOnEveryThread) {
   const Problem problem = hand_held();
   Trajectory one, other;
   std::thread first([&] { one = sampled(problem); });
@@ -170,11 +172,11 @@ TEST_P(Conformance, ThreadsDoNotMatter) {
   EXPECT_TRUE(same_bits(one, sampled(problem)));
 }
 
-TEST_P(Conformance, OrderAndCompanyOfTheTimesDoNotMatter) {
+TEST_P(Conformance, SamplesDoNotDependOnOrderOrOnOtherTimes) {
   const Problem problem = hand_held();
   Report report;
   const auto curve = method_->estimate(problem, report);
-  std::vector<double> times = asked(problem.keyframes);
+  std::vector<double> times = query_times(problem.keyframes);
   const Trajectory sorted = curve->sample(times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_TRUE(same_bits({sorted[i]}, {{times[i], curve->at(times[i])}})) << times[i];
@@ -185,21 +187,21 @@ TEST_P(Conformance, OrderAndCompanyOfTheTimesDoNotMatter) {
   EXPECT_TRUE(same_bits(sorted, backwards));
 }
 
-TEST_P(Conformance, DoesNotCareWhereTheWorldIs) {
+TEST_P(Conformance, IsIndependentOfTheWorldFrame) {
   const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
-    const Trajectory here = sampled(problem);
-    Trajectory there = sampled(moved_by(elsewhere, problem));
-    for (StampedPose& pose : there) {
+    const Trajectory original = sampled(problem);
+    Trajectory moved = sampled(moved_by(elsewhere, problem));
+    for (StampedPose& pose : moved) {
       pose.world_from_body = elsewhere.inverse() * pose.world_from_body;
     }
     const double size = size_of(problem) + elsewhere.translation.norm();
-    expect_close(here, there, 1e-9 * size, 1e-9);
+    expect_close(original, moved, 1e-9 * size, 1e-9);
   }
 }
 
-TEST_P(Conformance, StaysOnTheFloorWhenMeasuredThere) {
+TEST_P(Conformance, KeepsPlanarProblemsInThePlane) {
   for (const StampedPose& pose : sampled(planar())) {
     EXPECT_NEAR(pose.world_from_body.translation.z(), 0.0, 1e-9);
     EXPECT_NEAR(pose.world_from_body.rotation.x(), 0.0, 1e-9);
@@ -207,14 +209,14 @@ TEST_P(Conformance, StaysOnTheFloorWhenMeasuredThere) {
   }
 }
 
-TEST_P(Conformance, LeavesWhatIsPerfectAlone) {
-  // A smoother may round a perfect bend off; a straight line it may not.
+TEST_P(Conformance, KeepsPerfectProblemsUnchanged) {
+  // A smoother may deform a perfect curve, but not a straight line.
   const Problem problem = GetParam().kind == Kind::corrector ? perfect() : straight();
-  const Trajectory expected = Polyline(problem.keyframes).sample(asked(problem.keyframes));
+  const Trajectory expected = Polyline(problem.keyframes).sample(query_times(problem.keyframes));
   expect_close(sampled(problem), expected, 1e-9 * size_of(problem), 1e-9);
 }
 
-TEST_P(Conformance, DeclinesOrSucceedsWhenItIsAwkward) {
+TEST_P(Conformance, DeclinesOrSolvesAwkwardProblems) {
   for (const auto& [name, problem] : awkward_problems()) {
     SCOPED_TRACE(name);
     ASSERT_NO_THROW(check(problem, name));
@@ -227,19 +229,19 @@ TEST_P(Conformance, DeclinesOrSucceedsWhenItIsAwkward) {
     ASSERT_NE(curve, nullptr);
     EXPECT_EQ(curve->start(), problem.keyframes.front().stamp);
     EXPECT_EQ(curve->end(), problem.keyframes.back().stamp);
-    expect_sound(curve->sample(asked(problem.keyframes)));
+    expect_valid(curve->sample(query_times(problem.keyframes)));
   }
 }
 
-TEST_P(Conformance, RefusesAnUnknownOption) {
+TEST_P(Conformance, RejectsUnknownOptions) {
   EXPECT_THROW(GetParam().make({{"no_such_option", true}}), OptionError);
 }
 
-TEST_P(Conformance, TakesItsOwnDefaults) {
+TEST_P(Conformance, AcceptsItsOwnDefaults) {
   Params defaults;
   for (const OptionInfo& option : GetParam().options) defaults.emplace(option.name, option.value);
   const Problem problem = hand_held();
-  EXPECT_TRUE(same_bits(sampled(problem), sampled(*made(GetParam(), defaults), problem)));
+  EXPECT_TRUE(same_bits(sampled(problem), sampled(*build(GetParam(), defaults), problem)));
 }
 
 TEST_P(Conformance, DescribesItselfAndItsOptions) {

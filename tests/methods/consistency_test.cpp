@@ -15,7 +15,7 @@ namespace {
 
 Pose at(double x) { return {Rotation::Identity(), {x, 0.0, 0.0}}; }
 
-/// Steps of 1 m along x, each with variance 1 in every direction; closures with variance 0.25.
+/// Steps of 1 m along x with variance 1 on every axis; closures with variance 0.25.
 Problem line(const std::vector<std::tuple<std::size_t, std::size_t, double>>& closures) {
   Problem problem;
   for (int i = 0; i <= 10; ++i) {
@@ -29,46 +29,47 @@ Problem line(const std::vector<std::tuple<std::size_t, std::size_t, double>>& cl
 }
 
 TEST(Consistency, PairsByHandWhereTheLoopIsShort) {
-  // Both from 0 and 2 to 9 and 10: odometry between the ends is 2 steps and 1 step.
+  // Closures 0 -> 9 and 2 -> 10: the odometry between their ends is 2 steps and 1 step.
   const Problem problem = line({{0, 9, 9.5}, {2, 10, 7.0}});
   const PairError pair = pair_error(problem, problem.closures[0], problem.closures[1]);
-  // -9.5 + 2 + 7 - 1 along x; variances 2 * 0.25 + 2 + 1, rotations at rest.
+  // -9.5 + 2 + 7 - 1 along x; variances 2 * 0.25 + 2 + 1, no rotation.
   EXPECT_NEAR(pair.error[0], -1.5, 1e-12);
   EXPECT_NEAR(pair.covariance(0, 0), 3.5, 1e-12);
   EXPECT_NEAR(pair.covariance(3, 3), 3.5, 1e-12);
 }
 
-TEST(Consistency, OdometryWalkedBothWaysCountsForNothing) {
-  // One after the other: 0 -> 6 is walked out and 3 .. back again, so 3 .. 6 cancels along x.
+TEST(Consistency, OdometryInBothDirectionsCancels) {
+  // Disjoint loops: odometry 3 -> 6 is traversed in both directions and cancels along x.
   const Problem problem = line({{0, 3, 3.0}, {6, 9, 3.0}});
   const PairError pair = pair_error(problem, problem.closures[0], problem.closures[1]);
   EXPECT_NEAR(pair.error.norm(), 0.0, 1e-12);
   EXPECT_NEAR(pair.covariance(0, 0), 2 * 0.25 + 3 + 3, 1e-12);
 }
 
-TEST(Consistency, PropagatedCovarianceIsThatOfManyDraws) {
+TEST(Consistency, PropagatedCovarianceMatchesSampledCovariance) {
   const Problem exact = test::walk(3, 20, 0.0);
   Problem problem = exact;
-  problem.closures[1].from = 12;  // overlapping and nested loops, odometry of every direction
+  problem.closures[1].from = 12;  // overlapping and nested loops, odometry in both directions
   problem.closures[1].to = 19;
-  const Pose wanted =
+  const Pose exact_loop =
       problem.keyframes[12].world_from_body.inverse() * problem.keyframes[19].world_from_body;
-  problem.closures[1].from_from_to = wanted;
+  problem.closures[1].from_from_to = exact_loop;
   for (std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information *= 1e4;  // small: first order is what is claimed
+    for (Edge& edge : *edges)
+      edge.information *= 1e4;  // small noise: the propagation is first order
   }
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
-  const Problem quiet = problem;
+  const Problem noise_free = problem;
   for (const auto& [k, l] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{2, 1}}) {
     const auto first = static_cast<std::size_t>(k);
     const auto second = static_cast<std::size_t>(l);
-    const Matrix6 claimed =
-        pair_error(quiet, quiet.closures[first], quiet.closures[second]).covariance;
+    const Matrix6 propagated =
+        pair_error(noise_free, noise_free.closures[first], noise_free.closures[second]).covariance;
     Matrix6 drawn = Matrix6::Zero();
     constexpr int kDraws = 500;
     for (int draw = 0; draw < kDraws; ++draw) {
-      problem = quiet;
+      problem = noise_free;
       for (std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
         for (Edge& edge : *edges) {
           Twist noise;
@@ -80,29 +81,29 @@ TEST(Consistency, PropagatedCovarianceIsThatOfManyDraws) {
       const Twist e = pair_error(problem, problem.closures[first], problem.closures[second]).error;
       drawn += e * e.transpose() / kDraws;
     }
-    EXPECT_LT((drawn - claimed).norm(), 0.2 * claimed.norm()) << k << " " << l;
+    EXPECT_LT((drawn - propagated).norm(), 0.2 * propagated.norm()) << k << " " << l;
   }
 }
 
-TEST(Consistency, KeepsTheLargestAgreeingSet) {
-  // Three that say what odometry says, two that agree on a lie, one alone.
+TEST(Consistency, KeepsTheLargestConsistentSet) {
+  // Three closures agree with the odometry, two with each other on a wrong loop, one with none.
   const Problem problem =
       line({{0, 8, 8.0}, {0, 9, 9.1}, {1, 10, 8.9}, {0, 10, 40.0}, {1, 9, 38.1}, {2, 9, -60.0}});
   const ConsistentClosures found = consistent_closures(problem, {});
   EXPECT_EQ(found.kept, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_TRUE(found.is_largest);
-  // What no other confirms is not believed; the only one there is, is.
+  // A closure without any consistent partner is dropped, unless it is the only one.
   EXPECT_TRUE(consistent_closures(line({{0, 9, 9.0}, {0, 10, 90.0}}), {}).kept.empty());
   EXPECT_EQ(consistent_closures(line({{0, 9, 90.0}}), {}).kept.size(), 1u);
 }
 
-TEST(Consistency, CheckedCorrectorSeesOnlyWhatAgrees) {
-  const Problem honest = line({{0, 8, 8.4}, {0, 9, 9.4}, {1, 10, 9.4}});
-  Problem problem = honest;
+TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
+  const Problem consistent_only = line({{0, 8, 8.4}, {0, 9, 9.4}, {1, 10, 9.4}});
+  Problem problem = consistent_only;
   problem.closures.insert(problem.closures.begin() + 1, {3, 8, at(-200.0), Matrix6::Identity()});
   Report report, plain;
   const Trajectory checked = Checked<Dual>({}).correct(problem, report);
-  const Trajectory expected = Dual({}).correct(honest, plain);
+  const Trajectory expected = Dual({}).correct(consistent_only, plain);
   for (std::size_t i = 0; i < checked.size(); ++i) {
     EXPECT_TRUE(is_close(checked[i].world_from_body, expected[i].world_from_body, 1e-12, 1e-12));
   }
@@ -110,7 +111,7 @@ TEST(Consistency, CheckedCorrectorSeesOnlyWhatAgrees) {
   EXPECT_EQ(report.counts.front().value, 3.0);
   CheckedOptions<Dual> few;
   few.check.max_closures = 3;
-  EXPECT_EQ(Checked<Dual>(few).declines(problem), "4 closures, more than pcm.max_closures = 3");
+  EXPECT_EQ(Checked<Dual>(few).declines(problem), "4 closures exceed pcm.max_closures = 3");
 }
 
 TEST(MaxClique, FindsAPlantedOneAndProvesIt) {
@@ -128,10 +129,10 @@ TEST(MaxClique, FindsAPlantedOneAndProvesIt) {
   EXPECT_TRUE(found.is_largest);
   EXPECT_EQ(found.members, planted);
   EXPECT_EQ(max_clique(graph, 0).is_largest, false);
-  EXPECT_GE(max_clique(graph, 0).members.size(), 8u);  // greed alone
+  EXPECT_GE(max_clique(graph, 0).members.size(), 8u);  // greedy search only
 }
 
-TEST(MaxClique, CopesWithNothingAndWithNoEdges) {
+TEST(MaxClique, HandlesEmptyGraphsAndGraphsWithoutEdges) {
   EXPECT_TRUE(max_clique(BitGraph(0), 10).members.empty());
   EXPECT_EQ(max_clique(BitGraph(70), 1000).members.size(), 1u);
 }

@@ -22,23 +22,24 @@ std::unique_ptr<const Curve> spline(Trajectory keyframes, const Params& params =
   return curve;
 }
 
-/// Uneven stamps, steps up to half a metre and about half a radian.
+/// Random walk with uneven stamps, steps up to half a metre and about half a radian.
 Trajectory wandering(std::size_t n, std::uint64_t seed = 7) {
   std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> even(-1.0, 1.0);
-  const auto any = [&] { return Vector3(even(random), even(random), even(random)); };
-  Trajectory out{{1000.0, {exp_so3(2.0 * any()), 10.0 * any()}}};
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto random_vector = [&] {
+    return Vector3(uniform(random), uniform(random), uniform(random));
+  };
+  Trajectory out{{1000.0, {exp_so3(2.0 * random_vector()), 10.0 * random_vector()}}};
   while (out.size() < n) {
     const auto& [stamp, pose] = out.back();
-    const Pose step{exp_so3(0.35 * any()), 0.3 * any()};
-    out.push_back({stamp + 0.35 + 0.25 * even(random), normalized(pose * step)});
+    const Pose step{exp_so3(0.35 * random_vector()), 0.3 * random_vector()};
+    out.push_back({stamp + 0.35 + 0.25 * uniform(random), normalized(pose * step)});
   }
   return out;
 }
 
-/// One natural cubic spline of a scalar by its second derivatives M, as textbooks have it:
-/// h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i - slope_{i-1}), M_0 = M_n =
-/// 0.
+/// Natural cubic spline of a scalar by its second derivatives M (textbook form): h_{i-1} M_{i-1} +
+/// 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i - slope_{i-1}), M_0 = M_n = 0.
 class Textbook {
  public:
   Textbook(std::vector<double> t, std::vector<double> y) : t_(std::move(t)), y_(std::move(y)) {
@@ -71,17 +72,17 @@ class Textbook {
   Eigen::VectorXd M_;
 };
 
-std::vector<double> evenly(double begin, double end, int count) {
+std::vector<double> evenly_spaced(double begin, double end, int count) {
   std::vector<double> out;
   for (int k = 0; k < count; ++k) out.push_back(begin + (end - begin) * k / count);
   out.push_back(end);
   return out;
 }
 
-TEST(CubicBasis, IsAPartitionOfUnityAndNeverNegative) {
+TEST(CubicBasis, IsANonNegativePartitionOfUnity) {
   const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
   for (std::size_t i = 0; i < 4; ++i) {
-    for (const double time : evenly(basis.stamps()[i], basis.stamps()[i + 1], 20)) {
+    for (const double time : evenly_spaced(basis.stamps()[i], basis.stamps()[i + 1], 20)) {
       const std::array<double, 4> N = basis.values(i, time);
       EXPECT_NEAR(N[0] + N[1] + N[2] + N[3], 1.0, 1e-15);
       for (const double value : N) EXPECT_GE(value, 0.0);
@@ -92,7 +93,7 @@ TEST(CubicBasis, IsAPartitionOfUnityAndNeverNegative) {
 TEST(CubicBasis, ReproducesTimeFromTheGrevilleAbscissae) {
   const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
   for (std::size_t i = 0; i < 4; ++i) {
-    for (const double time : evenly(basis.stamps()[i], basis.stamps()[i + 1], 7)) {
+    for (const double time : evenly_spaced(basis.stamps()[i], basis.stamps()[i + 1], 7)) {
       double sum = 0.0;
       for (std::size_t k = 0; k < 4; ++k) {
         sum += basis.values(i, time)[k] * basis.greville(i + k);
@@ -124,14 +125,14 @@ TEST(CubicSpline, EqualsTheTextbookNaturalSpline) {
         values.push_back(pose.world_from_body.translation(axis));
       }
       const Textbook textbook(stamps(keyframes), values);
-      for (const double time : evenly(curve->start(), curve->end(), 173)) {
+      for (const double time : evenly_spaced(curve->start(), curve->end(), 173)) {
         EXPECT_NEAR(curve->at(time).translation(axis), textbook.at(time), 1e-11);
       }
     }
   }
 }
 
-TEST(CubicSpline, TurningAboutOneAxisItIsTheNaturalSplineOfTheAngle) {
+TEST(CubicSpline, RotationAboutOneAxisIsTheNaturalSplineOfTheAngle) {
   const std::vector<double> times{0.0, 0.4, 1.3, 1.5, 2.6, 3.0};
   const std::vector<double> angles{0.0, 0.3, -0.2, 0.1, 0.9, 1.1};
   const Vector3 axis = Vector3(1.0, -2.0, 2.0) / 3.0;
@@ -141,7 +142,7 @@ TEST(CubicSpline, TurningAboutOneAxisItIsTheNaturalSplineOfTheAngle) {
   }
   const auto curve = spline(keyframes);
   const Textbook textbook(times, angles);
-  for (const double time : evenly(0.0, 3.0, 97)) {
+  for (const double time : evenly_spaced(0.0, 3.0, 97)) {
     EXPECT_LT((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 1e-12);
   }
 }
@@ -159,44 +160,44 @@ TEST(CubicSpline, ReproducesUniformMotion) {
       keyframes.push_back({time, truth(time)});
     }
     const auto curve = spline(keyframes);
-    for (const double at : evenly(curve->start(), curve->end(), 50)) {
+    for (const double at : evenly_spaced(curve->start(), curve->end(), 50)) {
       EXPECT_TRUE(is_close(curve->at(at), truth(at), 1e-12, 1e-12)) << n << " at " << at;
     }
   }
 }
 
-/// Position and body-frame angular velocity, differenced with the given side's stencil.
+/// One-sided finite differences of position and rotation; the sign of h selects the side.
 Vector3 acceleration(const Curve& curve, double time, double h) {
-  const auto place = [&](int k) { return curve.at(time + k * h).translation; };
-  return (2.0 * place(0) - 5.0 * place(1) + 4.0 * place(2) - place(3)) / (h * h);
+  const auto position = [&](int k) { return curve.at(time + k * h).translation; };
+  return (2.0 * position(0) - 5.0 * position(1) + 4.0 * position(2) - position(3)) / (h * h);
 }
 Vector3 angular_acceleration(const Curve& curve, double time, double h) {
-  const Rotation here = curve.at(time).rotation;
-  const auto turn = [&](int k) {
-    return log_so3(here.conjugate() * curve.at(time + k * h).rotation);
+  const Rotation current = curve.at(time).rotation;
+  const auto rotation_vector = [&](int k) {
+    return log_so3(current.conjugate() * curve.at(time + k * h).rotation);
   };
-  return (-5.0 * turn(1) + 4.0 * turn(2) - turn(3)) / (h * h);
+  return (-5.0 * rotation_vector(1) + 4.0 * rotation_vector(2) - rotation_vector(3)) / (h * h);
 }
 Vector3 velocity(const Curve& curve, double time, double h) {
-  const auto place = [&](int k) { return curve.at(time + k * h).translation; };
-  return (-3.0 * place(0) + 4.0 * place(1) - place(2)) / (2.0 * h);
+  const auto position = [&](int k) { return curve.at(time + k * h).translation; };
+  return (-3.0 * position(0) + 4.0 * position(1) - position(2)) / (2.0 * h);
 }
 Vector3 angular_velocity(const Curve& curve, double time, double h) {
-  const Rotation here = curve.at(time).rotation;
-  const auto turn = [&](int k) {
-    return log_so3(here.conjugate() * curve.at(time + k * h).rotation);
+  const Rotation current = curve.at(time).rotation;
+  const auto rotation_vector = [&](int k) {
+    return log_so3(current.conjugate() * curve.at(time + k * h).rotation);
   };
-  return (4.0 * turn(1) - turn(2)) / (2.0 * h);
+  return (4.0 * rotation_vector(1) - rotation_vector(2)) / (2.0 * h);
 }
 
 TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAtTheKeyframes) {
   Trajectory keyframes = wandering(14);
-  for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;  // keeps digits for the differences
+  for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;  // reduces rounding in the differences
   const auto curve = spline(keyframes);
   const double h = 1e-4;
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double time = keyframes[i].stamp;
-    // One-sided stencils are exact to h^2 times the jerk on their own side.
+    // The error of a one-sided stencil is h^2 times a higher derivative on its own side.
     EXPECT_LT((velocity(*curve, time, h) - velocity(*curve, time, -h)).norm(), 1e-5);
     EXPECT_LT((acceleration(*curve, time, h) - acceleration(*curve, time, -h)).norm(), 1e-3);
     EXPECT_LT((angular_velocity(*curve, time, h) - angular_velocity(*curve, time, -h)).norm(),
@@ -217,22 +218,22 @@ TEST(CubicSpline, HasNoAccelerationAtItsEnds) {
   }
 }
 
-TEST(CubicSpline, WithSlerpTheAttitudeFollowsGreatArcs) {
+TEST(CubicSpline, WithSlerpTheRotationFollowsGreatArcs) {
   const Trajectory keyframes = wandering(6);
   const auto curve = spline(keyframes, {{"rotation", std::string("slerp")}});
   const auto smooth = spline(keyframes);
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
     const double middle = 0.5 * (keyframes[i].stamp + keyframes[i + 1].stamp);
-    const Rotation arc = slerp(
+    const Rotation great_arc = slerp(
         keyframes[i].world_from_body.rotation, keyframes[i + 1].world_from_body.rotation, 0.5);
-    EXPECT_LT(angle_between(curve->at(middle).rotation, arc), 1e-9);
+    EXPECT_LT(angle_between(curve->at(middle).rotation, great_arc), 1e-9);
     EXPECT_EQ(curve->at(middle).translation, smooth->at(middle).translation);
   }
 }
 
-TEST(CubicSpline, CopesWithLargeTurnsBetweenKeyframes) {
+TEST(CubicSpline, HandlesLargeRotationsBetweenKeyframes) {
   Trajectory keyframes;
-  for (int i = 0; i < 20; ++i) {  // 1.5 to 2 rad a step, about an axis that leans to and fro
+  for (int i = 0; i < 20; ++i) {  // 1.5 to 2 rad per step about a varying axis
     const double s = i;
     keyframes.push_back({s,
                          {exp_so3({0.3 * std::sin(s), 0.2 * std::cos(2.0 * s), 0.0}) *
@@ -245,8 +246,8 @@ TEST(CubicSpline, CopesWithLargeTurnsBetweenKeyframes) {
   }
 }
 
-TEST(CubicSpline, SaysSoWhenItFallsBackToGreatArcs) {
-  // Back and forth by almost half a turn: controls would have to lie more than pi apart.
+TEST(CubicSpline, ReportsTheFallbackToGreatArcs) {
+  // Rotations alternate by almost pi, so controls would have to be more than pi apart.
   Problem problem;
   for (int i = 0; i < 12; ++i) {
     problem.keyframes.push_back(
@@ -256,13 +257,13 @@ TEST(CubicSpline, SaysSoWhenItFallsBackToGreatArcs) {
   const auto curve = CubicSpline({}).smooth(problem, report);
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_EQ(report.notes[0],
-            "no attitude spline through all keyframes: 11 of 11 intervals are great arcs");
+            "no rotation spline through all keyframes exists: 11 of 11 intervals are great arcs");
   for (const auto& [stamp, pose] : problem.keyframes) {
     EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12));
   }
 }
 
-TEST(CubicSpline, NeedsFewStepsWhateverTheSize) {
+TEST(CubicSpline, NeedsFewNewtonStepsForAnySize) {
   for (const std::size_t n : {100u, 100000u}) {
     const Trajectory keyframes = wandering(n);
     std::vector<Rotation> rotations;

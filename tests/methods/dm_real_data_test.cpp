@@ -1,4 +1,4 @@
-/// The design's acceptance figures on the two TUM references the paper uses (design section 11).
+/// Acceptance figures of the design on the two TUM references of the article (design section 11).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-// Just enough of the TUM text format for files known to be right.
+// Reads TUM trajectories that are known to be valid.
 Trajectory read(const std::filesystem::path& path) {
   std::ifstream in(path);
   Trajectory out;
@@ -31,9 +31,9 @@ Trajectory read(const std::filesystem::path& path) {
 
 struct Setting {
   const char* folder;
-  double begin, end;  ///< where images and reference overlap [s]
+  double begin, end;  ///< overlap of images and reference [s]
   std::size_t keyframes;
-  double speed_band, turn_max;  ///< as the paper prints them
+  double speed_band, turn_max;  ///< as printed in the article
 };
 constexpr Setting kRoom{"fr1_room", 1305031910.765238, 1305031955.536891, 180, 0.33, 0.75};
 constexpr Setting kOffice{"fr3_office", 1341847980.79, 1341848067.809, 204, 0.25, 0.42};
@@ -47,8 +47,8 @@ class DmOnTum : public testing::Test {
     if (!std::filesystem::exists(tum_)) GTEST_SKIP() << "no tum_rgbd in LOOPBENCH_DATA";
   }
 
-  // The reference at uniform keyframes and every 1/30 s.
-  void use(const Setting& run) {
+  // Samples the reference at uniform keyframes and every 1/30 s.
+  void load_setting(const Setting& run) {
     const Polyline reference(read(tum_ / run.folder / "groundtruth.txt"));
     std::vector<double> times;
     for (std::size_t i = 0; i < run.keyframes; ++i) {
@@ -62,7 +62,7 @@ class DmOnTum : public testing::Test {
     options_.segment = {run.speed_band, run.turn_max};
   }
 
-  double error(const Curve& curve) const {  // RMSE in space [mm]
+  double error(const Curve& curve) const {  // RMSE in 3D [mm]
     const Trajectory got = curve.sample(dense_);
     double sum = 0.0;
     for (std::size_t i = 0; i < got.size(); ++i) {
@@ -94,79 +94,81 @@ class DmOnTum : public testing::Test {
   Report report_;
 };
 
-TEST_F(DmOnTum, ReferencesAreThoseTheDesignMeasured) {
+TEST_F(DmOnTum, ReferencesMatchTheDesign) {
   struct Stats {
     const char* folder;
     double length, duration;  // [m], [s]
     Vector3 low, high;        // [m]
   };
-  for (const Stats& wanted :
+  for (const Stats& expected :
        {Stats{"fr1_room", 17.483, 48.90, {-1.16, -1.35, 1.19}, {1.39, 0.86, 1.70}},
         Stats{"fr3_office", 22.197, 87.09, {-3.29, -2.17, 1.20}, {1.83, 2.73, 1.74}}}) {
-    const Trajectory poses = read(tum_ / wanted.folder / "groundtruth.txt");
+    const Trajectory poses = read(tum_ / expected.folder / "groundtruth.txt");
     Vector3 low = poses.front().world_from_body.translation;
     Vector3 high = low;
     for (const StampedPose& pose : poses) {
       low = low.cwiseMin(pose.world_from_body.translation);
       high = high.cwiseMax(pose.world_from_body.translation);
     }
-    EXPECT_NEAR(path_length(poses), wanted.length, 5e-4) << wanted.folder;
-    EXPECT_NEAR(poses.back().stamp - poses.front().stamp, wanted.duration, 5e-3);
-    EXPECT_LT((low - wanted.low).cwiseAbs().maxCoeff(), 5.1e-3) << low.transpose();
-    EXPECT_LT((high - wanted.high).cwiseAbs().maxCoeff(), 5.1e-3) << high.transpose();
+    EXPECT_NEAR(path_length(poses), expected.length, 5e-4) << expected.folder;
+    EXPECT_NEAR(poses.back().stamp - poses.front().stamp, expected.duration, 5e-3);
+    EXPECT_LT((low - expected.low).cwiseAbs().maxCoeff(), 5.1e-3) << low.transpose();
+    EXPECT_LT((high - expected.high).cwiseAbs().maxCoeff(), 5.1e-3) << high.transpose();
   }
 }
 
-TEST_F(DmOnTum, SegmentsAreAsManyAsTheDesignCounts) {
-  use(kRoom);
+TEST_F(DmOnTum, SegmentCountsMatchTheDesign) {
+  load_setting(kRoom);
   EXPECT_NEAR(path_length(problem_.keyframes), 15.836, 5e-4);
   EXPECT_EQ(manifold::segments(manifold::Nodes(problem_.keyframes), options_.segment).size(), 27u);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_NEAR(path_length(problem_.keyframes), 21.955, 5e-4);
   EXPECT_EQ(manifold::segments(manifold::Nodes(problem_.keyframes), options_.segment).size(), 46u);
 }
 
-TEST_F(DmOnTum, PolylineAndSplineErrAsTheDesignPrints) {
-  use(kRoom);
+TEST_F(DmOnTum, PolylineAndSplineErrorsMatchTheDesign) {
+  load_setting(kRoom);
   EXPECT_NEAR(error(Polyline(problem_.keyframes)), 3.8, 0.05);
   EXPECT_NEAR(error(0, 0), 1.3, 0.05);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_NEAR(error(Polyline(problem_.keyframes)), 4.9, 0.05);
   EXPECT_NEAR(error(0, 0), 2.6, 0.06);
 }
 
-// The design's prototype had neither guard nor blend: 2.4 / 4.0 mm for N = 3, 11 / 28 mm for
-// N = 4, 4.6 / 5.2 mm for N = 5. Upper bounds are what was measured here, with a little room.
+// The design's prototype had neither guard nor blending: 2.4 / 4.0 mm for N = 3, 11 / 28 mm for N =
+// 4, 4.6 / 5.2 mm for N = 5. The upper bounds are the values measured here plus a small margin.
 TEST_F(DmOnTum, PlanarVariantsBeatThePolylineAndThePrototype) {
-  use(kRoom);
+  load_setting(kRoom);
   EXPECT_LT(error(3, 0), 1.85);
   EXPECT_EQ(counted("fallbacks"), 3.0);
   EXPECT_LT(error(4, 0), 2.2);
   EXPECT_LT(error(5, 0), 2.4);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_LT(error(3, 0), 3.15);
   EXPECT_EQ(counted("fallbacks"), 2.0);
   EXPECT_LT(error(4, 0), 2.85);
   EXPECT_LT(error(5, 0), 3.75);
 }
 
-// A quadric along a curve is ill-posed: between the spline and, at M = 8, past the polyline.
+// A quadric along a curve is ill-posed: errors lie between spline and polyline, for M = 8 above the
+// polyline.
 TEST_F(DmOnTum, SpatialVariantsStayBounded) {
-  use(kRoom);
+  load_setting(kRoom);
   EXPECT_LT(error(0, 6), 3.4);
   EXPECT_LT(error(0, 7), 4.1);
   EXPECT_LT(error(0, 8), 5.3);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_LT(error(0, 6), 3.8);
   EXPECT_LT(error(0, 7), 3.8);
   EXPECT_LT(error(0, 8), 4.3);
 }
 
-// The article's letter: y = f(x) in world axes, no guard, sharp joints, windows end to end over the
-// whole run. The design's prototype had 209 / 109 mm for the cubic on 4 nodes, 24 / 29 for the
-// parabola on 4 and 22 / 38 on 5; for the parabola on 3 nodes its 113 / 59 were not met: a few
-// windows across x decide that number, and which nodes fall into them.
-TEST_F(DmOnTum, LiteralVariantsFailAsTheDesignSays) {
+// Literal interpretation of the article: y = f(x) in world axes, no guard, sharp joints,
+// consecutive windows over the whole sequence. The design's prototype had 209 / 109 mm for the
+// cubic on 4 nodes, 24 / 29 for the parabola on 4 and 22 / 38 on 5. Its 113 / 59 for the parabola
+// on 3 nodes were not reproduced: a few windows across x, and the nodes in them, determine that
+// number.
+TEST_F(DmOnTum, LiteralVariantsFailAsInTheDesign) {
   const auto literal = [&](int N, const char* family) {
     options_.frame = manifold::Axes::world;
     options_.guard = false;
@@ -175,29 +177,29 @@ TEST_F(DmOnTum, LiteralVariantsFailAsTheDesignSays) {
     options_.families = family;
     return error(N, 0);
   };
-  use(kRoom);
+  load_setting(kRoom);
   EXPECT_NEAR(literal(3, "poly2"), 195.5, 0.5);
   EXPECT_NEAR(literal(4, "poly3"), 214.9, 0.5);
   EXPECT_NEAR(literal(4, "poly2"), 22.6, 0.1);
   EXPECT_NEAR(literal(5, "poly2"), 21.5, 0.1);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_NEAR(literal(3, "poly2"), 65.2, 0.2);
   EXPECT_NEAR(literal(4, "poly3"), 108.5, 0.2);
   EXPECT_NEAR(literal(4, "poly2"), 30.7, 0.1);
   EXPECT_NEAR(literal(5, "poly2"), 38.4, 0.1);
 }
 
-TEST_F(DmOnTum, SegmentCountsOfOtherReadingsAreTheDesigns) {
+TEST_F(DmOnTum, SegmentCountsOfOtherKappasMatchTheDesign) {
   const auto counted_by = [&](manifold::Kappa kappa) {
     options_.segment.kappa = kappa;
     error(4, 0);
     return counted("segments");
   };
-  // 171 / 195, 136 / 137 in the design; a node more or less where rounding decides.
-  use(kRoom);
+  // 171 / 195, 136 / 137 in the design; one more or less due to rounding.
+  load_setting(kRoom);
   EXPECT_NEAR(counted_by(manifold::Kappa::menger), 171.0, 1.0);
   EXPECT_NEAR(counted_by(manifold::Kappa::dtheta_dt), 136.0, 1.0);
-  use(kOffice);
+  load_setting(kOffice);
   EXPECT_NEAR(counted_by(manifold::Kappa::menger), 195.0, 1.0);
   EXPECT_NEAR(counted_by(manifold::Kappa::dtheta_dt), 137.0, 1.0);
 }

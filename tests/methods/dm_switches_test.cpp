@@ -1,4 +1,4 @@
-/// Every switch of the manifold smoother turned, one at a time.
+/// Tests every option of the manifold smoother, one at a time.
 #include <gtest/gtest.h>
 
 #include "manifold_paths.hpp"
@@ -85,18 +85,18 @@ INSTANTIATE_TEST_SUITE_P(Dm, EverySwitch, testing::ValuesIn(switches()), [](cons
   return one.param.name;
 });
 
-TEST_P(EverySwitch, MovesWithTheWorld) {
+TEST_P(EverySwitch, IsIndependentOfTheWorldFrame) {
   const Problem problem = keyframes_only(wandering(60, 3));
   const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
-  const auto here = smoothed(problem);
-  const auto there = smoothed(moved_by(there_from_here, problem));
+  const auto original = smoothed(problem);
+  const auto moved = smoothed(moved_by(there_from_here, problem));
   for (const double t : times_over(problem.keyframes, 313)) {
-    const Pose expected = there_from_here * here->at(t);
-    EXPECT_LT((there->at(t).translation - expected.translation).norm(), 1e-6) << t;
+    const Pose expected = there_from_here * original->at(t);
+    EXPECT_LT((moved->at(t).translation - expected.translation).norm(), 1e-6) << t;
   }
 }
 
-TEST_P(EverySwitch, LeavesUniformMotionAlone) {
+TEST_P(EverySwitch, KeepsUniformMotion) {
   std::vector<Vector3> points;
   for (int i = 0; i < 20; ++i) points.push_back(Vector3(5, 1, 2) + i * Vector3(0.3, -0.2, 0.1));
   const auto curve = smoothed(keyframes_only(through(points)));
@@ -106,21 +106,21 @@ TEST_P(EverySwitch, LeavesUniformMotionAlone) {
   }
 }
 
-TEST_P(EverySwitch, MotionIsTheDerivativeOfWhatIsSampled) {
+TEST_P(EverySwitch, MotionIsTheDerivativeOfTheSamples) {
   const Problem problem = keyframes_only(wandering(40, 6));
   const auto curve = smoothed(problem);
-  const auto& own = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
+  const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
   const double h = 1e-5;
-  for (std::size_t edge = 0; edge + 1 < own.stamps().size(); ++edge) {
-    const double t = std::lerp(own.stamps()[edge], own.stamps()[edge + 1], 0.37);
-    const auto motion = own.motion(edge, t);
+  for (std::size_t edge = 0; edge + 1 < pieces.stamps().size(); ++edge) {
+    const double t = std::lerp(pieces.stamps()[edge], pieces.stamps()[edge + 1], 0.37);
+    const auto motion = pieces.motion(edge, t);
     const Vector3 slope = (curve->at(t + h).translation - curve->at(t - h).translation) / (2 * h);
     EXPECT_LT((motion.value - curve->at(t).translation).norm(), 1e-12);
     EXPECT_LT((motion.first - slope).norm(), 1e-5 * (1.0 + motion.second.norm())) << edge;
   }
 }
 
-TEST_P(EverySwitch, JumpsAtNodesAreWhatTheJointPromises) {
+TEST_P(EverySwitch, JumpsAtNodesMatchTheJointType) {
   smoothed(keyframes_only(wandering(60, 5)));
   const Text joint = given("joint");
   const bool straight = given("abscissa") == "polyline" || given("spline_order") == "2";
@@ -134,26 +134,26 @@ TEST_P(EverySwitch, JumpsAtNodesAreWhatTheJointPromises) {
   EXPECT_LT(counted("jump_velocity"), 1e-7);
   EXPECT_LT(counted("jump_slope"), 1e-6);
   if (!given("psi").empty()) {
-    EXPECT_GT(counted("jump_acceleration"), 1e-2);  // clamped ends are C1
+    EXPECT_GT(counted("jump_acceleration"), 1e-2);  // C1 only at clamped ends
     return;
   }
   EXPECT_LT(counted("jump_acceleration"), 1e-6);
   EXPECT_LT(counted("jump_curvature"), 1e-4);
 }
 
-TEST(DmSwitches, QuinticBridgesAreC2WhereTheyBeginToo) {
+TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
   const Problem problem = keyframes_only(wandering(40, 7));
   Dm::Options options{.planar = 5};
   options.joint.meet = manifold::Meet::quintic_bridge;
   Report report;
   const auto curve = Dm(options).smooth(problem, report);
-  const auto& own = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
-  const auto& t = own.stamps();
+  const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
+  const auto& t = pieces.stamps();
   for (std::size_t i = 1; i + 1 < t.size(); ++i) {
     const double half = 0.5 * std::min(t[i] - t[i - 1], t[i + 1] - t[i]);
     for (const auto& [edge, at] : {std::pair{i - 1, t[i] - half}, std::pair{i, t[i] + half}}) {
-      const auto before = own.motion(edge, at - 1e-9);
-      const auto after = own.motion(edge, at + 1e-9);
+      const auto before = pieces.motion(edge, at - 1e-9);
+      const auto after = pieces.motion(edge, at + 1e-9);
       EXPECT_LT((after.first - before.first).norm(), 1e-6);
       EXPECT_LT((after.second - before.second).norm(), 1e-4);
     }
@@ -174,8 +174,8 @@ TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
   }
 }
 
-TEST(DmSwitches, LiteralReadsYAtWorldXAndDependsOnTheAxes) {
-  // y = x^2 in the world's axes: an exact parabola there, in no turned frame.
+TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
+  // y = x^2 in world axes: an exact parabola in this frame only.
   std::vector<Vector3> points;
   for (const double x : {0.0, 0.4, 1.0, 1.3, 2.0}) points.push_back({x, x * x, 0.0});
   const Problem problem = keyframes_only(through(points));
@@ -187,17 +187,17 @@ TEST(DmSwitches, LiteralReadsYAtWorldXAndDependsOnTheAxes) {
   Report report;
   const auto curve = Dm(options).smooth(problem, report);
   double farthest = 0.0;
-  const Pose turn{exp_so3({0, 0, 0.8}), Vector3::Zero()};
-  const auto turned = Dm(options).smooth(moved_by(turn, problem), report);
+  const Pose rotation{exp_so3({0, 0, 0.8}), Vector3::Zero()};
+  const auto rotated = Dm(options).smooth(moved_by(rotation, problem), report);
   for (const double t : times_over(problem.keyframes, 60)) {
     const Vector3 p = curve->at(t).translation;
     EXPECT_NEAR(p.y(), p.x() * p.x(), 1e-12);
-    farthest = std::max(farthest, (turned->at(t).translation - turn.rotation * p).norm());
+    farthest = std::max(farthest, (rotated->at(t).translation - rotation.rotation * p).norm());
   }
   EXPECT_GT(farthest, 1e-3);
 }
 
-TEST(DmSwitches, CoefficientsAreNotedWhenAsked) {
+TEST(DmSwitches, CoefficientsAreReportedOnRequest) {
   Dm::Options options{.planar = 4, .spatial = 7};
   options.report_coefficients = true;
   options.report_frames = true;
@@ -212,7 +212,7 @@ TEST(DmSwitches, CoefficientsAreNotedWhenAsked) {
   EXPECT_GT(quadrics, 1u);
 }
 
-TEST(DmSwitches, FramesAreCarriedOnAlongAStraightLine) {
+TEST(DmSwitches, FramesArePropagatedAlongAStraightLine) {
   std::vector<Vector3> points;
   for (int i = 0; i < 8; ++i) points.push_back({1.0 * i, 0, 0});
   Report report;
@@ -225,14 +225,14 @@ TEST(DmSwitches, FramesAreCarriedOnAlongAStraightLine) {
   }
 }
 
-TEST(DmSwitches, ContradictionsAreRefused) {
-  const auto made = [](Params params) { return Dm(with(Dm::Options{}, std::move(params))); };
-  EXPECT_THROW(made({{"joint", Text("constrained_ls")}}), OptionError);
-  EXPECT_THROW(made({{"frame", Text("parametric")}, {"families", Text("sin1")}}), OptionError);
-  EXPECT_THROW(made({{"families", Text("poly7")}}), OptionError);
-  EXPECT_THROW(made({{"psi", Text("boundary_tangent")}, {"abscissa", Text("polyline")}}),
+TEST(DmSwitches, RejectsContradictoryOptions) {
+  const auto build = [](Params params) { return Dm(with(Dm::Options{}, std::move(params))); };
+  EXPECT_THROW(build({{"joint", Text("constrained_ls")}}), OptionError);
+  EXPECT_THROW(build({{"frame", Text("parametric")}, {"families", Text("sin1")}}), OptionError);
+  EXPECT_THROW(build({{"families", Text("poly7")}}), OptionError);
+  EXPECT_THROW(build({{"psi", Text("boundary_tangent")}, {"abscissa", Text("polyline")}}),
                OptionError);
-  EXPECT_THROW(made({{"abscissa", Text("ground_truth")}}), OptionError);
+  EXPECT_THROW(build({{"abscissa", Text("ground_truth")}}), OptionError);
 }
 
 }  // namespace

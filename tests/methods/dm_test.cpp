@@ -26,7 +26,7 @@ double counted(const Problem& problem, const Dm::Options& options, const std::st
   return -1.0;
 }
 
-Vector3 place(const Curve& curve, double time) { return curve.at(time).translation; }
+Vector3 position(const Curve& curve, double time) { return curve.at(time).translation; }
 
 class EveryVariant : public testing::TestWithParam<Dm::Options> {};
 INSTANTIATE_TEST_SUITE_P(Dm,
@@ -41,39 +41,42 @@ INSTANTIATE_TEST_SUITE_P(Dm,
                                          Dm::Options{.planar = 4, .spatial = 6},
                                          Dm::Options{.planar = 5, .spatial = 8}));
 
-TEST_P(EveryVariant, MovesWithTheWorld) {
+TEST_P(EveryVariant, IsIndependentOfTheWorldFrame) {
   Problem problem = keyframes_only(wandering(80, 3));
   problem.frames = wandering(80, 3);
   problem.keyframes.erase(problem.keyframes.begin() + 20, problem.keyframes.begin() + 26);
   const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
-  const auto here = smoothed(problem, GetParam());
-  const auto there = smoothed(moved_by(there_from_here, problem), GetParam());
+  const auto original = smoothed(problem, GetParam());
+  const auto moved = smoothed(moved_by(there_from_here, problem), GetParam());
   EXPECT_GT(counted(problem, GetParam(), "quasi_keyframes"), 0.0);
   for (const double t : times_over(problem.keyframes, 997)) {
-    EXPECT_TRUE(is_close(there_from_here * here->at(t), there->at(t), 1e-9, 1e-9)) << t;
+    EXPECT_TRUE(is_close(there_from_here * original->at(t), moved->at(t), 1e-9, 1e-9)) << t;
   }
 }
 
-TEST_P(EveryVariant, LeavesUniformMotionAlone) {
+TEST_P(EveryVariant, KeepsUniformMotion) {
   std::vector<Vector3> points;
   for (int i = 0; i < 20; ++i) points.push_back(Vector3(5, 1, 2) + i * Vector3(0.3, -0.2, 0.1));
   const auto curve = smoothed(keyframes_only(through(points)), GetParam());
   for (double t = 0.0; t <= 19.0; t += 0.13) {
-    EXPECT_LT((place(*curve, t) - (Vector3(5, 1, 2) + t * Vector3(0.3, -0.2, 0.1))).norm(), 1e-12);
+    EXPECT_LT((position(*curve, t) - (Vector3(5, 1, 2) + t * Vector3(0.3, -0.2, 0.1))).norm(),
+              1e-12);
   }
 }
 
 TEST_P(EveryVariant, IsTwiceContinuouslyDifferentiable) {
   const Trajectory keyframes = wandering(60, 5);
   const auto curve = smoothed(keyframes_only(keyframes), GetParam());
-  // One-sided second differences err by h f'''; halving h takes that term away.
+  // One-sided second differences have an error of h f'''; Richardson extrapolation removes it.
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double t = keyframes[i].stamp;
     const auto second = [&](double h) -> Vector3 {
-      return (place(*curve, t) - 2.0 * place(*curve, t + h) + place(*curve, t + 2.0 * h)) / (h * h);
+      return (position(*curve, t) - 2.0 * position(*curve, t + h) + position(*curve, t + 2.0 * h)) /
+             (h * h);
     };
     const auto first = [&](double h) -> Vector3 {
-      return (-3.0 * place(*curve, t) + 4.0 * place(*curve, t + h) - place(*curve, t + 2.0 * h)) /
+      return (-3.0 * position(*curve, t) + 4.0 * position(*curve, t + h) -
+              position(*curve, t + 2.0 * h)) /
              (2.0 * h);
     };
     const double h = 4e-4;
@@ -84,7 +87,7 @@ TEST_P(EveryVariant, IsTwiceContinuouslyDifferentiable) {
   }
 }
 
-TEST_P(EveryVariant, SpansTheKeyframesAndNoMore) {
+TEST_P(EveryVariant, SpansExactlyTheKeyframes) {
   const Trajectory keyframes = wandering(12, 8);
   const auto curve = smoothed(keyframes_only(keyframes), GetParam());
   EXPECT_EQ(curve->start(), keyframes.front().stamp);
@@ -94,7 +97,7 @@ TEST_P(EveryVariant, SpansTheKeyframesAndNoMore) {
   EXPECT_THROW(curve->at(std::nan("")), std::out_of_range);
 }
 
-TEST_P(EveryVariant, PassesOrientationThrough) {
+TEST_P(EveryVariant, KeepsTheOrientation) {
   const Trajectory keyframes = wandering(25, 9);
   const auto curve = smoothed(keyframes_only(keyframes), GetParam());
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
@@ -106,43 +109,44 @@ TEST_P(EveryVariant, PassesOrientationThrough) {
   }
 }
 
-TEST_P(EveryVariant, TakesFewKeyframesStandingStillAndSpinning) {
+TEST_P(EveryVariant, HandlesFewKeyframesRestAndPureRotation) {
   EXPECT_TRUE(Dm(GetParam()).declines(Problem{}));
   for (std::size_t count = 1; count <= 9; ++count) {
     const Trajectory keyframes = wandering(count, 11);
     const auto curve = smoothed(keyframes_only(keyframes), GetParam());
     EXPECT_EQ(curve->start(), keyframes.front().stamp);
-    EXPECT_LT((place(*curve, curve->end()) - keyframes.back().world_from_body.translation).norm(),
-              0.05);
+    EXPECT_LT(
+        (position(*curve, curve->end()) - keyframes.back().world_from_body.translation).norm(),
+        0.05);
   }
   Trajectory spin = through(std::vector<Vector3>(12, Vector3(1e5, 2, 3)));
   for (StampedPose& pose : spin) pose.world_from_body.rotation = exp_so3({0, 0, 0.5 * pose.stamp});
   const auto curve = smoothed(keyframes_only(spin), GetParam());
-  for (const double t : times_over(spin, 50)) EXPECT_EQ(place(*curve, t), Vector3(1e5, 2, 3));
+  for (const double t : times_over(spin, 50)) EXPECT_EQ(position(*curve, t), Vector3(1e5, 2, 3));
 }
 
-TEST_P(EveryVariant, SameProblemGivesSameBits) {
+TEST_P(EveryVariant, IsDeterministic) {
   const Problem problem = keyframes_only(wandering(50, 13));
   const auto once = smoothed(problem, GetParam());
   const auto again = smoothed(problem, GetParam());
   for (const double t : times_over(problem.keyframes, 300)) {
-    EXPECT_EQ(place(*once, t), place(*again, t));
+    EXPECT_EQ(position(*once, t), position(*again, t));
   }
 }
 
-TEST(Dm, ExactFamiliesKeepEveryKeyframe) {
+TEST(Dm, ExactFamiliesInterpolateEveryKeyframe) {
   for (const int N : {3, 4}) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Trajectory keyframes = wandering(60, seed);
       const auto curve = smoothed(keyframes_only(keyframes), planar(N));
       for (const auto& [stamp, pose] : keyframes) {
-        EXPECT_LT((place(*curve, stamp) - pose.translation).norm(), 1e-9);
+        EXPECT_LT((position(*curve, stamp) - pose.translation).norm(), 1e-9);
       }
     }
   }
 }
 
-TEST(Dm, ExactFamiliesKeepEveryNodeInTheFittingFrame) {
+TEST(Dm, ExactFamiliesInterpolateEveryNodeInTheFittingFrame) {
   const manifold::Nodes nodes(wandering(120, 21));
   const manifold::NodeSpline spline(nodes);
   for (const std::size_t N : {3u, 4u}) {
@@ -166,19 +170,19 @@ TEST(Dm, LeastSquaresFamiliesMoveKeyframes) {
   double moved = 0.0;
   const auto curve = smoothed(keyframes_only(keyframes), planar(5));
   for (const auto& [stamp, pose] : keyframes) {
-    moved = std::max(moved, (place(*curve, stamp) - pose.translation).norm());
+    moved = std::max(moved, (position(*curve, stamp) - pose.translation).norm());
   }
   EXPECT_GT(moved, 1e-4);
   EXPECT_LT(moved, 0.05);
 }
 
-// One window: its chord lies along x, so its frame is the world's up to sign.
+// A single window: its chord lies along x, so its frame equals the world's up to sign.
 void expect_on_curve(int N, const std::vector<double>& xs, double (*y)(double)) {
   std::vector<Vector3> points;
   for (const double x : xs) points.push_back({x, y(x), 0.0});
   const auto curve = smoothed(keyframes_only(through(points)), planar(N));
   for (double t = 0.0; t <= static_cast<double>(xs.size() - 1); t += 0.05) {
-    const Vector3 p = place(*curve, t);
+    const Vector3 p = position(*curve, t);
     EXPECT_NEAR(p.y(), y(p.x()), 1e-9);
   }
 }
@@ -192,7 +196,7 @@ TEST(Dm, StaysOnACubicBetweenKeyframes) {
 }
 
 TEST(Dm, StaysOnAQuadricBetweenKeyframes) {
-  // Windows share z' = up, and a quadric in one level frame is one in all of them.
+  // All windows have z' = up, and a quadric in one level frame is a quadric in all of them.
   const auto height = [](const Vector3& p) {
     return 0.5 + 0.1 * p.x() * p.x() - 0.2 * p.x() * p.y() + 0.05 * p.y() * p.y() - 0.3 * p.y();
   };
@@ -216,13 +220,13 @@ TEST(Dm, StaysOnAQuadricBetweenKeyframes) {
   EXPECT_EQ(counted(problem, options, "spatial_truncated"), 0.0);  // in general position
   const auto curve = smoothed(problem, options);
   for (const double t : times_over(problem.keyframes, 700)) {
-    const Vector3 p = place(*curve, t);
+    const Vector3 p = position(*curve, t);
     EXPECT_NEAR(p.z(), height(p), 1e-9);
   }
 }
 
-TEST(Dm, HairpinTripsTheGuardAndIsCounted) {
-  // The window 0..3 turns back at node 2: in parts, 0..2 is a graph and 1..3 is none.
+TEST(Dm, GuardSplitsAHairpinAndCountsIt) {
+  // The window 0..3 reverses at node 2: after splitting, 0..2 is a graph and 1..3 is not.
   const Problem problem = keyframes_only(through(
       {{0, 0, 0}, {1, 0, 0}, {2, 0.2, 0}, {1, 0.4, 0}, {0, 0.4, 0}, {-1, 0.4, 0}, {-2, 0.4, 0}}));
   Dm::Options options = planar(4);
@@ -235,17 +239,17 @@ TEST(Dm, HairpinTripsTheGuardAndIsCounted) {
     options.fallback = fallback;
     const auto curve = smoothed(problem, options);
     for (const double t : times_over(problem.keyframes, 200)) {
-      EXPECT_LT(std::abs(place(*curve, t).y() - 0.2), 0.4) << t;
-      EXPECT_LT(place(*curve, t).x(), 2.3) << t;
+      EXPECT_LT(std::abs(position(*curve, t).y() - 0.2), 0.4) << t;
+      EXPECT_LT(position(*curve, t).x(), 2.3) << t;
     }
     for (const auto& [stamp, pose] : problem.keyframes) {
-      EXPECT_LT((place(*curve, stamp) - pose.translation).norm(), 1e-9);
+      EXPECT_LT((position(*curve, stamp) - pose.translation).norm(), 1e-9);
     }
   }
 }
 
-TEST(Dm, ASurfaceThatRunsAwayIsNotUsedAndCounted) {
-  // Nearly on a circle, heights of +-1 cm: the quadric swings by more than their range between.
+TEST(Dm, RejectsASurfaceThatLeavesTheHeightRangeAndCountsIt) {
+  // Nodes nearly on a circle, heights of +-1 cm: between them the quadric exceeds the height range.
   std::vector<Vector3> points;
   for (int i = 0; i < 6; ++i) {
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
@@ -260,7 +264,7 @@ TEST(Dm, ASurfaceThatRunsAwayIsNotUsedAndCounted) {
     const auto curve = smoothed(problem, options);
     double out = 0.0;
     for (const double t : times_over(problem.keyframes, 500)) {
-      out = std::max(out, std::abs(place(*curve, t).z()));
+      out = std::max(out, std::abs(position(*curve, t).z()));
     }
     return out;
   };
@@ -271,7 +275,7 @@ TEST(Dm, ASurfaceThatRunsAwayIsNotUsedAndCounted) {
   EXPECT_GT(highest(), 0.02);
 }
 
-TEST(Dm, CountsWhatCannotBeFitted) {
+TEST(Dm, CountsFallbacks) {
   const Problem still = keyframes_only(through(std::vector<Vector3>(7, Vector3(1, 2, 3))));
   EXPECT_EQ(counted(still, planar(3), "windows"), 3.0);
   EXPECT_EQ(counted(still, planar(3), "fallbacks"), 3.0);
@@ -280,7 +284,7 @@ TEST(Dm, CountsWhatCannotBeFitted) {
   EXPECT_EQ(counted(keyframes_only(wandering(5, 1)), spatial(6), "spatial_fallbacks"), 1.0);
 }
 
-TEST(Dm, RefusesOtherWindowSizes) {
+TEST(Dm, RejectsOtherWindowSizes) {
   EXPECT_EQ(with(Dm::Options{}, {{"planar", std::int64_t{5}}}).planar, 5);
   EXPECT_THROW(with(Dm::Options{}, {{"planar", std::int64_t{2}}}), OptionError);
   EXPECT_THROW(with(Dm::Options{}, {{"spatial", std::int64_t{5}}}), OptionError);

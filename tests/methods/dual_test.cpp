@@ -19,8 +19,8 @@ std::vector<Pose> poses(const Trajectory& trajectory) {
   return out;
 }
 
-/// A pose graph solved with brute force: dense Gauss-Newton on numeric derivatives.
-std::vector<Pose> by_brute_force(const Problem& problem, int iterations) {
+/// Solves a pose graph by dense Gauss-Newton with numeric derivatives.
+std::vector<Pose> dense_gauss_newton(const Problem& problem, int iterations) {
   std::vector<Pose> x = poses(problem.keyframes);
   std::vector<Edge> edges = problem.odometry;
   edges.insert(edges.end(), problem.closures.begin(), problem.closures.end());
@@ -64,24 +64,24 @@ std::vector<Pose> by_brute_force(const Problem& problem, int iterations) {
   return x;
 }
 
-TEST(Dual, EqualsAPoseGraphSolvedByBruteForce) {
+TEST(Dual, EqualsAPoseGraphSolvedByDenseGaussNewton) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Problem problem = walk(seed, 14, 0.05);
     Report report;
-    const Trajectory ours =
+    const Trajectory dual =
         Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
-    const std::vector<Pose> theirs = by_brute_force(problem, 20);
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-      EXPECT_TRUE(is_close(ours[i].world_from_body, theirs[i], 1e-6, 1e-6)) << seed << " " << i;
+    const std::vector<Pose> reference = dense_gauss_newton(problem, 20);
+    for (std::size_t i = 0; i < dual.size(); ++i) {
+      EXPECT_TRUE(is_close(dual[i].world_from_body, reference[i], 1e-6, 1e-6)) << seed << " " << i;
     }
-    const double cost = chain_cost(problem, poses(ours));
-    EXPECT_NEAR(cost, chain_cost(problem, theirs), 1e-9 * cost);
+    const double cost = chain_cost(problem, poses(dual));
+    EXPECT_NEAR(cost, chain_cost(problem, reference), 1e-9 * cost);
     EXPECT_LT(cost, 0.8 * chain_cost(problem, poses(problem.keyframes)));
   }
 }
 
-TEST(Dual, SpreadsOneScalarLoopAsTheoryDoes) {
-  // Straight along x, pure translation, equal weights: each of n steps takes gap / (n + ratio).
+TEST(Dual, DistributesOneScalarLoopAnalytically) {
+  // Straight along x, translation only, equal weights: each of n steps gets gap / (n + ratio).
   Problem problem;
   for (int i = 0; i <= 4; ++i) {
     problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
@@ -92,7 +92,7 @@ TEST(Dual, SpreadsOneScalarLoopAsTheoryDoes) {
                                   Matrix6::Identity()});
     }
   }
-  // The closure says 5 m instead of 4, with half the information of a step.
+  // The closure measures 5 m instead of 4 m, with half the information of a step.
   problem.closures.push_back(
       {0, 4, {Rotation::Identity(), Vector3(5, 0, 0)}, 0.5 * Matrix6::Identity()});
   Report report;
@@ -105,7 +105,7 @@ TEST(Dual, SpreadsOneScalarLoopAsTheoryDoes) {
   EXPECT_NEAR(report.counts[2].value, 0.5 * 1.0 / 6.0, 1e-12);  // gap^2 / total variance / 2
 }
 
-TEST(Dual, ChangesNothingWhenNothingIsWrong) {
+TEST(Dual, KeepsAConsistentProblemUnchanged) {
   const Problem problem = walk(3, 20, 0.0);
   Report report;
   const Trajectory out = Dual({}).correct(problem, report);
@@ -114,7 +114,7 @@ TEST(Dual, ChangesNothingWhenNothingIsWrong) {
   }
 }
 
-TEST(Dual, StartsFromKeyframesButAnswersToTheEdges) {
+TEST(Dual, ResultDoesNotDependOnTheInitialKeyframes) {
   Problem problem = walk(5, 16, 0.05);
   Report report;
   const Trajectory a = Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
@@ -129,14 +129,14 @@ TEST(Dual, StartsFromKeyframesButAnswersToTheEdges) {
   }
 }
 
-TEST(Dual, DeclinesWhatIsNoChainOrHasTooManyLoops) {
+TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {
   Problem problem = walk(1, 14, 0.05);
   EXPECT_EQ(Dual({}).declines(problem), std::nullopt);
-  EXPECT_EQ(Dual({.max_closures = 2}).declines(problem), "3 closures, more than max_closures = 2");
+  EXPECT_EQ(Dual({.max_closures = 2}).declines(problem), "3 closures exceed max_closures = 2");
   problem.odometry.pop_back();
-  EXPECT_EQ(Dual({}).declines(problem), "odometry has 12 edges, a whole chain has 13");
+  EXPECT_EQ(Dual({}).declines(problem), "odometry has 12 edges, a complete chain has 13");
   problem.closures.clear();
-  EXPECT_EQ(Dual({}).declines(problem), "no loop closure to spread");
+  EXPECT_EQ(Dual({}).declines(problem), "the problem has no loop closures");
 }
 
 }  // namespace

@@ -13,24 +13,24 @@ Trajectory elch(const Problem& problem, const Elch::Options& options = {}) {
   return Elch(options).correct(problem, report);
 }
 
-TEST(Elch, IsUniformWhenThereIsOneLoop) {
+TEST(Elch, EqualsUniformForOneLoop) {
   const Problem problem = test::drifting(
       test::hand_held_truth(50), twist({0.002, 0.001, 0.003}, {0.001, 0.002, 0.01}), {{5, 40}});
   for (const StepWeights weights :
        {StepWeights::index, StepWeights::time, StepWeights::distance, StepWeights::rotation}) {
     Report report;
-    const Trajectory wanted = Uniform({.weights = weights}).correct(problem, report);
+    const Trajectory expected = Uniform({.weights = weights}).correct(problem, report);
     const Trajectory ours = elch(problem, {weights});
     for (std::size_t i = 0; i < ours.size(); ++i) {
-      EXPECT_TRUE(is_close(ours[i].world_from_body, wanted[i].world_from_body, 1e-9, 1e-9)) << i;
+      EXPECT_TRUE(is_close(ours[i].world_from_body, expected[i].world_from_body, 1e-9, 1e-9)) << i;
     }
   }
 }
 
-TEST(Elch, TakesTheShortCutOfAnEarlierLoop) {
-  // 0 .. 8 along x. The first loop ties 6 to 0 without error; the second, 0 -> 8, is 3 m off. Its
-  // shortest path is 0 - 6 - 7 - 8, so 6, 7, 8 move by 1, 2, 3 m and 1 .. 5 follow their nearer
-  // end.
+TEST(Elch, UsesTheShortcutOfAnEarlierLoop) {
+  // Positions 0 .. 8 along x. The first loop joins 6 to 0 without error; the second, 0 -> 8, has an
+  // error of 3 m. Its shortest path is 0 - 6 - 7 - 8, so 6, 7, 8 move by 1, 2, 3 m, and 1 .. 5 move
+  // with the nearer end.
   Problem problem;
   for (int i = 0; i <= 8; ++i) {
     problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
@@ -38,10 +38,10 @@ TEST(Elch, TakesTheShortCutOfAnEarlierLoop) {
   problem.closures = {{0, 6, {Rotation::Identity(), {6, 0, 0}}, Matrix6::Identity()},
                       {0, 8, {Rotation::Identity(), {8, 3, 0}}, Matrix6::Identity()}};
   const Trajectory out = elch(problem);
-  const double wanted[] = {0, 0, 0, 0, 1, 1, 1, 2, 3};
+  const double expected[] = {0, 0, 0, 0, 1, 1, 1, 2, 3};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (i == 3) continue;  // as far from 0 as from 6: either may have it
-    EXPECT_NEAR(out[i].world_from_body.translation.y(), wanted[i], 1e-12) << i;
+    if (i == 3) continue;  // equally far from 0 and 6
+    EXPECT_NEAR(out[i].world_from_body.translation.y(), expected[i], 1e-12) << i;
   }
 }
 

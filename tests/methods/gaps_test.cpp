@@ -1,4 +1,5 @@
-// Smoothers at gaps, pairs and large steps: the fallback is a chord there, and only there.
+// Smoothers at time gaps, nearly coincident keyframes and large rotations: a chord is used there
+// only.
 #include <gtest/gtest.h>
 
 #include "datasets/core/interpolate.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using namespace test;
 
-/// Two loops of a hand-held camera, `gap` seconds apart.
+/// Two sequences of a hand-held camera, `gap` seconds apart.
 Problem with_gap(double gap) {
   Problem out;
   out.keyframes = hand_held_truth(40);
@@ -27,8 +28,10 @@ Problem with_gap(double gap) {
   return out;
 }
 
-/// Largest distance from the straight line and the great arc within interval `i` [m], [rad].
-std::pair<double, double> off_chord(const Curve& curve, const Trajectory& poses, std::size_t i) {
+/// Largest deviation from the straight line and from the great arc within interval `i` [m], [rad].
+std::pair<double, double> chord_deviation(const Curve& curve,
+                                          const Trajectory& poses,
+                                          std::size_t i) {
   const auto& [begin, a] = poses[i];
   const auto& [end, b] = poses[i + 1];
   const Pose from = curve.at(begin), to = curve.at(end);
@@ -36,9 +39,9 @@ std::pair<double, double> off_chord(const Curve& curve, const Trajectory& poses,
   for (int k = 1; k < 20; ++k) {
     const double u = k / 20.0;
     const Pose chord = interpolate(from, to, u);
-    const Pose here = curve.at(std::lerp(begin, end, u));
-    out.first = std::max(out.first, (here.translation - chord.translation).norm());
-    out.second = std::max(out.second, angle_between(here.rotation, chord.rotation));
+    const Pose current = curve.at(std::lerp(begin, end, u));
+    out.first = std::max(out.first, (current.translation - chord.translation).norm());
+    out.second = std::max(out.second, angle_between(current.rotation, chord.rotation));
   }
   return out;
 }
@@ -46,7 +49,7 @@ std::pair<double, double> off_chord(const Curve& curve, const Trajectory& poses,
 constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
                                               GaussianProcess::Prior::acceleration};
 
-TEST(Stretches, AreCutWhereAsked) {
+TEST(Stretches, AreSplitAtTheGivenIntervals) {
   EXPECT_EQ(stretches(5, [](std::size_t i) { return i == 1 || i == 3; }),
             (std::vector<Stretch>{{0, 1}, {2, 3}, {4, 4}}));
   EXPECT_EQ(stretches(1, [](std::size_t) { return true; }), (std::vector<Stretch>{{0, 0}}));
@@ -59,17 +62,17 @@ TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
     const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
     EXPECT_EQ(count(report, "chords"), 1.0);
     ASSERT_EQ(report.notes.size(), 1u);
-    const auto [metres, radians] = off_chord(*curve, problem.keyframes, 39);
+    const auto [metres, radians] = chord_deviation(*curve, problem.keyframes, 39);
     EXPECT_LT(metres, 1e-9);
     EXPECT_LT(radians, 1e-9);
-    EXPECT_GT(off_chord(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
+    EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
     for (const StampedPose& pose : problem.keyframes) {
       EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 0.02, 0.02));
     }
   }
 }
 
-TEST(GaussianProcess, AnythingBelowTheLongestIntervalIsSmoothed) {
+TEST(GaussianProcess, IntervalsBelowTheLimitAreSmoothed) {
   const double median = median_interval(hand_held_truth(40));
   for (const auto prior : kPriors) {
     for (const double gap : {10.0 * median, 49.0 * median, 0.055 * median}) {
@@ -81,7 +84,7 @@ TEST(GaussianProcess, AnythingBelowTheLongestIntervalIsSmoothed) {
   }
 }
 
-TEST(GaussianProcess, APairOneMicrosecondApartIsTaken) {
+TEST(GaussianProcess, AcceptsAPairOneMicrosecondApart) {
   Problem problem;
   problem.keyframes = hand_held_truth(60);
   problem.keyframes.insert(problem.keyframes.begin() + 31, problem.keyframes[30]);
@@ -96,7 +99,7 @@ TEST(GaussianProcess, APairOneMicrosecondApartIsTaken) {
   }
 }
 
-/// Keyframe 30 on turned by another 150 degrees.
+/// Keyframes 30 and later are rotated by another 150 degrees.
 Problem with_large_step() {
   Problem problem;
   problem.keyframes = hand_held_truth(60);
@@ -117,13 +120,13 @@ void expect_one_great_arc(const Smoother& smoother) {
   const auto smooth = smoother.smooth(plain, other);
   EXPECT_EQ(count(report, "great_arcs"), 1.0);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_LT(off_chord(*curve, problem.keyframes, 29).second, 1e-9);
-  int bent = 0, bent_before = 0;
+  EXPECT_LT(chord_deviation(*curve, problem.keyframes, 29).second, 1e-9);
+  int curved = 0, curved_before = 0;
   for (std::size_t i = 0; i + 1 < 60; ++i) {
-    bent += off_chord(*curve, problem.keyframes, i).second > 1e-6;
-    bent_before += off_chord(*smooth, plain.keyframes, i).second > 1e-6;
+    curved += chord_deviation(*curve, problem.keyframes, i).second > 1e-6;
+    curved_before += chord_deviation(*smooth, plain.keyframes, i).second > 1e-6;
   }
-  EXPECT_GE(bent, bent_before - 1);
+  EXPECT_GE(curved, curved_before - 1);
   for (const StampedPose& pose : problem.keyframes) {
     EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 1e-9, 1e-9));
   }
@@ -139,11 +142,11 @@ TEST(Dm, AGapWithoutFramesIsAChord) {
     Report report;
     const auto curve = Dm({.planar = planar}).smooth(problem, report);
     EXPECT_EQ(count(report, "chords"), 1.0);
-    EXPECT_LT(off_chord(*curve, problem.keyframes, 39).first, 1e-9);
-    EXPECT_GT(off_chord(*curve, problem.keyframes, 20).first, 1e-4);
+    EXPECT_LT(chord_deviation(*curve, problem.keyframes, 39).first, 1e-9);
+    EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);
     Report never;
     const auto literal = Dm({.planar = planar, .chord_above = std::nullopt}).smooth(problem, never);
-    EXPECT_GT(off_chord(*literal, problem.keyframes, 39).first, 0.5);
+    EXPECT_GT(chord_deviation(*literal, problem.keyframes, 39).first, 0.5);
   }
 }
 

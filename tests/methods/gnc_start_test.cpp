@@ -1,4 +1,4 @@
-// Where graduated non-convexity starts, what it reports, and closures stated without any error.
+// Initial values of graduated non-convexity, its report, and closures stated as exact.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ struct Corrected {
   }
 };
 
-/// By a method of the catalogue, with its defaults.
+/// Corrects the problem by a method of the catalogue with default options.
 Corrected corrected(const std::string& name, const Problem& problem) {
   for (const MethodEntry& entry : methods()) {
     if (entry.name != name) continue;
@@ -47,14 +47,14 @@ Sequence drive(double false_share) {
 
 double rmse(const Trajectory& keyframes, const Sequence& sequence) {
   const auto truth = poses_at(sequence.reference, stamps(keyframes), {});
-  double sum = 0.0;  // not aligned: the first keyframe is held at its true place
+  double sum = 0.0;  // not aligned: the first keyframe is fixed at its true position
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     sum += (keyframes[i].world_from_body.translation - truth[i]->translation).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(keyframes.size()));
 }
 
-TEST(GncStart, KeepsTheTrueClosuresOfGraphsWhoseKeyframesLieInAnotherMinimum) {
+TEST(GncStart, KeepsTrueClosuresWhenKeyframesLieInAnotherMinimum) {
   const char* root = std::getenv("LOOPBENCH_DATA");
   if (root == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
   try {
@@ -65,14 +65,15 @@ TEST(GncStart, KeepsTheTrueClosuresOfGraphsWhoseKeyframesLieInAnotherMinimum) {
     const Problem mit = load_pose_graph(options, {{root}}).problem;
     for (const char* name : {"pose_graph_gnc_tls", "pose_graph_gnc_gm"}) {
       EXPECT_GE(corrected(name, intel).count("closures_kept"), 250.0) << name;  // of 256
-      EXPECT_LT(corrected(name, mit).count("cost"), 20.0) << name;  // half of chi2; before: 200
+      EXPECT_LT(corrected(name, mit).count("cost"), 20.0)
+          << name;  // chi2 / 2; from all closures: 200
     }
   } catch (const DataMissing& missing) {
     GTEST_SKIP() << missing.what();
   }
 }
 
-TEST(GncStart, ReportsHowManyClosuresItKeepsAndWarnsWhenTheyAreFew) {
+TEST(GncStart, ReportsKeptClosuresAndWarnsWhenTheyAreFew) {
   const Corrected most = corrected("pose_graph_gnc_tls", drive(0.0).problem);
   EXPECT_GE(most.count("closures_kept"), 18.0);
   EXPECT_TRUE(most.report.notes.empty());
@@ -85,7 +86,7 @@ TEST(GncStart, ReportsHowManyClosuresItKeepsAndWarnsWhenTheyAreFew) {
       << few.report.notes[0];
 }
 
-TEST(GncStart, ClosuresWithoutAnyErrorAreSolvedAsWellAsVeryCertainOnes) {
+TEST(GncStart, ExactClosuresAreSolvedAsWellAsPreciseOnes) {
   Sequence sequence = drive(0.0);
   for (Edge& closure : sequence.problem.closures) closure.information.setIdentity();
   const auto with_information = [&](double information) {
@@ -93,11 +94,11 @@ TEST(GncStart, ClosuresWithoutAnyErrorAreSolvedAsWellAsVeryCertainOnes) {
     for (Edge& closure : out.closures) closure.information *= information;
     return out;
   };
-  const double certain =
+  const double precise =
       rmse(corrected("pose_graph_gnc_tls", with_information(1e8)).keyframes, sequence);
   for (const char* name : {"pose_graph_gnc_tls", "pose_graph_gnc_gm", "pose_graph"}) {
     const double exact = rmse(corrected(name, with_information(1e24)).keyframes, sequence);
-    EXPECT_LT(exact, 1.1 * certain) << name;
+    EXPECT_LT(exact, 1.1 * precise) << name;
   }
 }
 
@@ -115,7 +116,7 @@ TEST(GncStart, StiffnessIsBoundedRowByRow) {
   EXPECT_EQ(bounded.closures[1].information, problem.closures[1].information);
 }
 
-TEST(MotionDriftPcm, OneFalseClosureInFiveCostsAtMostATenth) {
+TEST(MotionDriftPcm, TwentyPercentFalseClosuresAddAtMostTenPercentError) {
   const Sequence clean = drive(0.0);
   const Sequence mixed = drive(0.2);
   const double without = rmse(corrected("motion_drift", clean.problem).keyframes, clean);

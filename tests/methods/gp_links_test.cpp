@@ -1,4 +1,4 @@
-// What gp_wnoa and gp_wnoj are made of: body rates, the prior between two states, its Jacobians.
+// Parts of gp_wnoa and gp_wnoj: body rates, the prior between two states, its Jacobians.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,9 +11,9 @@ namespace {
 
 using namespace test;
 
-TEST(BodyRate, TermsMakeTheInverseRightJacobian) {
+TEST(BodyRate, SeriesEqualsTheInverseRightJacobian) {
   std::mt19937_64 random(1);
-  // 1.414 is where the series hands over to the closed form.
+  // The series is replaced by the closed form at 1.414.
   for (const double angle : {0.0, 1e-8, 1e-3, 0.3, 1.4, 1.414, 1.415, 2.0, 3.1}) {
     Twist xi = random_twist(random, 2.0, 1.0);
     xi.tail<3>() *= angle / xi.tail<3>().norm();
@@ -64,7 +64,7 @@ void expect_link_jacobians() {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 5; ++trial) {
     const GpState<P> from = random_state<P>(random), to = random_state<P>(random);
-    const Link<P> here = link<P>(from, to, 1.7);
+    const Link<P> analytic = link<P>(from, to, 1.7);
     constexpr double step = 1e-6;
     for (int k = 0; k < 6 * P; ++k) {
       const GpVector<P> d = step * GpVector<P>::Unit(k);
@@ -74,9 +74,9 @@ void expect_link_jacobians() {
       const GpVector<P> by_to =
           (link<P>(from, moved<P>(to, d), 1.7).error - link<P>(from, moved<P>(to, -d), 1.7).error) /
           (2.0 * step);
-      const double size = here.by_from.norm();
-      EXPECT_LT((by_from - here.by_from.col(k)).norm(), 1e-8 * size) << k;
-      EXPECT_LT((by_to - here.by_to.col(k)).norm(), 1e-8 * size) << k;
+      const double size = analytic.by_from.norm();
+      EXPECT_LT((by_from - analytic.by_from.col(k)).norm(), 1e-8 * size) << k;
+      EXPECT_LT((by_to - analytic.by_to.col(k)).norm(), 1e-8 * size) << k;
     }
   }
 }
@@ -87,9 +87,9 @@ TEST(Link, JacobiansAgreeWithDifferences) {
 }
 
 TEST(Link, IsWhiteForUnitPower) {
-  // With no turn the error is linear: covariance of W e must be the identity for e ~ Q(h).
+  // Without rotation the error is linear: the covariance of W e must be the identity for e ~ Q(h).
   const double h = 1.7;
-  Eigen::Matrix3d Q;  // the textbook's matrix for constant acceleration
+  Eigen::Matrix3d Q;  // textbook covariance for constant acceleration
   Q << std::pow(h, 5) / 20, std::pow(h, 4) / 8, std::pow(h, 3) / 6, std::pow(h, 4) / 8,
       std::pow(h, 3) / 3, h * h / 2, std::pow(h, 3) / 6, h * h / 2, h;
   Eigen::Matrix3d W;
@@ -111,7 +111,7 @@ TEST(Prior, BetweenTwoStatesConstantVelocityIsTheHermiteCubic) {
     EXPECT_NEAR(weights.from[1], s - 2.0 * s * s + s * s * s, 1e-14);
     EXPECT_NEAR(weights.to[0], 3.0 * s * s - 2.0 * s * s * s, 1e-14);
     EXPECT_NEAR(weights.to[1], s * s * s - s * s, 1e-14);
-    // Position, velocity and acceleration at both ends: the quintic.
+    // With position, velocity and acceleration at both ends: the quintic.
     const auto quintic = Prior<3>::between(s);
     EXPECT_NEAR(quintic.to[0], s * s * s * (10.0 - 15.0 * s + 6.0 * s * s), 1e-13);
   }

@@ -1,4 +1,4 @@
-// gp_wnoa and gp_wnoj: the evidence, and what the posterior must be.
+// gp_wnoa and gp_wnoj: evidence and posterior.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -17,10 +17,10 @@ using namespace test;
 std::unique_ptr<const Curve> smooth(const Trajectory& keyframes,
                                     const GaussianProcess::Options& options,
                                     Report* report = nullptr) {
-  Report own;
+  Report unused;
   Problem problem;
   problem.keyframes = keyframes;
-  return GaussianProcess(options).smooth(problem, report ? *report : own);
+  return GaussianProcess(options).smooth(problem, report ? *report : unused);
 }
 
 GaussianProcess::Options wnoj(GaussianProcess::Options options = {}) {
@@ -39,7 +39,7 @@ std::vector<double> uneven(std::size_t n) {
 }
 
 TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
-  // A helix climbed at constant speed: nothing drives the prior.
+  // A helix at constant speed: the driving noise is zero.
   const Pose start{exp_so3({0.3, 0.1, -1.0}), {5.0, -2.0, 1.0}};
   const auto truth = [&](double time) {
     return start * exp_se3(time * twist({0.8, 0.1, 0.2}, {0.1, -0.2, 0.7}));
@@ -54,7 +54,7 @@ TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
   }
 }
 
-/// Without any turn, 3 cm of noise on a wave.
+/// A wave without rotation and with position noise `sigma` [m].
 Trajectory wave(std::size_t n, double sigma) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0.0, sigma);
@@ -66,9 +66,9 @@ Trajectory wave(std::size_t n, double sigma) {
   return out;
 }
 
-TEST(GaussianProcess, WithoutTurnsConstantVelocityIsTheSmoothingSpline) {
+TEST(GaussianProcess, ConstantVelocityPriorWithoutRotationIsTheSmoothingSpline) {
   const Trajectory keyframes = wave(25, 0.03);
-  // lambda = sigma^2 / power; attitudes are held.
+  // lambda = sigma^2 / power; rotations are fixed.
   const auto process =
       smooth(keyframes, {.sigma_t = 0.1, .sigma_r = 1e-7, .power_t = 0.5, .power_r = 1e-12});
   Problem problem;
@@ -80,18 +80,18 @@ TEST(GaussianProcess, WithoutTurnsConstantVelocityIsTheSmoothingSpline) {
   }
 }
 
-/// -log of the restricted likelihood in full: V = q K + sigma^2 I, K(s, t) the kernel of the once
-/// integrated Wiener process, 1 and t free.
+/// -log restricted likelihood by dense matrices: V = q K + sigma^2 I, where K(s, t) is the kernel
+/// of the once integrated Wiener process and constant and linear terms are free.
 double dense_negative_evidence(const Trajectory& keyframes, double sigma, double power) {
   const auto n = static_cast<Eigen::Index>(keyframes.size());
   Eigen::MatrixXd V(n, n), T(n, 2), Y(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& here = keyframes[static_cast<std::size_t>(i)];
-    T.row(i) << 1.0, here.stamp;
-    Y.row(i) = here.world_from_body.translation;
+    const auto& current = keyframes[static_cast<std::size_t>(i)];
+    T.row(i) << 1.0, current.stamp;
+    Y.row(i) = current.world_from_body.translation;
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double s = std::min(here.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
-      const double t = std::max(here.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
+      const double s = std::min(current.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
+      const double t = std::max(current.stamp, keyframes[static_cast<std::size_t>(j)].stamp);
       V(i, j) = power * s * s * (3.0 * t - s) / 6.0 + (i == j ? sigma * sigma : 0.0);
     }
   }
@@ -113,22 +113,24 @@ TEST(GaussianProcess, EvidenceAgreesWithTheDenseComputationForTwelvePoses) {
     return std::pair{posterior.negative_evidence(states, parameters),
                      dense_negative_evidence(keyframes, sigma, power)};
   };
-  const auto [ours, dense] = both(0.03, 0.5);
+  const auto [sparse, dense] = both(0.03, 0.5);
   for (const auto& [sigma, power] : {std::pair{0.05, 0.5}, {0.03, 2.0}, {0.01, 0.1}}) {
-    const auto [our_other, dense_other] = both(sigma, power);
-    EXPECT_NEAR(our_other - ours, dense_other - dense, 1e-3) << sigma << ", " << power;
+    const auto [sparse_other, dense_other] = both(sigma, power);
+    EXPECT_NEAR(sparse_other - sparse, dense_other - dense, 1e-3) << sigma << ", " << power;
   }
 }
 
-/// A hand-held path with white noise of 2 cm and 0.01 rad.
-Trajectory shaken_path(std::uint64_t seed, const Trajectory& truth) {
+/// The path with white noise of 2 cm and 0.01 rad.
+Trajectory noisy_path(std::uint64_t seed, const Trajectory& truth) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
-  const auto any = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const auto random_vector = [&] {
+    return Vector3(normal(random), normal(random), normal(random));
+  };
   Trajectory out = truth;
   for (auto& [stamp, pose] : out) {
-    pose.translation += 0.02 * any();
-    pose.rotation = (pose.rotation * exp_so3(0.01 * any())).normalized();
+    pose.translation += 0.02 * random_vector();
+    pose.rotation = (pose.rotation * exp_so3(0.01 * random_vector())).normalized();
   }
   return out;
 }
@@ -144,47 +146,47 @@ Trajectory path(std::size_t n) {
   return out;
 }
 
-TEST(GaussianProcess, FindsTheNoiseAndRemovesAThirdOfIt) {
+TEST(GaussianProcess, EstimatesTheNoiseAndRemovesAThirdOfIt) {
   const Trajectory truth = path(120);
-  const Trajectory keyframes = shaken_path(1, truth);
+  const Trajectory keyframes = noisy_path(1, truth);
   for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
     Report report;
     const auto curve = smooth(keyframes, options, &report);
     EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
     EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
-    double before = 0.0, after = 0.0, turn_before = 0.0, turn_after = 0.0;
+    double before = 0.0, after = 0.0, rotation_before = 0.0, rotation_after = 0.0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
-      const Pose& wanted = truth[i].world_from_body;
-      const Pose got = curve->at(truth[i].stamp);
-      before += (keyframes[i].world_from_body.translation - wanted.translation).squaredNorm();
-      after += (got.translation - wanted.translation).squaredNorm();
-      turn_before +=
-          std::pow(angle_between(keyframes[i].world_from_body.rotation, wanted.rotation), 2);
-      turn_after += std::pow(angle_between(got.rotation, wanted.rotation), 2);
+      const Pose& expected = truth[i].world_from_body;
+      const Pose estimated = curve->at(truth[i].stamp);
+      before += (keyframes[i].world_from_body.translation - expected.translation).squaredNorm();
+      after += (estimated.translation - expected.translation).squaredNorm();
+      rotation_before +=
+          std::pow(angle_between(keyframes[i].world_from_body.rotation, expected.rotation), 2);
+      rotation_after += std::pow(angle_between(estimated.rotation, expected.rotation), 2);
     }
     EXPECT_LT(std::sqrt(after), 0.67 * std::sqrt(before));
-    EXPECT_LT(std::sqrt(turn_after), 0.67 * std::sqrt(turn_before));
+    EXPECT_LT(std::sqrt(rotation_after), 0.67 * std::sqrt(rotation_before));
   }
 }
 
 TEST(GaussianProcess, HasNoKink) {
-  const Trajectory keyframes = shaken_path(2, path(20));
+  const Trajectory keyframes = noisy_path(2, path(20));
   for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
     const auto curve = smooth(keyframes, options);
     constexpr double h = 1e-5;
     for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
-      const Pose here = curve->at(keyframes[i].stamp);
+      const Pose current = curve->at(keyframes[i].stamp);
       const auto rate = [&](double side) {
-        return Twist(log_se3(here.inverse() * curve->at(keyframes[i].stamp + side)) / side);
+        return Twist(log_se3(current.inverse() * curve->at(keyframes[i].stamp + side)) / side);
       };
       EXPECT_LT((rate(h) - rate(-h)).norm(), 1e-3) << i;
     }
   }
 }
 
-TEST(GaussianProcess, NoiseGivenIsKept) {
+TEST(GaussianProcess, KeepsGivenNoise) {
   Report report;
-  smooth(shaken_path(2, path(20)), {.sigma_t = 0.05, .power_r = 0.125}, &report);
+  smooth(noisy_path(2, path(20)), {.sigma_t = 0.05, .power_r = 0.125}, &report);
   EXPECT_EQ(count(report, "sigma_t"), 0.05);
   EXPECT_NEAR(count(report, "power_r"), 0.125, 1e-15);
 }
@@ -193,7 +195,7 @@ TEST(GaussianProcess, DeclinesTooFewKeyframes) {
   Problem problem;
   problem.keyframes = path(3);
   EXPECT_EQ(GaussianProcess({}).declines(problem), std::nullopt);
-  EXPECT_EQ(GaussianProcess(wnoj()).declines(problem), "fewer than 4 keyframes");
+  EXPECT_EQ(GaussianProcess(wnoj()).declines(problem), "3 keyframes, fewer than 4");
 }
 
 }  // namespace

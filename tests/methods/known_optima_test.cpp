@@ -1,4 +1,4 @@
-// Public graphs and chains, where LOOPBENCH_DATA holds them.
+// Public pose graphs and chains with known optima, if LOOPBENCH_DATA contains them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Problem loaded(const std::string& path, std::int64_t every = 1) {
 
 struct Optimum {
   std::string file;
-  double chi2;  ///< not halved, information as g2o reads it
+  double chi2;  ///< not halved, information as read by g2o
 };
 
 class KnownOptimum : public ::testing::TestWithParam<Optimum> {};
@@ -41,7 +41,7 @@ TEST_P(KnownOptimum, IsReached) {
   EXPECT_LT(chi2, GetParam().chi2 * (1.0 + 1e-4));
 }
 
-// Where this comes from: results/methods/pose_graphs.md.
+// Source of the values: results/methods/pose_graphs.md.
 INSTANTIATE_TEST_SUITE_P(Graphs,
                          KnownOptimum,
                          ::testing::Values(Optimum{"intel.g2o", 45.0043},
@@ -67,13 +67,13 @@ TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
   const Trajectory graph =
       PoseGraphOptimizer({.max_iterations = 2000, .tolerance = 1e-15}).correct(problem, report);
   std::vector<Pose> a, b;
-  double apart = 0.0;
+  double distance = 0.0;
   for (std::size_t i = 0; i < dual.size(); ++i) {
     a.push_back(dual[i].world_from_body);
     b.push_back(graph[i].world_from_body);
-    apart = std::max(apart, (a[i].translation - b[i].translation).norm());
+    distance = std::max(distance, (a[i].translation - b[i].translation).norm());
   }
-  EXPECT_LT(apart, 1e-4);
+  EXPECT_LT(distance, 1e-4);
   EXPECT_NEAR(chain_cost(problem, a), chain_cost(problem, b), 1e-6 * chain_cost(problem, a));
 }
 

@@ -1,4 +1,4 @@
-// Smoothers that look at a few neighbours: b_spline, screw, savitzky_golay.
+// Local smoothers: b_spline, screw, savitzky_golay.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -28,7 +28,7 @@ std::unique_ptr<const Curve> smooth(const Trajectory& keyframes, const Params& p
   return curve;
 }
 
-/// Uneven: 0.1 to 0.7 s apart, from 1000 s on.
+/// Uneven stamps, 0.1 to 0.7 s apart, starting at 1000 s.
 std::vector<double> uneven(std::size_t n) {
   std::vector<double> out;
   double time = 1000.0;
@@ -46,7 +46,7 @@ Trajectory poses_of(const std::vector<double>& stamps, Truth truth) {
   return out;
 }
 
-/// Ten times in every interval, and the last keyframe.
+/// Ten times per interval, and the last keyframe.
 std::vector<double> dense(const Trajectory& keyframes) {
   std::vector<double> out;
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
@@ -59,29 +59,33 @@ std::vector<double> dense(const Trajectory& keyframes) {
 }
 
 template <class Truth>
-void expect_follows(const Curve& curve, const Trajectory& keyframes, Truth truth, double near) {
+void expect_follows(const Curve& curve,
+                    const Trajectory& keyframes,
+                    Truth truth,
+                    double tolerance) {
   for (const double time : dense(keyframes)) {
-    ASSERT_TRUE(is_close(curve.at(time), truth(time), near, near)) << "at " << time;
+    ASSERT_TRUE(is_close(curve.at(time), truth(time), tolerance, tolerance)) << "at " << time;
   }
 }
 
-/// Position a polynomial of the given degree, attitude a polynomial angle about one axis.
+/// Position is a polynomial of the given degree, rotation a polynomial angle about one axis.
 auto polynomial(int degree) {
   return [degree](double time) {
     const double s = 0.2 * (time - 1000.0);
     double power = 1.0;
-    Vector3 place(1.0, -2.0, 0.5);
+    Vector3 position(1.0, -2.0, 0.5);
     double angle = 0.3;
     for (int k = 1; k <= degree; ++k) {
       power *= s;
-      place += power * Vector3(0.5 / k, 0.3 - 0.2 * k, 0.1 * k);
+      position += power * Vector3(0.5 / k, 0.3 - 0.2 * k, 0.1 * k);
       angle += 0.4 * power / k;
     }
-    return Pose{exp_so3({0.2, 0.1, -0.7}) * exp_so3(angle * Vector3(1.0, -2.0, 2.0) / 3.0), place};
+    return Pose{exp_so3({0.2, 0.1, -0.7}) * exp_so3(angle * Vector3(1.0, -2.0, 2.0) / 3.0),
+                position};
   };
 }
 
-TEST(SplineBasis, IsAPartitionOfUnityAndNeverNegativeAndReproducesTime) {
+TEST(SplineBasis, IsANonNegativePartitionOfUnityAndReproducesTime) {
   for (std::size_t order = 2; order <= 6; ++order) {
     const auto sites = uneven(9);
     const auto basis = SplineBasis::for_sites(order, sites);
@@ -112,17 +116,17 @@ TEST(Turning, AgreesWithDifferences) {
                                          exp_so3({1.5, -0.6, 0.4}),
                                          exp_so3({1.2, -1.6, 0.0})};
   const SplineBasis::Values B{1.0, 0.95, 0.7, 0.3, 0.02, 0.0};
-  const Turning here = turning(controls.data(), 5, B);
+  const Turning current = turning(controls.data(), 5, B);
   constexpr double step = 1e-6;
   for (std::size_t j = 0; j < 5; ++j) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto moved = [&](double by) {
-        auto there = controls;
-        there[j] = exp_so3(by * Vector3::Unit(axis)) * there[j];
-        return turning(there.data(), 5, B).rotation;
+        auto moved_controls = controls;
+        moved_controls[j] = exp_so3(by * Vector3::Unit(axis)) * moved_controls[j];
+        return turning(moved_controls.data(), 5, B).rotation;
       };
       const Vector3 numeric = log_so3(moved(step) * moved(-step).conjugate()) / (2.0 * step);
-      EXPECT_LT((numeric - here.by[j].col(axis)).norm(), 1e-8) << j << ", " << axis;
+      EXPECT_LT((numeric - current.by[j].col(axis)).norm(), 1e-8) << j << ", " << axis;
     }
   }
 }
@@ -157,7 +161,7 @@ TEST(BSpline, OfOrderTwoIsThePolyline) {
 }
 
 TEST(BSpline, OfAHigherOrderInterpolatesASmoothPathBetter) {
-  // Away from the ends the error of order k falls like h^k.
+  // Away from the ends the error of order k decreases like h^k.
   double before = 1.0;
   for (int order = 2; order <= 6; order += 2) {
     const auto truth = [](double time) {
@@ -167,18 +171,18 @@ TEST(BSpline, OfAHigherOrderInterpolatesASmoothPathBetter) {
     };
     const Trajectory keyframes = poses_of(uneven(60), truth);
     const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
-    double worst = 0.0;
+    double largest = 0.0;
     for (const double time : dense(keyframes)) {
       if (time < 1003.0 || time > keyframes.back().stamp - 3.0) continue;
-      worst = std::max(worst, (curve->at(time).translation - truth(time).translation).norm());
-      worst = std::max(worst, angle_between(curve->at(time).rotation, truth(time).rotation));
+      largest = std::max(largest, (curve->at(time).translation - truth(time).translation).norm());
+      largest = std::max(largest, angle_between(curve->at(time).rotation, truth(time).rotation));
     }
-    EXPECT_LT(worst, 0.1 * before) << order;
-    before = worst;
+    EXPECT_LT(largest, 0.1 * before) << order;
+    before = largest;
   }
 }
 
-TEST(BSpline, SaysSoWhenItFallsBackToGreatArcs) {
+TEST(BSpline, ReportsTheFallbackToGreatArcs) {
   Problem problem;
   for (int i = 0; i < 12; ++i) {
     problem.keyframes.push_back(
@@ -193,7 +197,8 @@ TEST(BSpline, SaysSoWhenItFallsBackToGreatArcs) {
 }
 
 TEST(Screw, IsExactOnAHelix) {
-  // Radius 2 m, 0.5 rad/s, rising 0.3 m/s, facing along: body twist ((1, 0, 0.3), (0, 0, 0.5)).
+  // Radius 2 m, 0.5 rad/s, rising 0.3 m/s, tangential heading: body twist ((1, 0, 0.3), (0, 0,
+  // 0.5)).
   const auto helix = [](double time) {
     const double angle = 0.5 * (time - 1000.0);
     return turned_about_z(angle, {2.0 * std::sin(angle), 2.0 - 2.0 * std::cos(angle), 0.6 * angle});
@@ -230,7 +235,7 @@ TEST(SavitzkyGolay, ReproducesPolynomialsOfItsDegree) {
   }
 }
 
-TEST(SavitzkyGolay, ReproducesATurnThatGoesRoundWithinAWindow) {
+TEST(SavitzkyGolay, ReproducesRotationsAbovePiWithinAWindow) {
   const auto spin = [](double time) { return turned_about_z(2.0 * (time - 1000.0), {1, 2, 3}); };
   const Trajectory keyframes = poses_of(uneven(20), spin);
   expect_follows(
@@ -257,24 +262,24 @@ TEST(SavitzkyGolay, HasNoKink) {
   constexpr double h = 1e-5;
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double t = keyframes[i].stamp;
-    const Pose here = curve->at(t);
+    const Pose current = curve->at(t);
     const auto speed = [&](double side) {
-      return Vector3((curve->at(t + side).translation - here.translation) / side);
+      return Vector3((curve->at(t + side).translation - current.translation) / side);
     };
-    const auto turn = [&](double side) {
-      return Vector3(log_so3(here.rotation.conjugate() * curve->at(t + side).rotation) / side);
+    const auto angular_velocity = [&](double side) {
+      return Vector3(log_so3(current.rotation.conjugate() * curve->at(t + side).rotation) / side);
     };
     EXPECT_LT((speed(h) - speed(-h)).norm(), 1e-3);
-    EXPECT_LT((turn(h) - turn(-h)).norm(), 1e-3);
+    EXPECT_LT((angular_velocity(h) - angular_velocity(-h)).norm(), 1e-3);
   }
 }
 
-TEST(SavitzkyGolay, RefusesAWindowThatCannotHoldItsDegree) {
+TEST(SavitzkyGolay, RejectsAWindowSmallerThanItsDegree) {
   EXPECT_THROW(SavitzkyGolay({.degree = 3, .window = 3}), OptionError);
   EXPECT_NO_THROW(SavitzkyGolay({.degree = 3, .window = 4}));
   Problem problem;
   problem.keyframes = hand_held_truth(3);
-  EXPECT_EQ(SavitzkyGolay({}).declines(problem), "fewer than degree + 1 = 4 keyframes");
+  EXPECT_EQ(SavitzkyGolay({}).declines(problem), "3 keyframes, fewer than degree + 1 = 4");
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ std::vector<Value> values_of(const std::function<Value(double)>& f) {
   for (const double u : kSites) out.push_back(f(u));
   return out;
 }
-Value wavy(double u) { return {std::sin(u), std::cos(2 * u), u * u, 1.0 / (1.0 + u)}; }
+Value smooth_function(double u) { return {std::sin(u), std::cos(2 * u), u * u, 1.0 / (1.0 + u)}; }
 Value cubic(double u) { return {u * u * u - u, 2.0 - u * u, 0.5 * u * u * u, u}; }
 
-// Equation (12) as it should be printed, to the letter and slow.
+// Corrected equation (12), implemented literally and slowly.
 double N(const std::vector<double>& m, std::size_t t, std::size_t k, double u) {
   if (k == 1) return m[t] <= u && u < m[t + 1] ? 1.0 : 0.0;
   const auto share = [](double above, double below) { return below == 0.0 ? 0.0 : above / below; };
@@ -31,7 +31,7 @@ class EveryOrder : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(BSpline, EveryOrder, testing::Values(2u, 3u, 4u, 5u, 6u));
 
 TEST_P(EveryOrder, BasisIsTheRecursionAndAPartitionOfUnity) {
-  const BSpline spline = BSpline::through(kSites, values_of(wavy), GetParam());
+  const BSpline spline = BSpline::through(kSites, values_of(smooth_function), GetParam());
   const std::size_t k = GetParam();
   for (double u = 0.0; u < 4.0; u += 0.037) {
     const std::size_t span = spline.span(u);
@@ -47,7 +47,7 @@ TEST_P(EveryOrder, BasisIsTheRecursionAndAPartitionOfUnity) {
 }
 
 TEST_P(EveryOrder, PassesThroughEverySite) {
-  const auto values = values_of(wavy);
+  const auto values = values_of(smooth_function);
   const BSpline spline = BSpline::through(kSites, values, GetParam());
   EXPECT_EQ(spline.controls().size(), kSites.size());
   EXPECT_EQ(spline.knots().size(), kSites.size() + GetParam());
@@ -57,8 +57,8 @@ TEST_P(EveryOrder, PassesThroughEverySite) {
 }
 
 TEST_P(EveryOrder, JetsAgreeWithDifferences) {
-  if (GetParam() < 4) return;  // corners in what is differenced
-  const BSpline spline = BSpline::through(kSites, values_of(wavy), GetParam());
+  if (GetParam() < 4) return;  // the second derivative is not continuous
+  const BSpline spline = BSpline::through(kSites, values_of(smooth_function), GetParam());
   const double h = 1e-4, u = 1.55;
   const Jet<Value> jet = spline.at(moving_time(u));
   EXPECT_LT((jet.first - (spline.at(u + h) - spline.at(u - h)) / (2 * h)).norm(), 1e-5);
@@ -76,14 +76,14 @@ TEST(BSpline, ReproducesCubicsFromOrderFourOn) {
   }
 }
 
-TEST(BSpline, FewSitesLowerTheOrder) {
+TEST(BSpline, FewSitesReduceTheOrder) {
   const std::vector<double> two{1.0, 3.0};
   const std::vector<Value> ends{Value(0, 0, 0, 0), Value(2, 4, 0, 0)};
   EXPECT_TRUE(BSpline::through(two, ends, 4).at(2.0).isApprox(Value(1, 2, 0, 0), 1e-15));
 }
 
-TEST(BSpline, LeastSquaresReproducesACubicWhateverTheKnots) {
-  const std::vector<double> inner{1.0, 1.3, 1.35, 1.4, 1.45, 2.5};  // more than the sites decide
+TEST(BSpline, LeastSquaresReproducesACubicForAnyKnots) {
+  const std::vector<double> inner{1.0, 1.3, 1.35, 1.4, 1.45, 2.5};  // more than the sites determine
   const BSpline spline = BSpline::near(
       kSites, values_of([](double u) { return Value(u, 1.0 - 2.0 * u, 0.0, 3.0); }), inner, 4);
   for (double u = 0.0; u <= 4.0; u += 0.1) {
@@ -95,7 +95,7 @@ TEST(BSpline, LeastSquaresReproducesACubicWhateverTheKnots) {
   }
 }
 
-TEST(NodeSpline, OfAnotherOrderPassesThroughTheNodesToo) {
+TEST(NodeSpline, OfAnotherOrderInterpolatesTheNodes) {
   const Nodes nodes(wandering(30, 4));
   for (const std::size_t k : {2u, 3u, 5u, 6u}) {
     const NodeSpline spline = NodeSpline::of_order(nodes, k);

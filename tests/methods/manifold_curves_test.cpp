@@ -19,9 +19,9 @@ std::vector<Vector2> along_x(const std::vector<double>& xs, Function y) {
 }
 const std::vector<double> kFive{0.0, 0.3, 0.7, 1.1, 1.6};
 
-double named(const std::vector<Coefficient>& all, const std::string& name) {
-  for (const auto& [own, value] : all) {
-    if (own == name) return value;
+double coefficient(const std::vector<Coefficient>& all, const std::string& name) {
+  for (const auto& [own_name, value] : all) {
+    if (own_name == name) return value;
   }
   ADD_FAILURE() << "no " << name;
   return 0.0;
@@ -48,7 +48,7 @@ TEST(Sine, RecoversAmplitudeRateAndPhase) {
   EXPECT_EQ(f->level, 0.0);
 }
 
-TEST(Sine, TakesALevelOfItsOwn) {
+TEST(Sine, FitsAConstantTerm) {
   const std::vector<double> xs{0.0, 0.3, 0.7, 1.1, 1.6, 2.0};
   const auto f = fit_sine(along_x(xs, [](double x) { return 5 + 0.3 * std::sin(2 * x); }), true);
   ASSERT_TRUE(f);
@@ -56,15 +56,15 @@ TEST(Sine, TakesALevelOfItsOwn) {
   EXPECT_NEAR((*f)(0.5), 5.0 + 0.3 * std::sin(1.0), 1e-7);
 }
 
-TEST(Sine, RefusesAnAlias) {
-  // Up and down at every node: the only sine through it has a wavelength of two spacings.
+TEST(Sine, RejectsAnAlias) {
+  // Alternating nodes: the only sine through them has a wavelength of two spacings.
   const std::vector<Vector2> zigzag{{0, 1}, {1, -1}, {2, 1}, {3, -1}, {4, 1}, {5, -1}};
   const auto f = fit_sine(zigzag, false);
   if (f) {
     EXPECT_GE(2.0 * std::numbers::pi / f->rate, 4.0 * (1.0 - 1e-9));
     EXPECT_LE(f->amplitude, 4.0);
   }
-  // The article's own example, a = 2.007, b = 104.6 at 9 cm between keyframes.
+  // The article's example: a = 2.007, b = 104.6 with 9 cm between keyframes.
   const auto printed = [](double x) { return 2.007 * std::sin(104.6 * x - 32.08); };
   const auto g = fit_sine(along_x({0.0, 0.09, 0.18, 0.27, 0.36}, printed), false);
   if (g) {
@@ -72,8 +72,8 @@ TEST(Sine, RefusesAnAlias) {
   }
 }
 
-TEST(Sine, RefusesAnAmplitudeFarAboveItsPoints) {
-  // A slice of a parabola: a long wave of great height fits best.
+TEST(Sine, RejectsAnAmplitudeFarAboveItsPoints) {
+  // Part of a parabola: a long wave of large amplitude fits best.
   const auto f = fit_sine(along_x(kFive, [](double x) { return 2 + 0.01 * x * x; }), false);
   EXPECT_FALSE(f);
 }
@@ -83,12 +83,12 @@ TEST(Rational, RecoversItsCoefficients) {
       fit_rational(along_x(kFive, [](double x) { return 1.3 / (x * x + 0.5 * x + 2.0); }), false);
   ASSERT_TRUE(f);
   const auto c = coefficients(*f);
-  EXPECT_NEAR(named(c, "p"), 1.3, 1e-8);
-  EXPECT_NEAR(named(c, "q1"), 0.5, 1e-8);
-  EXPECT_NEAR(named(c, "q2"), 2.0, 1e-8);
+  EXPECT_NEAR(coefficient(c, "p"), 1.3, 1e-8);
+  EXPECT_NEAR(coefficient(c, "q1"), 0.5, 1e-8);
+  EXPECT_NEAR(coefficient(c, "q2"), 2.0, 1e-8);
 }
 
-TEST(Rational, RefusesAPoleBetweenTheNodesAndBesideThem) {
+TEST(Rational, RejectsAPoleBetweenTheNodesAndBesideThem) {
   const auto with_pole_at = [](double pole) {
     return fit_rational(along_x({0.0, 0.4, 0.7, 1.1, 1.6},
                                 [&](double x) { return 1.0 / ((x - pole) * (x + 9.0)); }),
@@ -99,26 +99,26 @@ TEST(Rational, RefusesAPoleBetweenTheNodesAndBesideThem) {
   EXPECT_TRUE(with_pole_at(4.0));
 }
 
-TEST(Rational, RefusesTheArticlesOwnExampleInsideTheRoom) {
+TEST(Rational, RejectsTheArticlesExampleInsideTheRoom) {
   // p = 1.253, q1 = 6.981, q2 = -8.05: pole at x = 1.008.
   const auto printed = [](double x) { return 1.253 / (x * x + 6.981 * x - 8.05); };
   EXPECT_FALSE(fit_rational(along_x({0.5, 0.7, 0.9, 1.1, 1.3}, printed), false));
 }
 
-TEST(Hyperbola, RecoversItsPoleAndRefusesItAmongTheNodes) {
+TEST(Hyperbola, RecoversItsPoleAndRejectsItAmongTheNodes) {
   const auto f = fit_hyperbola(along_x(kFive, [](double x) { return 1.3 + 0.5 / (x + 2.0); }));
   ASSERT_TRUE(f);
   const auto c = coefficients(*f);
-  EXPECT_NEAR(named(c, "c0"), 1.3, 1e-7);
-  EXPECT_NEAR(named(c, "c1"), 0.5, 1e-6);
-  EXPECT_NEAR(named(c, "q"), 2.0, 1e-6);
+  EXPECT_NEAR(coefficient(c, "c0"), 1.3, 1e-7);
+  EXPECT_NEAR(coefficient(c, "c1"), 0.5, 1e-6);
+  EXPECT_NEAR(coefficient(c, "q"), 2.0, 1e-6);
   const auto g = fit_hyperbola(along_x(kFive, [](double x) { return 1.0 / (x - 0.5); }));
   if (g) {
     EXPECT_TRUE(g->pole < -0.5 || g->pole > 2.0);
   }
 }
 
-TEST(Implicit, OrdersItsMonomialsAsTheArticleDoes) {
+TEST(Implicit, HasTheMonomialOrderOfTheArticle) {
   using Powers = std::pair<int, int>;
   EXPECT_EQ(implicit_terms(2), 6);
   EXPECT_EQ(implicit_powers(2, 0), Powers(2, 0));
@@ -141,16 +141,16 @@ TEST(Implicit, RecoversACircleFromFivePointsAndFromMore) {
     ASSERT_TRUE(on);
     EXPECT_NEAR(std::hypot(on->first - 1.0, on->second - 3.0), 2.0, 1e-9);
     const auto c = coefficients(*f);
-    const double a = named(c, "alpha(2,0)");
-    EXPECT_NEAR(named(c, "alpha(0,2)") / a, 1.0, 1e-6);
-    EXPECT_NEAR(named(c, "alpha(1,1)") / a, 0.0, 1e-6);
-    EXPECT_NEAR(named(c, "alpha(1,0)") / a, -2.0, 1e-6);
-    EXPECT_NEAR(named(c, "alpha(0,1)") / a, -6.0, 1e-6);
-    EXPECT_NEAR(named(c, "alpha(0,0)") / a, 6.0, 1e-5);
+    const double a = coefficient(c, "alpha(2,0)");
+    EXPECT_NEAR(coefficient(c, "alpha(0,2)") / a, 1.0, 1e-6);
+    EXPECT_NEAR(coefficient(c, "alpha(1,1)") / a, 0.0, 1e-6);
+    EXPECT_NEAR(coefficient(c, "alpha(1,0)") / a, -2.0, 1e-6);
+    EXPECT_NEAR(coefficient(c, "alpha(0,1)") / a, -6.0, 1e-6);
+    EXPECT_NEAR(coefficient(c, "alpha(0,0)") / a, 6.0, 1e-5);
   }
 }
 
-TEST(Implicit, JetsFollowTheCurveTheyLandOn) {
+TEST(Implicit, JetsAgreeWithDifferences) {
   std::vector<Vector2> points;
   for (int i = 0; i < 7; ++i) points.push_back({std::cos(0.5 * i), std::sin(0.5 * i)});
   const auto f = fit_implicit(points, 2);
@@ -170,15 +170,15 @@ TEST(Implicit, NeedsPointsWithAnExtent) {
 TEST(ArcPolynomial, ReproducesACubicInSpace) {
   const auto truth = [](double s) { return Vector3(s, s * s - 1.0, 0.5 * s * s * s); };
   std::vector<Vector3> points;
-  const std::vector<double> ways{10.0, 10.4, 11.0, 11.7, 12.1};
-  for (const double s : ways) points.push_back(truth(s - 11.0));
-  const auto f = fit_arc_polynomial(points, ways, 3);
+  const std::vector<double> arc_lengths{10.0, 10.4, 11.0, 11.7, 12.1};
+  for (const double s : arc_lengths) points.push_back(truth(s - 11.0));
+  const auto f = fit_arc_polynomial(points, arc_lengths, 3);
   ASSERT_TRUE(f);
   for (const double s : {10.2, 11.5}) EXPECT_LT(((*f)(s)-truth(s - 11.0)).norm(), 1e-12);
   EXPECT_FALSE(fit_arc_polynomial(points, std::vector{1.0, 1.0, 2.0, 3.0, 4.0}, 3));
 }
 
-TEST(Coefficients, AreTheArticlesInItsOrder) {
+TEST(Coefficients, HaveTheOrderOfTheArticle) {
   const auto truth = [](double x) {
     return -1.779 * x * x * x + 0.4036 * x * x + 0.7173 * x - 17.71;
   };
@@ -197,7 +197,7 @@ TEST(Coefficients, AreTheArticlesInItsOrder) {
   EXPECT_EQ(text({{"a", 0.5}, {"b", -2.0}}), "a = 0.5, b = -2");
 }
 
-TEST(Coefficients, OfAQuadricAreItsOwnAgain) {
+TEST(Coefficients, OfAQuadricAreRecovered) {
   const auto truth = [](const Vector2& p) {
     return -0.07 * p.x() * p.x() - 0.08 * p.y() * p.y() + 0.02 * p.x() * p.y() + 0.15 * p.y() -
            0.04 * p.x() + 1.4;
@@ -206,23 +206,23 @@ TEST(Coefficients, OfAQuadricAreItsOwnAgain) {
   std::vector<double> heights;
   for (const Vector2& point : points) heights.push_back(truth(point));
   const auto c = coefficients(*fit_quadric(points, heights), 10.0);
-  EXPECT_NEAR(named(c, "beta(2,0,0)"), -0.07, 1e-9);
-  EXPECT_NEAR(named(c, "beta(0,2,0)"), -0.08, 1e-9);
-  EXPECT_NEAR(named(c, "beta(1,1,0)"), 0.02, 1e-9);
-  EXPECT_NEAR(named(c, "beta(0,1,0)"), 0.15, 1e-8);
-  EXPECT_NEAR(named(c, "beta(1,0,0)"), -0.04, 1e-8);
-  EXPECT_NEAR(named(c, "beta(0,0,0)"), 11.4, 1e-8);
+  EXPECT_NEAR(coefficient(c, "beta(2,0,0)"), -0.07, 1e-9);
+  EXPECT_NEAR(coefficient(c, "beta(0,2,0)"), -0.08, 1e-9);
+  EXPECT_NEAR(coefficient(c, "beta(1,1,0)"), 0.02, 1e-9);
+  EXPECT_NEAR(coefficient(c, "beta(0,1,0)"), 0.15, 1e-8);
+  EXPECT_NEAR(coefficient(c, "beta(1,0,0)"), -0.04, 1e-8);
+  EXPECT_NEAR(coefficient(c, "beta(0,0,0)"), 11.4, 1e-8);
   EXPECT_EQ(c[2].name, "beta(0,0,1)");
 }
 
-TEST(Families, AreReadByName) {
+TEST(Families, AreParsedByName) {
   EXPECT_EQ(read_families("poly2, sin1 line"),
             (std::vector{Family::poly2, Family::sin1, Family::line}));
   EXPECT_THROW(read_families("poly4"), OptionError);
   EXPECT_THROW(read_families(" "), OptionError);
 }
 
-TEST(Selection, AiccIsWorkedByHandAndInfiniteWithTooFewNodes) {
+TEST(Selection, AiccMatchesTheFormulaAndIsInfiniteForTooFewNodes) {
   // n = 6, k = 3: 6 ln(0.06 / 6) + 6 + 24 / 2.
   EXPECT_NEAR(aicc(0.06, 6, 2), 6.0 * std::log(0.01) + 18.0, 1e-12);
   EXPECT_TRUE(std::isinf(aicc(0.06, 5, 3)));

@@ -32,7 +32,7 @@ TEST(Polynomial, LeastSquaresSplitsTheError) {
   EXPECT_NEAR(f(1.0), 1.0, 1e-12);
 }
 
-TEST(Polynomial, DegreeGivesWayToTooFewPoints) {
+TEST(Polynomial, FewPointsReduceTheDegree) {
   const Polynomial f = fit_polynomial(std::vector<Vector2>{{0, 1}, {2, 5}}, 3);
   EXPECT_NEAR(f(1.0), 3.0, 1e-12);
 }
@@ -56,19 +56,19 @@ TEST(Quadric, RecoversASaddleFromSixPointsInGeneralPosition) {
     EXPECT_NEAR((*q)(p), saddle(p), 1e-9);
 }
 
-TEST(Quadric, SixPointsOnACircleLoseOneDirectionAndStayTame) {
+TEST(Quadric, SixPointsOnACircleLoseOneDirection) {
   std::vector<Vector2> points;
   for (int i = 0; i < 6; ++i) points.push_back({std::cos(0.5 * i), std::sin(0.5 * i)});
   const auto q = fit_quadric(points, heights(points));
   ASSERT_TRUE(q);
   EXPECT_EQ(q->rank, 5);
-  // x^2 + y^2 = 1 there, so another member of the family agrees on the circle: nothing is lost.
+  // x^2 + y^2 = 1 on the circle, so another member of the family has the same heights there.
   for (const Vector2& p : points) EXPECT_NEAR((*q)(p), saddle(p), 1e-9);
   EXPECT_LT(q->coefficients.norm(), 10.0);
 }
 
-TEST(Quadric, NoiseAcrossAStraightPathIsNotBlownUp) {
-  // Heights of +-1 cm, sideways jitter of 0.1 mm: the full solution reaches metres.
+TEST(Quadric, NoiseAcrossAStraightPathIsNotAmplified) {
+  // Heights of +-1 cm, lateral noise of 0.1 mm: the full solution reaches metres.
   const std::vector<Vector2> points{
       {0, 1e-4}, {1, -1e-4}, {2, 5e-5}, {3, 1e-4}, {4, 0}, {5, -1e-4}};
   const std::vector<double> z{0.01, -0.01, 0.01, -0.01, 0.01, -0.01};
@@ -83,7 +83,7 @@ TEST(Quadric, NeedsSixPointsWithAnExtent) {
   EXPECT_FALSE(fit_quadric(std::vector<Vector2>(6, Vector2(1, 2)), std::vector<double>(6, 0.0)));
 }
 
-TEST(Arc, PassesThroughItsPointsAndRefusesCoincidentOnes) {
+TEST(Arc, InterpolatesItsPointsAndRejectsCoincidentOnes) {
   const std::array<Vector3, 3> points{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 2, 0)};
   const auto arc = fit_arc(points, std::array{0.0, 1.0, 3.0});
   ASSERT_TRUE(arc);
@@ -93,7 +93,7 @@ TEST(Arc, PassesThroughItsPointsAndRefusesCoincidentOnes) {
   EXPECT_FALSE(fit_arc(points, std::array{0.0, 0.0, 3.0}));
 }
 
-TEST(Frame, ChordIsLevelledAndUpStaysUp) {
+TEST(Frame, ChordFrameIsLevel) {
   const Nodes nodes(through({{1, 1, 0}, {2, 1, 5}, {4, 1, 1}}));
   const auto frame = chord_frame(nodes, {0, 2}, Vector3::UnitZ());
   ASSERT_TRUE(frame);
@@ -102,14 +102,14 @@ TEST(Frame, ChordIsLevelledAndUpStaysUp) {
   EXPECT_TRUE(frame->local(nodes.points[2]).isApprox(Vector2(3, 0), 1e-12));
 }
 
-TEST(Frame, AVerticalAClosedAndAStillWindowHaveNoChord) {
+TEST(Frame, VerticalClosedAndRestingWindowsHaveNoChord) {
   const Vector3 up = Vector3::UnitZ();
   EXPECT_FALSE(chord_frame(Nodes(through({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}})), {0, 2}, up));
   EXPECT_FALSE(chord_frame(Nodes(through({{0, 0, 0}, {1, 0, 0}, {0, 0, 0}})), {0, 2}, up));
   EXPECT_FALSE(chord_frame(Nodes(through({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})), {0, 2}, up));
 }
 
-TEST(Guard, RefusesAHairpinAStallAndARightAngle) {
+TEST(Guard, RejectsAHairpinAStopAndARightAngle) {
   EXPECT_TRUE(is_graph(std::vector<Vector2>{{0, 0}, {1, 0.3}, {2, 0}}));
   EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {2, 0.3}, {1, 0.6}}));
   EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {1, 0}, {1.05, 0}, {2, 0}}));
@@ -121,19 +121,19 @@ TEST(Up, IsTheNormalOfATiltedPlane) {
   Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}});
   for (StampedPose& pose : poses)
     pose.world_from_body = Pose{tilt, {5e5, 5e6, 0}} * pose.world_from_body;
-  // Counter-clockwise seen from the tip.
+  // Counter-clockwise motion seen against the axis.
   EXPECT_TRUE(up_axis(poses, Up::pca).isApprox(tilt * Vector3::UnitZ(), 1e-9));
   EXPECT_EQ(up_axis(poses, Up::world_z), Vector3::UnitZ());
 }
 
-TEST(Up, OfAStraightLineIsAcrossItAndMovesWithTheBody) {
+TEST(Up, OfAStraightLineIsPerpendicularAndRotatesWithTheBody) {
   Trajectory poses = through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {7, 14, 21}});
-  const Rotation turn = exp_so3({1.0, 2.0, -0.5});
-  const Vector3 here = up_axis(poses, Up::pca);
+  const Rotation rotation = exp_so3({1.0, 2.0, -0.5});
+  const Vector3 original = up_axis(poses, Up::pca);
   for (StampedPose& pose : poses)
-    pose.world_from_body = Pose{turn, {9, 9, 9}} * pose.world_from_body;
-  EXPECT_NEAR(here.dot(Vector3(1, 2, 3)), 0.0, 1e-9);
-  EXPECT_NEAR(here.cross(turn.conjugate() * up_axis(poses, Up::pca)).norm(), 0.0, 1e-9);
+    pose.world_from_body = Pose{rotation, {9, 9, 9}} * pose.world_from_body;
+  EXPECT_NEAR(original.dot(Vector3(1, 2, 3)), 0.0, 1e-9);
+  EXPECT_NEAR(original.cross(rotation.conjugate() * up_axis(poses, Up::pca)).norm(), 0.0, 1e-9);
 }
 
 }  // namespace

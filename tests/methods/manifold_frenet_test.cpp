@@ -9,7 +9,7 @@
 namespace loopbench::manifold {
 namespace {
 
-// A right-handed helix of radius 2 and 3 m a radian: kappa = 2 / 13, tau = 3 / 13.
+// Right-handed helix of radius 2 with a rise of 3 m per radian: kappa = 2 / 13, tau = 3 / 13.
 struct Helix {
   double t;
   Vector3 at() const { return {2 * std::cos(t), 2 * std::sin(t), 3 * t}; }
@@ -18,7 +18,7 @@ struct Helix {
   Vector3 third() const { return {2 * std::sin(t), -2 * std::cos(t), 0}; }
 };
 
-TEST(Frenet, HelixHasItsCurvatureTorsionAndFrame) {
+TEST(Frenet, HelixHasTheAnalyticCurvatureTorsionAndFrame) {
   const Helix helix{0.7};
   EXPECT_NEAR(curvature(helix.first(), helix.second()), 2.0 / 13.0, 1e-15);
   EXPECT_NEAR(torsion(helix.first(), helix.second(), helix.third()).value(), 3.0 / 13.0, 1e-15);
@@ -35,7 +35,7 @@ TEST(Frenet, CircleLiesInItsPlane) {
   EXPECT_TRUE(frenet(first, second)->B.isApprox(Vector3::UnitZ(), 1e-15));
 }
 
-TEST(Frenet, IsUndefinedWhenStraightOrStanding) {
+TEST(Frenet, IsUndefinedOnStraightLinesAndAtRest) {
   EXPECT_FALSE(frenet({1, 2, 3}, {2, 4, 6}));
   EXPECT_FALSE(frenet({1, 2, 3}, Vector3::Zero()));
   EXPECT_FALSE(frenet(Vector3::Zero(), {1, 0, 0}));
@@ -43,7 +43,7 @@ TEST(Frenet, IsUndefinedWhenStraightOrStanding) {
   EXPECT_EQ(curvature(Vector3::Zero(), {1, 0, 0}), 0.0);
 }
 
-TEST(Frenet, DiscreteOnesApproachTheAnalytic) {
+TEST(Frenet, DiscreteValuesApproachTheAnalyticOnes) {
   const double h = 1e-2;
   const auto p = [&](int k) { return Helix{k * h}.at(); };
   EXPECT_NEAR(discrete_curvature(p(0), p(1), p(2)), 2.0 / 13.0, 1e-5);
@@ -53,7 +53,7 @@ TEST(Frenet, DiscreteOnesApproachTheAnalytic) {
   EXPECT_FALSE(discrete_torsion({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}));
 }
 
-TEST(RotationMinimising, StaysAsItIsOnAStraightLine) {
+TEST(RotationMinimising, IsConstantOnAStraightLine) {
   const std::vector<Vector3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 0, 0}, {5, 0, 0}};
   const std::vector<Vector3> tangents(5, Vector3::UnitX());
   const Triad start{Vector3::UnitX(), Vector3(0, 0.6, 0.8), Vector3(0, -0.8, 0.6)};
@@ -63,7 +63,7 @@ TEST(RotationMinimising, StaysAsItIsOnAStraightLine) {
   }
 }
 
-TEST(RotationMinimising, KeepsTheNormalOfAPlaneAndTurnsWithTheTorsion) {
+TEST(RotationMinimising, KeepsTheNormalOfAPlaneAndRotatesWithTheTorsion) {
   std::vector<Vector3> points, tangents;
   for (int i = 0; i <= 100; ++i) {
     const double a = 0.05 * i;
@@ -74,17 +74,17 @@ TEST(RotationMinimising, KeepsTheNormalOfAPlaneAndTurnsWithTheTorsion) {
   EXPECT_TRUE(
       rotation_minimising(points, tangents, flat).back().B.isApprox(Vector3::UnitZ(), 1e-12));
 
-  // On the helix Frenet's frame turns against it by the integral of the torsion.
+  // On the helix the Frenet frame rotates relative to it by the integral of the torsion.
   std::vector<Vector3> up, along_up;
   for (int i = 0; i <= 400; ++i) {
     up.push_back(Helix{0.005 * i}.at());
     along_up.push_back(Helix{0.005 * i}.first().normalized());
   }
   const Triad start = frenet(Helix{0}.first(), Helix{0}.second()).value();
-  const Triad carried = rotation_minimising(up, along_up, start).back();
-  const Triad own = frenet(Helix{2}.first(), Helix{2}.second()).value();
+  const Triad propagated = rotation_minimising(up, along_up, start).back();
+  const Triad frenet_frame = frenet(Helix{2}.first(), Helix{2}.second()).value();
   const double expected = 3.0 / 13.0 * 2.0 * std::sqrt(13.0);
-  EXPECT_NEAR(turn_between(carried.N, own.N), expected, 1e-5);
+  EXPECT_NEAR(turn_between(propagated.N, frenet_frame.N), expected, 1e-5);
 }
 
 TEST(AnyTriad, IsRightHandedAndUnit) {
@@ -96,7 +96,7 @@ TEST(AnyTriad, IsRightHandedAndUnit) {
 }
 
 TEST(Psi, FrechetMeanOfTwoDirectionsDividesTheirAngle) {
-  // 90 degrees apart, weights 2 to 1: a third of the way from the heavier.
+  // 90 degrees apart, weights 2 to 1: a third of the angle from the heavier direction.
   const std::vector<WeightedDirection> two{{Vector3::UnitX(), 2.0}, {Vector3::UnitY(), 1.0}};
   const double angle = std::numbers::pi / 6.0;
   EXPECT_TRUE(frechet_mean(two).isApprox(Vector3(std::cos(angle), std::sin(angle), 0), 1e-9));
@@ -104,7 +104,7 @@ TEST(Psi, FrechetMeanOfTwoDirectionsDividesTheirAngle) {
   EXPECT_EQ(frechet_mean({}), Vector3::Zero());
 }
 
-TEST(Psi, ChordsFadeWithTimeAndStandingOnesAreLeftOut) {
+TEST(Psi, ChordWeightsDecayWithTimeAndZeroChordsAreOmitted) {
   const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {1, 3, 0}}));
   const auto chords = chords_around(nodes, 2, 2);
   ASSERT_EQ(chords.size(), 3u);
@@ -113,7 +113,7 @@ TEST(Psi, ChordsFadeWithTimeAndStandingOnesAreLeftOut) {
   EXPECT_NEAR(chords[1].weight, std::exp(-0.5), 1e-15);
 }
 
-TEST(Psi, OnARightAngleTheDiscreteOneIsTheCentralChord) {
+TEST(Psi, AtARightAngleTheDiscreteOneIsTheCentralChord) {
   const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
   const NodeSpline spline(nodes);
   const Vector3 expected = Vector3(1, 1, 0).normalized();
@@ -122,7 +122,7 @@ TEST(Psi, OnARightAngleTheDiscreteOneIsTheCentralChord) {
   EXPECT_TRUE(optimal_tangent(nodes, spline, 1, 1, PsiMean::frechet).isApprox(expected, 1e-12));
 }
 
-TEST(Psi, StandingStillHasNone) {
+TEST(Psi, IsUndefinedAtRest) {
   const Nodes nodes(through(std::vector<Vector3>(4, Vector3(1, 2, 3))));
   EXPECT_EQ(optimal_tangent(nodes, NodeSpline(nodes), 1, 2, PsiMean::discrete), Vector3::Zero());
 }

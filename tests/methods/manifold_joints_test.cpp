@@ -8,26 +8,26 @@ namespace loopbench::manifold {
 namespace {
 
 TEST(NodeSpline, AgreesWithTheNaturalSplineByHand) {
-  // y = 0, 1, 0 at 0, 1, 2 s: the middle second derivative is -3.
+  // y = 0, 1, 0 at 0, 1, 2 s: the second derivative in the middle is -3.
   const NodeSpline spline(Nodes(through({{0, 0, 0}, {0, 1, 0}, {0, 0, 0}})));
   EXPECT_NEAR(spline.at(0, 0.5).point.y(), 0.6875, 1e-15);
   EXPECT_NEAR(spline.at(1, 1.5).point.y(), 0.6875, 1e-15);
 }
 
-TEST(NodeSpline, PassesThroughEveryNodeAndKnowsTheWay) {
+TEST(NodeSpline, InterpolatesEveryNodeAndTheArcLength) {
   const Nodes nodes(wandering(30, 1));
   const NodeSpline spline(nodes);
-  double way = 0.0;
+  double path_length = 0.0;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     EXPECT_TRUE(spline.at(i, nodes.stamps[i]).point.isApprox(nodes.points[i], 1e-12));
-    EXPECT_NEAR(spline.at(i, nodes.stamps[i]).way, way, 1e-12);
-    way += nodes.step(i).norm();
+    EXPECT_NEAR(spline.at(i, nodes.stamps[i]).way, path_length, 1e-12);
+    path_length += nodes.step(i).norm();
     EXPECT_TRUE(spline.at(i, nodes.stamps[i + 1]).point.isApprox(nodes.points[i + 1], 1e-12));
   }
-  EXPECT_NEAR(spline.way(29), way, 1e-12);
+  EXPECT_NEAR(spline.way(29), path_length, 1e-12);
 }
 
-TEST(NodeSpline, LeavesUniformMotionAlone) {
+TEST(NodeSpline, KeepsUniformMotion) {
   const NodeSpline spline(Nodes(through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}})));
   EXPECT_TRUE(spline.at(1, 1.25).point.isApprox(Vector3(1.25, 2.5, 3.75), 1e-14));
 }
@@ -40,52 +40,53 @@ TEST(Joint, WeightIsFlatToSecondOrderAtBothEnds) {
   EXPECT_NEAR(joint.weight(2.5), 0.103515625, 1e-15);
   EXPECT_EQ(joint.weight(4.0), 1.0);
   EXPECT_EQ(joint.weight(5.0), 1.0);
-  const double h = 1e-3;  // s = h / 2: 10 s^3 is all that is left
+  const double h = 1e-3;  // s = h / 2: the leading term is 10 s^3
   EXPECT_NEAR(joint.weight(2.0 + h), 10.0 * std::pow(h / 2, 3), 1e-12);
   EXPECT_NEAR(1.0 - joint.weight(4.0 - h), 10.0 * std::pow(h / 2, 3), 1e-12);
 }
 
-TEST(Joint, ReachesOneNodeOfEqualSpacing) {
+TEST(Joint, ExtendsOneNodeForEqualSpacing) {
   const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}));
   const Joint joint = joint_between(nodes, {{0, 2}, {0, 2}}, {{2, 4}, {2, 4}});
   EXPECT_EQ(joint.begin, 1.0);
   EXPECT_EQ(joint.end, 3.0);
 }
 
-TEST(Joint, ReachesNoFurtherThanAPiecesOwnLastStep) {
-  // Last step 1 m, next one 4 m in one second: the earlier piece reaches a quarter second on.
+TEST(Joint, ExtendsAtMostByThePiecesLastStep) {
+  // Last step 1 m, next step 4 m in one second: the earlier piece extends by a quarter of a second.
   const Nodes nodes(through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {6, 0, 0}, {9, 0, 0}}));
   const Joint joint = joint_between(nodes, {{0, 2}, {0, 2}}, {{2, 4}, {2, 4}});
   EXPECT_EQ(joint.begin, 1.0);
   EXPECT_EQ(joint.end, 2.25);
-  // It may go the whole step when node 3 is among its own.
+  // It extends over the whole step when node 3 is in its window.
   EXPECT_EQ(joint_between(nodes, {{1, 3}, {1, 2}}, {{2, 4}, {2, 4}}).end, 3.0);
 }
 
-TEST(Joint, OfSlidingWindowsIsAsWideAsTheySpeakFor) {
+TEST(Joint, OfSlidingWindowsCoversTheEdgesTheyRepresent) {
   const Nodes nodes(wandering(6, 1));
   const Window line{{1, 2}, {1, 2}}, three{{1, 3}, {2, 3}}, next{{2, 4}, {3, 4}};
   const Joint around_nodes = sliding_joint(nodes, three, next, 3);
   EXPECT_EQ(around_nodes.begin, nodes.stamps[2]);
   EXPECT_EQ(around_nodes.end, nodes.stamps[3]);
-  // A straight line hands over around the node: on the whole edge before it would be extrapolated.
+  // A straight line is blended around the node; over the whole earlier edge it would be
+  // extrapolated.
   const Joint after_line = sliding_joint(nodes, line, three, 3);
   EXPECT_NEAR(after_line.begin, 0.5 * (nodes.stamps[1] + nodes.stamps[2]), 1e-12);
   EXPECT_NEAR(after_line.end, 0.5 * (nodes.stamps[2] + nodes.stamps[3]), 1e-12);
 }
 
-TEST(Strip, BlendsNeighboursAndLeavesTheMiddleToItsPiece) {
+TEST(Strip, BlendsNeighboursAtTheirJointOnly) {
   const Nodes nodes(through(std::vector<Vector3>(9, Vector3::Zero())));
   const std::vector<Window> windows{{{0, 4}, {0, 4}}, {{4, 8}, {4, 8}}};
-  const auto unasked = [](double piece, std::size_t, const Jet<double>&) {
+  const auto constant_piece = [](double piece, std::size_t, const Jet<double>&) {
     return Jet<double>{piece, 0.0, 0.0};
   };
-  const auto strip = laid<double>(nodes, windows, std::vector{10.0, 20.0}, {}, unasked);
+  const auto curve = laid<double>(nodes, windows, std::vector{10.0, 20.0}, {}, constant_piece);
   const auto identity = [](double piece) { return piece; };
-  EXPECT_EQ(strip.at(0, 0.5, identity), 10.0);
-  EXPECT_EQ(strip.at(4, 4.0, identity), 15.0);
-  EXPECT_NEAR(strip.at(4, 4.5, identity), 20.0 - 1.03515625, 1e-12);
-  EXPECT_EQ(strip.at(7, 8.0, identity), 20.0);
+  EXPECT_EQ(curve.at(0, 0.5, identity), 10.0);
+  EXPECT_EQ(curve.at(4, 4.0, identity), 15.0);
+  EXPECT_NEAR(curve.at(4, 4.5, identity), 20.0 - 1.03515625, 1e-12);
+  EXPECT_EQ(curve.at(7, 8.0, identity), 20.0);
 }
 
 }  // namespace

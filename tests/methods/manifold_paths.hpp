@@ -1,4 +1,4 @@
-/// Small trajectories for the tests of the manifold smoother.
+/// Small test trajectories for the manifold smoother.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace loopbench {
 
-/// One pose a second, identity attitude.
+/// One pose per second with identity rotation.
 inline Trajectory through(const std::vector<Vector3>& points) {
   Trajectory out;
   for (const Vector3& point : points) {
@@ -18,7 +18,7 @@ inline Trajectory through(const std::vector<Vector3>& points) {
   return out;
 }
 
-/// Hand-held: heading and height wander, steps and stamps are uneven, attitude turns.
+/// Hand-held motion: random heading, height and rotation, uneven steps and stamps.
 inline Trajectory wandering(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -26,14 +26,14 @@ inline Trajectory wandering(std::size_t count, std::uint64_t seed) {
   double stamp = 100.0;
   double heading = 0.0;
   Vector3 point(0.3, -0.2, 1.5);
-  Rotation attitude = exp_so3({0.3, -0.2, 0.9});
+  Rotation rotation = exp_so3({0.3, -0.2, 0.9});
   for (std::size_t i = 0; i < count; ++i) {
-    out.push_back({stamp, {attitude, point}});
+    out.push_back({stamp, {rotation, point}});
     stamp += 0.3 + 0.1 * unit(random);
     heading += 0.5 * unit(random);
     const double step = 0.1 + 0.05 * unit(random);
     point += Vector3(step * std::cos(heading), step * std::sin(heading), 0.03 * unit(random));
-    attitude = attitude * exp_so3(0.2 * Vector3(unit(random), unit(random), unit(random)));
+    rotation = rotation * exp_so3(0.2 * Vector3(unit(random), unit(random), unit(random)));
   }
   return out;
 }
@@ -53,7 +53,7 @@ inline Problem moved_by(const Pose& there_from_here, Problem problem) {
   return problem;
 }
 
-/// `count` times from the first stamp to the last, both included.
+/// `count` evenly spaced times from the first to the last stamp, both included.
 inline std::vector<double> times_over(const Trajectory& poses, std::size_t count) {
   std::vector<double> out;
   const double begin = poses.front().stamp;

@@ -21,31 +21,33 @@ Nodes with_speeds(const std::vector<double>& speeds) {
   return Nodes(through(points));
 }
 
-Ranges by(SpeedRule rule, double band, const std::vector<double>& speeds) {
+Ranges segments_by(SpeedRule rule, double band, const std::vector<double>& speeds) {
   return segments(with_speeds(speeds), {.speed_band = band, .speed = rule});
 }
 
-TEST(SpeedRule, AdjacentComparesWithTheEdgeBefore) {
-  EXPECT_EQ(by(SpeedRule::adjacent, 0.3, {1.0, 1.2, 1.4, 1.6, 2.0}), (Ranges{{0, 4}, {4, 5}}));
+TEST(SpeedRule, AdjacentComparesWithThePreviousEdge) {
+  EXPECT_EQ(segments_by(SpeedRule::adjacent, 0.3, {1.0, 1.2, 1.4, 1.6, 2.0}),
+            (Ranges{{0, 4}, {4, 5}}));
 }
 
 TEST(SpeedRule, BinsComparesWithFixedSteps) {
-  // Bins of 0.5: 0.9 and 1.1 are neighbours in speed and not in bin.
-  EXPECT_EQ(by(SpeedRule::bins, 0.5, {0.6, 0.9, 1.1, 1.4}), (Ranges{{0, 2}, {2, 4}}));
+  // Bins of 0.5: 0.9 and 1.1 are close in speed but in different bins.
+  EXPECT_EQ(segments_by(SpeedRule::bins, 0.5, {0.6, 0.9, 1.1, 1.4}), (Ranges{{0, 2}, {2, 4}}));
 }
 
 TEST(SpeedRule, RunningMeanComparesWithTheSegmentSoFar) {
-  // Mean of 1.0, 1.2 is 1.1: 1.35 fits in 0.3; then 1.183: 1.5 does not.
-  EXPECT_EQ(by(SpeedRule::running_mean, 0.3, {1.0, 1.2, 1.35, 1.5}), (Ranges{{0, 3}, {3, 4}}));
+  // The mean of 1.0 and 1.2 is 1.1, so 1.35 is within 0.3; the mean is then 1.183 and 1.5 is not.
+  EXPECT_EQ(segments_by(SpeedRule::running_mean, 0.3, {1.0, 1.2, 1.35, 1.5}),
+            (Ranges{{0, 3}, {3, 4}}));
 }
 
-TEST(SpeedRule, AbsoluteAsksOnWhichSideASpeedIs) {
-  EXPECT_EQ(by(SpeedRule::absolute, 1.0, {0.2, 0.9, 1.1, 3.0, 0.5}),
+TEST(SpeedRule, AbsoluteComparesWithTheThreshold) {
+  EXPECT_EQ(segments_by(SpeedRule::absolute, 1.0, {0.2, 0.9, 1.1, 3.0, 0.5}),
             (Ranges{{0, 2}, {2, 4}, {4, 5}}));
 }
 
-TEST(Kappa, EveryReadingOfARightAngleByHand) {
-  // Steps of 1 m in 1 s and 3 m in 1 s, at a right angle, the second one upwards.
+TEST(Kappa, EveryDefinitionMatchesAHandComputedRightAngle) {
+  // Steps of 1 m in 1 s and 3 m in 1 s at a right angle, the second one upwards.
   Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}});
   poses[2].world_from_body.rotation = exp_so3({0.0, 0.8, 0.0});
   const Nodes nodes(poses);
@@ -64,7 +66,7 @@ TEST(Kappa, EveryReadingOfARightAngleByHand) {
   EXPECT_NEAR(at_corner(Kappa::rotation_per_kf, Plane::space), 0.4, 1e-12);
   // Natural spline: velocity (0.5, 0, 1.5), acceleration 1.5 (-1, 0, 3).
   EXPECT_NEAR(at_corner(Kappa::analytic_spline, Plane::space), 4.5 / std::pow(2.5, 1.5), 1e-12);
-  EXPECT_EQ(at_corner(Kappa::turn_per_kf, Plane::plane), 0.0);  // seen from above it stands
+  EXPECT_EQ(at_corner(Kappa::turn_per_kf, Plane::plane), 0.0);  // at rest in the projection
 }
 
 TEST(Kappa, OfACircleIsOneOverItsRadius) {
@@ -77,7 +79,7 @@ TEST(Kappa, OfACircleIsOneOverItsRadius) {
   }
 }
 
-TEST(ShortSegments, MergeIntoTheNeighbourNearerInSpeed) {
+TEST(ShortSegments, MergeIntoTheNeighbourOfSimilarSpeed) {
   const Nodes nodes = with_speeds({1.0, 1.0, 1.0, 1.8, 2.0, 2.0, 2.0});
   EXPECT_EQ(merged(nodes, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 3}, {3, 7}}));
   const Nodes other = with_speeds({1.0, 1.0, 1.0, 1.2, 2.0, 2.0, 2.0});
@@ -101,12 +103,12 @@ TEST(ShortSegments, AreFilledFromTrackedFramesOnly) {
   EXPECT_EQ(filled(nodes, {{0, 1}, {1, 3}}, {}, 3).runs, (Ranges{{0, 1}, {1, 3}}));
 }
 
-TEST(Scheme, SlidingWindowsOfOddSizeStandAroundTheirFirstNode) {
+TEST(Scheme, SlidingWindowsOfOddSizeAreCentredOnTheirFirstNode) {
   EXPECT_EQ(windows({2, 6}, 3, 9, Scheme::sliding_blend),
             (Windows{{{2, 4}, {2, 3}}, {{2, 4}, {3, 4}}, {{3, 5}, {4, 5}}, {{4, 6}, {5, 6}}}));
 }
 
-TEST(Scheme, SlidingWindowsOfEvenSizeStandAroundTheirEdge) {
+TEST(Scheme, SlidingWindowsOfEvenSizeAreCentredOnTheirEdge) {
   EXPECT_EQ(windows({0, 5}, 4, 6, Scheme::sliding_blend),
             (Windows{{{0, 3}, {0, 1}},
                      {{0, 3}, {1, 2}},
@@ -115,7 +117,7 @@ TEST(Scheme, SlidingWindowsOfEvenSizeStandAroundTheirEdge) {
                      {{2, 5}, {4, 5}}}));
 }
 
-TEST(Scheme, OnePerSegmentSpreadsItsNodesEvenly) {
+TEST(Scheme, OnePerSegmentSubsamplesEvenly) {
   const auto one = windows({10, 20}, 4, 30, Scheme::one_per_segment);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].owned, (NodeRange{10, 20}));
@@ -123,7 +125,7 @@ TEST(Scheme, OnePerSegmentSpreadsItsNodesEvenly) {
   EXPECT_EQ(picked({{3, 6}, {3, 6}}), (std::vector<std::size_t>{3, 4, 5, 6}));
 }
 
-TEST(Scheme, FirstNSpeakForAll) {
+TEST(Scheme, FirstNRepresentTheSegment) {
   EXPECT_EQ(windows({10, 20}, 4, 30, Scheme::first_n), (Windows{{{10, 13}, {10, 20}}}));
 }
 
@@ -143,7 +145,7 @@ TEST(Scheme, EverySchemeOwnsEveryEdgeOnce) {
   }
 }
 
-TEST(DmReport, TellsHowItCutUpTheWay) {
+TEST(DmReport, ListsSegmentsAndWindowsAsSections) {
   const Trajectory keyframes = wandering(60, 5);
   Report report;
   Dm({.planar = 4, .spatial = 7}).smooth(keyframes_only(keyframes), report);
@@ -159,14 +161,14 @@ TEST(DmReport, TellsHowItCutUpTheWay) {
   EXPECT_EQ(kinds["window"].size(), counted("windows"));
   EXPECT_EQ(kinds["spatial window"].size(), counted("spatial_windows"));
   EXPECT_GT(kinds["segment"].size(), 1u);
-  for (const char* kind : {"segment", "window", "spatial window"}) {  // end to end
-    double reached = keyframes.front().stamp;
+  for (const char* kind : {"segment", "window", "spatial window"}) {  // sections are adjacent
+    double previous_end = keyframes.front().stamp;
     for (const Section& section : kinds[kind]) {
-      EXPECT_EQ(section.begin, reached) << kind;
-      reached = section.end;
+      EXPECT_EQ(section.begin, previous_end) << kind;
+      previous_end = section.end;
       EXPECT_EQ(section.what.empty(), section.kind == "segment");
     }
-    EXPECT_EQ(reached, keyframes.back().stamp) << kind;
+    EXPECT_EQ(previous_end, keyframes.back().stamp) << kind;
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 using Ranges = std::vector<NodeRange>;
 using Windows = std::vector<Window>;
 
-// One node a second along x: steps are speeds.
+// One node per second along x, so steps equal speeds.
 Nodes with_speeds(const std::vector<double>& speeds) {
   std::vector<Vector3> points{Vector3::Zero()};
   for (const double v : speeds) points.push_back(points.back() + Vector3(v, 0.0, 0.0));
@@ -23,7 +23,7 @@ TEST(Segments, CloseWhereTheSpeedLeavesTheBand) {
   EXPECT_EQ(segments(nodes, {0.3, 0.75}), (Ranges{{0, 3}, {3, 5}}));
 }
 
-TEST(Segments, BandIsARangeSoCreepingSpeedClosesToo) {
+TEST(Segments, BandLimitsTheRangeSoSlowlyIncreasingSpeedClosesToo) {
   const Nodes nodes = with_speeds({1.0, 1.2, 1.4, 1.6});
   EXPECT_EQ(segments(nodes, {0.3, 0.75}), (Ranges{{0, 2}, {2, 4}}));
 }
@@ -34,13 +34,13 @@ TEST(Segments, WithoutABandTheMeanSpeedIsTheBand) {
   EXPECT_EQ(segments(nodes, {std::nullopt, 0.75}), (Ranges{{0, 2}, {2, 4}}));
 }
 
-TEST(Segments, ASharpTurnOpensANewSegmentThatForgetsOldSpeeds) {
-  // Speeds 1.0 1.2 | 1.4 1.4: in band 0.3 only when the turn at node 2 starts afresh.
+TEST(Segments, ASharpTurnStartsANewSegmentWithNewSpeeds) {
+  // Speeds 1.0 1.2 | 1.4 1.4: within a band of 0.3 only if the turn at node 2 starts a new segment.
   const Nodes nodes(through({{0, 0, 0}, {1.0, 0, 0}, {2.2, 0, 0}, {2.2, 0, 1.4}, {2.2, 0, 2.8}}));
   EXPECT_EQ(segments(nodes, {0.3, 0.75}), (Ranges{{0, 2}, {2, 4}}));
 }
 
-TEST(Segments, StandingStillIsOneSegment) {
+TEST(Segments, RestIsOneSegment) {
   EXPECT_EQ(segments(with_speeds({0.0, 0.0, 0.0}), {}), (Ranges{{0, 3}}));
 }
 
@@ -48,7 +48,7 @@ TEST(Windows, ShareTheirEndNodes) {
   EXPECT_EQ(windows({0, 6}, 3, 7), (Windows{{{0, 2}, {0, 2}}, {{2, 4}, {2, 4}}, {{4, 6}, {4, 6}}}));
 }
 
-TEST(Windows, LastOneReUsesEarlierNodes) {
+TEST(Windows, LastOneReusesEarlierNodes) {
   EXPECT_EQ(windows({0, 5}, 4, 9), (Windows{{{0, 3}, {0, 3}}, {{2, 5}, {3, 5}}}));
 }
 
@@ -59,9 +59,7 @@ TEST(Windows, ShortSegmentBorrowsFromBothNeighbours) {
   EXPECT_EQ(windows({8, 9}, 5, 10), (Windows{{{5, 9}, {8, 9}}}));
 }
 
-TEST(Windows, NeverHoldMoreNodesThanThereAre) {
-  EXPECT_EQ(windows({1, 2}, 5, 3), (Windows{{{0, 2}, {1, 2}}}));
-}
+TEST(Windows, HaveAtMostAllNodes) { EXPECT_EQ(windows({1, 2}, 5, 3), (Windows{{{0, 2}, {1, 2}}})); }
 
 // Keyframes at 0 s and 3 s, tracked frames at `stamps`.
 Problem with_gap(const std::vector<double>& stamps) {
@@ -73,7 +71,7 @@ Problem with_gap(const std::vector<double>& stamps) {
 }
 
 TEST(QuasiKeyframes, AreTheTrackedFramesNearestToEqualParts) {
-  // Three parts: cuts at 1 s and 2 s.
+  // Three parts: divisions at 1 s and 2 s.
   const Densified dense = with_quasi_keyframes(with_gap({0.4, 0.9, 1.3, 1.7, 2.2, 2.9}), {});
   EXPECT_EQ(stamps(dense.nodes), (std::vector{0.0, 0.9, 2.2, 3.0}));
   EXPECT_EQ(dense.nodes[1].world_from_body.translation, Vector3(0.9, 7.0, 0.0));
@@ -81,7 +79,7 @@ TEST(QuasiKeyframes, AreTheTrackedFramesNearestToEqualParts) {
   EXPECT_EQ(dense.gaps_left, 0u);
 }
 
-TEST(QuasiKeyframes, AreNeverInvented) {
+TEST(QuasiKeyframes, AreNeverInterpolated) {
   const Densified dense = with_quasi_keyframes(with_gap({-1.0, 0.0, 3.0, 4.0}), {});
   EXPECT_EQ(stamps(dense.nodes), (std::vector{0.0, 3.0}));
   EXPECT_EQ(dense.gaps_left, 1u);
@@ -91,7 +89,7 @@ TEST(QuasiKeyframes, OneFrameIsTakenOnce) {
   EXPECT_EQ(stamps(with_quasi_keyframes(with_gap({1.5}), {}).nodes), (std::vector{0.0, 1.5, 3.0}));
 }
 
-TEST(QuasiKeyframes, StandWhereTheViewTurnsAway) {
+TEST(QuasiKeyframes, AreInsertedForLargeRotations) {
   Problem problem = with_gap({1.4});
   problem.keyframes[1].stamp = 2.0;
   problem.keyframes[1].world_from_body.rotation = exp_so3({0.0, 0.0, 1.2});
@@ -100,7 +98,7 @@ TEST(QuasiKeyframes, StandWhereTheViewTurnsAway) {
   EXPECT_EQ(with_quasi_keyframes(problem, {std::nullopt, std::nullopt}).inserted, 0u);
 }
 
-TEST(QuasiKeyframes, AGapOfExactlyTheLimitIsLeftAlone) {
+TEST(QuasiKeyframes, AGapOfExactlyTheLimitIsKept) {
   Problem problem = with_gap({0.5});
   problem.keyframes[1].stamp = 1.0 + 1e-9;
   const Densified dense = with_quasi_keyframes(problem, {});

@@ -27,7 +27,7 @@ MotionModel every_term() {
   return out;
 }
 
-/// All closures' errors when every edge's error is as given.
+/// Errors of all closures for the given errors of the edges.
 Eigen::VectorXd closure_errors(const Problem& problem, const std::vector<Twist>& errors) {
   std::vector<Pose> poses{problem.keyframes[0].world_from_body};
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -43,22 +43,22 @@ Eigen::VectorXd closure_errors(const Problem& problem, const std::vector<Twist>&
 }
 
 struct Dense {
-  Eigen::MatrixXd A;  ///< of all closures by all edges, by finite differences
-  Eigen::MatrixXd S;  ///< prior covariance of all edges' errors, drift and noise written out
+  Eigen::MatrixXd A;  ///< Jacobian of all closures by all edges, by finite differences
+  Eigen::MatrixXd S;  ///< prior covariance of all edge errors, including drift
 };
 
 Dense dense(const MotionModel& model, const Problem& problem) {
-  const std::vector<EdgeMotion> moved = motions(problem);
-  const auto n = static_cast<Eigen::Index>(6 * moved.size());
+  const std::vector<EdgeMotion> edge_motions = motions(problem);
+  const auto n = static_cast<Eigen::Index>(6 * edge_motions.size());
   Dense out{Eigen::MatrixXd(6 * static_cast<Eigen::Index>(problem.closures.size()), n),
             Eigen::MatrixXd::Zero(n, n)};
   for (Eigen::Index column = 0; column < n; ++column) {
-    const auto moved_by = [&](double by) {
-      std::vector<Twist> errors(moved.size(), Twist::Zero());
+    const auto perturbed_by = [&](double by) {
+      std::vector<Twist> errors(edge_motions.size(), Twist::Zero());
       errors[static_cast<std::size_t>(column / 6)][column % 6] = by;
       return closure_errors(problem, errors);
     };
-    out.A.col(column) = (moved_by(1e-6) - moved_by(-1e-6)) / 2e-6;
+    out.A.col(column) = (perturbed_by(1e-6) - perturbed_by(-1e-6)) / 2e-6;
   }
   for (const Term& term : model) {
     if (term.cause == Cause::closures) continue;
@@ -72,8 +72,8 @@ Dense dense(const MotionModel& model, const Problem& problem) {
     for (Eigen::Index i = 0; i < n / 6; ++i) {
       for (Eigen::Index j = 0; j < n / 6; ++j) {
         if (term.cause == Cause::noise && i != j) continue;
-        const double a = grown(term.growth, moved[static_cast<std::size_t>(i)]);
-        const double b = grown(term.growth, moved[static_cast<std::size_t>(j)]);
+        const double a = grown(term.growth, edge_motions[static_cast<std::size_t>(i)]);
+        const double b = grown(term.growth, edge_motions[static_cast<std::size_t>(j)]);
         const double entry = term.value * (term.cause == Cause::noise ? a : a * b);
         const Eigen::Index half = term.half == Half::translation ? 0 : 3;
         for (Eigen::Index axis = half; axis < half + 3; ++axis) {
@@ -86,9 +86,10 @@ Dense dense(const MotionModel& model, const Problem& problem) {
   return out;
 }
 
-TEST(MotionDriftEvidence, EqualsTheDensityOfTheGapsComputedDensely) {
+TEST(MotionDriftEvidence, EqualsTheDenseGapDensity) {
   Problem problem = test::walk(2, 12, 0.05);
-  for (Edge& loop : problem.closures) {  // halves that do not mix, so factors are exact
+  for (Edge& loop :
+       problem.closures) {  // no translation-rotation correlation, so factors are exact
     loop.information.block<3, 3>(0, 3).setZero();
     loop.information.block<3, 3>(3, 0).setZero();
   }
@@ -105,12 +106,13 @@ TEST(MotionDriftEvidence, EqualsTheDensityOfTheGapsComputedDensely) {
   const Eigen::VectorXd gap =
       closure_errors(problem, std::vector<Twist>(problem.odometry.size(), Twist::Zero()));
   EXPECT_TRUE(evidence.gap.isApprox(gap, 1e-9));
-  const double wanted = -0.5 * (gap.dot(C.inverse() * gap) + std::log(C.determinant()) +
-                                static_cast<double>(gap.size()) * std::log(2.0 * std::numbers::pi));
-  EXPECT_NEAR(log_evidence(model, evidence), wanted, 1e-5);
+  const double expected_value =
+      -0.5 * (gap.dot(C.inverse() * gap) + std::log(C.determinant()) +
+              static_cast<double>(gap.size()) * std::log(2.0 * std::numbers::pi));
+  EXPECT_NEAR(log_evidence(model, evidence), expected_value, 1e-5);
 }
 
-TEST(MotionDriftEvidence, SeesOnlyThePlaneOfAPlanarProblemAndOnlyChosenClosures) {
+TEST(MotionDriftEvidence, UsesPlanarRowsAndSelectedClosuresOnly) {
   const Problem problem = test::planar();
   const LoopedChain chain(problem, stated_belief(problem));
   const MotionModel model = every_term();
@@ -125,66 +127,68 @@ TEST(MotionDriftEvidence, SeesOnlyThePlaneOfAPlanarProblemAndOnlyChosenClosures)
 }
 
 TEST(MotionDriftEvidence, OneSolveIsTheConditionalMeanOfTheModel) {
-  // Errors so small that the problem is linear: e = -S A' (A S A' + S_L)^-1 c, drift written out.
+  // Errors are small enough for the problem to be linear: e = -S A' (A S A' + S_L)^-1 c.
   const Problem problem = test::walk(4, 10, 1e-6);
   const MotionModel model = every_term();
   const Dense by_hand = dense(model, problem);
-  const ChainBelief belief = belief_of(model, problem, motions(problem));
-  LoopedChain chain(problem, belief);
+  const ChainBelief noise_model = belief_of(model, problem, motions(problem));
+  LoopedChain chain(problem, noise_model);
   for (int i = 0; i < 10; ++i) chain.step();
   Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
   for (std::size_t k = 0; k < problem.closures.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(6 * k);
-    C.block<6, 6>(at, at) += belief.closure_covariance[k];
+    C.block<6, 6>(at, at) += noise_model.closure_covariance[k];
   }
   const std::vector<Twist> none(problem.odometry.size(), Twist::Zero());
-  const Eigen::VectorXd wanted =
+  const Eigen::VectorXd expected_value =
       -by_hand.S * by_hand.A.transpose() * C.ldlt().solve(closure_errors(problem, none));
   const Trajectory out = chain.keyframes();
   for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
     const Twist e =
         edge_error(problem.odometry[i], out[i].world_from_body, out[i + 1].world_from_body);
-    EXPECT_TRUE((e - wanted.segment<6>(static_cast<Eigen::Index>(6 * i))).norm() < 1e-9) << i;
+    EXPECT_TRUE((e - expected_value.segment<6>(static_cast<Eigen::Index>(6 * i))).norm() < 1e-9)
+        << i;
   }
 }
 
-TEST(MotionDriftEvidence, MeanErrorsOfOneModelAreItsConditionalMeanAndOfTwoLieBetween) {
+TEST(MotionDriftEvidence, MeanErrorsAverageTheConditionalMeans) {
   const Problem problem = test::walk(4, 10, 1e-6);
   const MotionModel model = every_term();
   MotionModel other = model;
   for (std::size_t j = 0; j < other.size(); ++j) other[j].value *= j % 2 == 0 ? 3.0 : 0.2;
-  const std::vector<EdgeMotion> moved = motions(problem);
-  const LoopedChain chain(problem, belief_of(model, problem, moved));
+  const std::vector<EdgeMotion> edge_motions = motions(problem);
+  const LoopedChain chain(problem, belief_of(model, problem, edge_motions));
   const auto expected = [&](const MotionModel& of) -> Eigen::VectorXd {
     const Dense by_hand = dense(of, problem);
-    const ChainBelief belief = belief_of(of, problem, moved);
+    const ChainBelief noise_model = belief_of(of, problem, edge_motions);
     Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
     for (std::size_t k = 0; k < problem.closures.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(6 * k);
-      // Factors on halves apart leave out what ties the halves of a closure.
-      Matrix6 apart = belief.closure_covariance[k];
-      apart.block<3, 3>(0, 3).setZero();
-      apart.block<3, 3>(3, 0).setZero();
-      C.block<6, 6>(at, at) += apart;
+      // Separate factors on translation and rotation drop the correlation of a closure.
+      Matrix6 uncorrelated = noise_model.closure_covariance[k];
+      uncorrelated.block<3, 3>(0, 3).setZero();
+      uncorrelated.block<3, 3>(3, 0).setZero();
+      C.block<6, 6>(at, at) += uncorrelated;
     }
-    const std::vector<Twist> none(moved.size(), Twist::Zero());
+    const std::vector<Twist> none(edge_motions.size(), Twist::Zero());
     return -by_hand.S * by_hand.A.transpose() * C.ldlt().solve(closure_errors(problem, none));
   };
   const Eigen::VectorXd first = expected(model);
   const Eigen::VectorXd second = expected(other);
-  const auto near = [](const std::vector<Twist>& errors, const Eigen::VectorXd& wanted) {
-    double off = 0.0;
+  const auto near = [](const std::vector<Twist>& errors, const Eigen::VectorXd& expected_value) {
+    double deviation_sum = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      off += (errors[i] - wanted.segment<6>(static_cast<Eigen::Index>(6 * i))).norm();
+      deviation_sum +=
+          (errors[i] - expected_value.segment<6>(static_cast<Eigen::Index>(6 * i))).norm();
     }
-    return off < 1e-9;
+    return deviation_sum < 1e-9;
   };
-  EXPECT_TRUE(near(mean_errors({model}, chain, problem, moved), first));
-  EXPECT_TRUE(near(mean_errors({model, other, other}, chain, problem, moved),
+  EXPECT_TRUE(near(mean_errors({model}, chain, problem, edge_motions), first));
+  EXPECT_TRUE(near(mean_errors({model, other, other}, chain, problem, edge_motions),
                    (first + 2.0 * second) / 3.0));
 }
 
-/// One gap of size 2 that one term explains, of median variance 1 and spread 1.5.
+/// One gap of 2 explained by one term with median variance 1 and spread 1.5.
 struct OneGap {
   MotionPrior prior{
       {{.medians = {{Cause::noise, Half::translation, Growth::edge, 1.0}}, .hangs = {{{1, 1.5}}}}},
@@ -192,7 +196,7 @@ struct OneGap {
   Evidence evidence{{0}, Eigen::VectorXd::Constant(1, 2.0), {Eigen::MatrixXd::Ones(1, 1)}};
 };
 
-TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives) {
+TEST(MotionDriftPosterior, SamplesMatchTheIntegratedPosteriorOfAVariance) {
   const OneGap one;
   double mass = 0.0;
   double mean = 0.0;
@@ -219,7 +223,7 @@ TEST(MotionDriftPosterior, DrawsFromThePosteriorOfAVarianceThatIntegrationGives)
   EXPECT_NEAR(std::log(drawn.centre[0].value), 1.5 * sum, 1e-9);
 }
 
-TEST(MotionDriftPosterior, ASpreadOfZeroKeepsTheMedianAndNoDensityIsAnError) {
+TEST(MotionDriftPosterior, ZeroSpreadKeepsTheMedianAndASingularCovarianceThrows) {
   OneGap one;
   one.prior.hypotheses[0].hangs[0][0].spread = 0.0;
   const MotionPosterior drawn = posterior_of(one.prior, one.evidence, {.draws = 5});
@@ -228,8 +232,8 @@ TEST(MotionDriftPosterior, ASpreadOfZeroKeepsTheMedianAndNoDensityIsAnError) {
   EXPECT_THROW(posterior_of(one.prior, one.evidence, {}), std::runtime_error);
 }
 
-TEST(MotionDriftPosterior, HypothesesGetTheChancesThatBayesGivesThem) {
-  // Variance 1 or 4, before the gap of 2 believed as one to three.
+TEST(MotionDriftPosterior, HypothesisProbabilitiesFollowBayesRule) {
+  // Variance 1 or 4 with the prior odds one to three, and a gap of 2.
   OneGap two;
   two.prior.hypotheses[0].hangs[0][0].spread = 0.0;
   two.prior.hypotheses.push_back(two.prior.hypotheses[0]);
@@ -244,7 +248,7 @@ TEST(MotionDriftPosterior, HypothesesGetTheChancesThatBayesGivesThem) {
   EXPECT_DOUBLE_EQ(drawn.centre[0].value, 4.0);
 }
 
-TEST(MotionDriftPrior, AsStatedOneFactorIsOnEverythingAndTheLastHypothesisDeniesNothing) {
+TEST(MotionDriftPrior, AsStatedHasOneFactorAndTheLastHypothesisHasAllTerms) {
   const Problem problem = test::hand_held();
   const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
   const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
@@ -259,7 +263,7 @@ TEST(MotionDriftPrior, AsStatedOneFactorIsOnEverythingAndTheLastHypothesisDenies
   for (const Term& term : prior.hypotheses.back().medians) EXPECT_GT(term.value, 0.0);
 
   Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(prior.unknowns, -1.0, 1.0);
-  u[0] = -5.0;  // the first: as stated, nothing drifts
+  u[0] = -5.0;  // the first hypothesis: covariances as stated, no drift
   ASSERT_EQ(hypothesis_at(prior, u), 0u);
   const MotionModel model = model_at(prior, u);
   EXPECT_EQ(model[0].value, 0.0);
@@ -270,21 +274,22 @@ TEST(MotionDriftPrior, AsStatedOneFactorIsOnEverythingAndTheLastHypothesisDenies
   EXPECT_EQ(hypothesis_at(prior, u), 5u);
 }
 
-TEST(MotionDriftPrior, PartsOfTheNoiseAndItsTimeToDriftAreAsTheOptionsSay) {
+TEST(MotionDriftPrior, MediansFollowSteadyAfter) {
   const Problem problem = test::planar();
-  const std::vector<EdgeMotion> moved = motions(problem);
+  const std::vector<EdgeMotion> edge_motions = motions(problem);
   const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
   const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
                           {Cause::drift, Half::rotation, Growth::time, 0.0, false, 2}};
-  double seconds = 0.0;  // of a loop, mean, and its square's
-  double squared = 0.0;
+  double seconds = 0.0;  // mean loop duration
+  double squared = 0.0;  // mean squared loop duration
   for (const Edge& loop : problem.closures) {
-    const double long_for = problem.keyframes[loop.to].stamp - problem.keyframes[loop.from].stamp;
-    seconds += long_for / static_cast<double>(problem.closures.size());
-    squared += long_for * long_for / static_cast<double>(problem.closures.size());
+    const double duration = problem.keyframes[loop.to].stamp - problem.keyframes[loop.from].stamp;
+    seconds += duration / static_cast<double>(problem.closures.size());
+    squared += duration * duration / static_cast<double>(problem.closures.size());
   }
-  const MotionPrior prior = prior_of(terms, {.steady_after = 2.0 * seconds}, problem, moved, gap);
-  // Half as much drift as noise, in squared angle at the loops' ends.
+  const MotionPrior prior =
+      prior_of(terms, {.steady_after = 2.0 * seconds}, problem, edge_motions, gap);
+  // Half as much drift as noise in squared angle at the loop ends.
   const MotionModel& medians = prior.hypotheses.back().medians;
   EXPECT_NEAR(medians[1].value * squared, 0.5 * medians[0].value * seconds, 1e-12);
 }

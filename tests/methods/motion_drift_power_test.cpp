@@ -1,5 +1,5 @@
-/// Power and negative control: what motion_drift gains where its model is true, against theory,
-/// and what it costs where there is nothing to gain.
+/// Power and negative control: gain of motion_drift on data from its own model, compared with
+/// theory, and its loss on data without drift.
 #include <gtest/gtest.h>
 
 #include "datasets/random.hpp"
@@ -9,8 +9,8 @@
 namespace loopbench {
 namespace {
 
-/// A straight walk along x in steps of these lengths, one closure from end to end. Errors along x
-/// only, in proportion to what `error` gives each step.
+/// A straight walk along x with the given steps and errors of the steps, and one closure from start
+/// to end.
 Problem walk_along_x(const std::vector<double>& steps, const std::vector<double>& errors) {
   Problem out;
   double measured = 0.0;
@@ -24,8 +24,8 @@ Problem walk_along_x(const std::vector<double>& steps, const std::vector<double>
         {static_cast<double>(i + 1), {Rotation::Identity(), Vector3(measured, 0, 0)}});
     out.odometry.push_back({i, i + 1, {Rotation::Identity(), Vector3(step, 0, 0)}});
   }
-  Matrix6 sure = Matrix6::Identity() * 1e10;
-  out.closures.push_back({0, steps.size(), {Rotation::Identity(), Vector3(truth, 0, 0)}, sure});
+  Matrix6 precise = Matrix6::Identity() * 1e10;
+  out.closures.push_back({0, steps.size(), {Rotation::Identity(), Vector3(truth, 0, 0)}, precise});
   return out;
 }
 
@@ -35,22 +35,23 @@ double mean_square(const Trajectory& estimate, const std::vector<double>& steps)
   double sum = 0.0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     truth += steps[i];
-    const double off = estimate[i + 1].world_from_body.translation.x() - truth;
-    sum += off * off / static_cast<double>(steps.size());
+    const double error = estimate[i + 1].world_from_body.translation.x() - truth;
+    sum += error * error / static_cast<double>(steps.size());
   }
   return sum;
 }
 
-/// Walks slowly for 12 steps and fast for 6.
+/// 12 slow steps and 6 fast steps.
 std::vector<double> slow_and_fast() {
   std::vector<double> out(12, 0.2);
   out.insert(out.end(), 6, 3.0);
   return out;
 }
 
-TEST(MotionDriftPower, NoiseByDistanceGainsWhatTheBridgeOfVariancesSays) {
-  // Variance 0.01 a metre, s(m) gathered up to keyframe m, S in all. Spread by s the error left
-  // has variance s (S - s) / S; spread evenly, u = m / n, (s - u S)^2 / S comes on top.
+TEST(MotionDriftPower, NoiseByDistanceReachesTheTheoreticalGain) {
+  // Variance 0.01 per metre, s(m) accumulated up to keyframe m, S in total. Distributed by s, the
+  // remaining error has the variance s (S - s) / S; distributed evenly, with u = m / n, (s - u S)^2
+  // / S is added.
   const std::vector<double> steps = slow_and_fast();
   const double total = 0.01 * (12 * 0.2 + 6 * 3.0);
   double best = 0.0;
@@ -83,10 +84,11 @@ TEST(MotionDriftPower, NoiseByDistanceGainsWhatTheBridgeOfVariancesSays) {
   EXPECT_NEAR(even / best, 2.5, 0.5);
 }
 
-TEST(MotionDriftPower, SteadyDriftGainsWhatItsPosteriorSays) {
-  // Twelve seconds at 0.2 m/s, six at 3 m/s: a drift of 1 cm a metre known to be there (sigma), and
-  // white noise of 0.0001 m^2/s. The posterior covariance at the keyframes is P - p p' / p_n with P
-  // the prior's; evenly spread, u = m / n, it is what is left of P in (I - u e_n').
+TEST(MotionDriftPower, SteadyDriftReachesTheTheoreticalGain) {
+  // Twelve seconds at 0.2 m/s, six at 3 m/s; a drift with a known deviation of 1 cm per metre and
+  // white noise of 0.0001 m^2/s. The posterior covariance at the keyframes is P - p p' / p_n, where
+  // P is the prior covariance; distributed evenly, with u = m / n, it is (I - u e_n') P (I - u
+  // e_n')'.
   const std::vector<double> steps = slow_and_fast();
   Eigen::MatrixXd P(18, 18);
   std::vector<double> metres;
@@ -122,12 +124,12 @@ TEST(MotionDriftPower, SteadyDriftGainsWhatItsPosteriorSays) {
     dual += mean_square(Dual({}).correct(problem, report), steps) / seeds;
   }
   EXPECT_NEAR(ours, best, 0.12 * best);
-  EXPECT_NEAR(dual, even, 0.2 * even);  // one rate a walk: few degrees of freedom
+  EXPECT_NEAR(dual, even, 0.2 * even);  // one rate per walk: few degrees of freedom
   EXPECT_GT(even / best, 3.0);
 }
 
-/// Two laps of a circle of 20 m, 40 keyframes a lap, in the plane; loops at the second lap. Turning
-/// errs by white noise and, a metre, by `drift` [rad/m].
+/// Two laps of a planar circle of radius 20 m with 40 keyframes each; closures in the second lap.
+/// Rotation has white noise and a drift of `drift` [rad/m].
 struct Laps {
   Trajectory truth;
   Problem problem;
@@ -145,9 +147,10 @@ Laps laps(int seed, double drift) {
   out.problem.planar = true;
   out.problem.keyframes.push_back({0.0, pose});
   for (std::size_t i = 0; i < 80; ++i) {
-    const Vector3 at = 0.02 * random.normal3();
-    const double turn = 0.002 * random.normal3().z() + drift * 20.0 * step;
-    const Pose measured = normalized(true_step * exp_se3(twist({at.x(), at.y(), 0}, {0, 0, turn})));
+    const Vector3 offset = 0.02 * random.normal3();
+    const double yaw_error = 0.002 * random.normal3().z() + drift * 20.0 * step;
+    const Pose measured =
+        normalized(true_step * exp_se3(twist({offset.x(), offset.y(), 0}, {0, 0, yaw_error})));
     const auto stamp = static_cast<double>(i + 1);
     out.truth.push_back({stamp, normalized(out.truth.back().world_from_body * true_step)});
     out.problem.keyframes.push_back(
@@ -155,13 +158,13 @@ Laps laps(int seed, double drift) {
     out.problem.odometry.push_back({i, i + 1, measured, information});
   }
   for (const std::size_t to : {45u, 60u, 75u}) {
-    const Pose seen = out.truth[to - 40].world_from_body.inverse() * out.truth[to].world_from_body;
-    const Vector3 at = 0.01 * random.normal3();
-    const double turn = 0.001 * random.normal3().z();
+    const Pose exact = out.truth[to - 40].world_from_body.inverse() * out.truth[to].world_from_body;
+    const Vector3 offset = 0.01 * random.normal3();
+    const double yaw_error = 0.001 * random.normal3().z();
     out.problem.closures.push_back(
         {to - 40,
          to,
-         normalized(seen * exp_se3(twist({at.x(), at.y(), 0}, {0, 0, turn}))),
+         normalized(exact * exp_se3(twist({offset.x(), offset.y(), 0}, {0, 0, yaw_error}))),
          Matrix6::Identity() * 1e4});
     out.problem.closures.back().information.bottomRightCorner<3, 3>() *= 100.0;
   }
@@ -177,31 +180,31 @@ double rmse_of(const Trajectory& estimate, const Trajectory& truth) {
   return std::sqrt(sum / static_cast<double>(truth.size()));
 }
 
-/// Geometric mean over seeds of the error against that of `dual`.
+/// Geometric mean over seeds of the error relative to that of `dual`.
 double against_dual(const MotionDrift::Options& options, double drift, int seeds) {
   double sum = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Laps at = laps(seed, drift);
+    const Laps data = laps(seed, drift);
     Report report;
-    sum += std::log(rmse_of(MotionDrift(options).correct(at.problem, report), at.truth) /
-                    rmse_of(Dual({}).correct(at.problem, report), at.truth));
+    sum += std::log(rmse_of(MotionDrift(options).correct(data.problem, report), data.truth) /
+                    rmse_of(Dual({}).correct(data.problem, report), data.truth));
   }
   return std::exp(sum / seeds);
 }
 
-TEST(MotionDriftPower, FittedToLoopsItGainsNearlyWhatTheTrueVariancesGain) {
+TEST(MotionDriftPower, EstimatedVariancesGainNearlyAsMuchAsTrueOnes) {
   const double drift = 6e-4;
-  MotionDrift::Options told{.model = MotionDrift::Model::time, .fit = false};
-  told.noise[0] = {0.0, 4e-4, 0.0, 0.0, 0.0};
-  told.noise[1] = {0.0, 4e-6, 0.0, 0.0, 0.0};
-  told.drift[1][2] = drift;
-  told.closures = {1.0, 1.0};
-  const double best = against_dual(told, drift, 16);
+  MotionDrift::Options true_values{.model = MotionDrift::Model::time, .fit = false};
+  true_values.noise[0] = {0.0, 4e-4, 0.0, 0.0, 0.0};
+  true_values.noise[1] = {0.0, 4e-6, 0.0, 0.0, 0.0};
+  true_values.drift[1][2] = drift;
+  true_values.closures = {1.0, 1.0};
+  const double best = against_dual(true_values, drift, 16);
   EXPECT_LT(best, 0.75);
   EXPECT_LT(against_dual({}, drift, 16), 1.1 * best);
 }
 
-TEST(MotionDriftPower, WhereNothingDriftsItCostsNextToNothing) {
+TEST(MotionDriftPower, WithoutDriftTheLossIsNegligible) {
   EXPECT_LT(against_dual({}, 0.0, 24), 1.02);
 }
 

@@ -1,4 +1,4 @@
-// What motion_drift makes of loops that cover next to nothing of the chain.
+// motion_drift on loops that cover only a small part of the chain.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -22,19 +22,19 @@ double largest_distance(const Trajectory& a, const Trajectory& b) {
   return out;
 }
 
-/// A car that drives 300 m, stands for ten keyframes and drives on for as long; keyframes every
-/// half second, 5 m apart. While it stands, odometry jitters by a centimetre and a milliradian, and
-/// a closure with its usual noise joins the first and the last of these keyframes.
+/// A car drives 300 m, rests for ten keyframes and drives on for the same distance, with keyframes
+/// every half second, 5 m apart. At rest the odometry has noise of a centimetre and a milliradian,
+/// and a closure with ordinary noise joins the first and last keyframe of the rest.
 Problem with_a_stop() {
   Problem out;
   Matrix6 information = Matrix6::Zero();
   information.diagonal() << Vector3::Constant(1e4), Vector3::Constant(4e4);
   out.keyframes.push_back({0.0, {}});
   for (std::size_t i = 0; i < 130; ++i) {
-    const bool stands = i >= 60 && i < 70;
+    const bool is_at_rest = i >= 60 && i < 70;
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
-    const Pose step = stands ? Pose{exp_so3({0.0, 0.0, 0.001 * sign}), {0.01 * sign, 0.0, 0.0}}
-                             : Pose{exp_so3({0.0, 0.0, 0.02}), {5.0, 0.0, 0.0}};
+    const Pose step = is_at_rest ? Pose{exp_so3({0.0, 0.0, 0.001 * sign}), {0.01 * sign, 0.0, 0.0}}
+                                 : Pose{exp_so3({0.0, 0.0, 0.02}), {5.0, 0.0, 0.0}};
     out.odometry.push_back({i, i + 1, step, information});
     out.keyframes.push_back({0.5 * static_cast<double>(i + 1),
                              normalized(out.keyframes.back().world_from_body * step)});
@@ -45,16 +45,16 @@ Problem with_a_stop() {
   return out;
 }
 
-TEST(MotionDriftShortLoops, ALoopWhileStandingDoesNotBendTheDrive) {
+TEST(MotionDriftShortLoops, ALoopAtRestDoesNotDeformTheTrajectory) {
   const Problem problem = with_a_stop();
   Report report;
   const Trajectory out = MotionDrift({}).correct(problem, report);
-  // 7 mrad over 300 m are 2 m; before, all keyframes were moved by tens of metres.
+  // 7 mrad over 300 m are 2 m; before the fix, all keyframes moved by tens of metres.
   EXPECT_LT(largest_distance(out, problem.keyframes), 3.0);
   EXPECT_TRUE(report.notes.empty());
 }
 
-TEST(MotionDriftShortLoops, AStopOnKitti05CostsNothing) {
+TEST(MotionDriftShortLoops, AStopOnKitti05AddsNoError) {
   const char* root = std::getenv("LOOPBENCH_DATA");
   if (root == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
   TrajectoryOptions options;
@@ -71,13 +71,13 @@ TEST(MotionDriftShortLoops, AStopOnKitti05CostsNothing) {
     problem.closures = {{465, 475, exact, information}};
     Report report;
     const Trajectory out = MotionDrift({}).correct(problem, report);
-    EXPECT_LT(largest_distance(out, problem.keyframes), 1.0);  // before: tens of metres
+    EXPECT_LT(largest_distance(out, problem.keyframes), 1.0);  // before the fix: tens of metres
   } catch (const DataMissing& missing) {
     GTEST_SKIP() << missing.what();
   }
 }
 
-TEST(MotionDriftShortLoops, DriftReachesAsFarBeyondLoopsAsTheyAreLong) {
+TEST(MotionDriftShortLoops, DriftReachIsAMultipleOfTheLoopLength) {
   Problem problem = with_a_stop();
   problem.closures.front().from = 20;
   problem.closures.front().to = 40;
@@ -86,7 +86,7 @@ TEST(MotionDriftShortLoops, DriftReachesAsFarBeyondLoopsAsTheyAreLong) {
   const auto part = [&](Growth growth, std::size_t edge) {
     return moved[edge].drift_part[static_cast<std::size_t>(growth)];
   };
-  // Twenty edges of 0.5 s and 5 m inside, ten and a half beyond either end.
+  // Twenty edges of 0.5 s and 5 m inside the loop, ten and a half beyond either end.
   for (const Growth growth : {Growth::edge, Growth::time, Growth::distance, Growth::rotation}) {
     EXPECT_EQ(part(growth, 8), 0.0);
     EXPECT_NEAR(part(growth, 9), 0.5, 1e-9);
@@ -98,13 +98,13 @@ TEST(MotionDriftShortLoops, DriftReachesAsFarBeyondLoopsAsTheyAreLong) {
   }
 }
 
-TEST(MotionDriftShortLoops, ALoopAtTheStandstillReachesNoMetreFurther) {
+TEST(MotionDriftShortLoops, ALoopAtRestHasNoReachInDistance) {
   const Problem problem = with_a_stop();
   std::vector<EdgeMotion> moved = motions(problem);
   limit_drift(moved, problem, 1.0);
   const auto by_distance = static_cast<std::size_t>(Growth::distance);
   EXPECT_EQ(moved[65].drift_part[by_distance], 1.0);
-  EXPECT_NEAR(moved[70].drift_part[by_distance], 0.1 / 5.0, 1e-9);  // ten times a centimetre
+  EXPECT_NEAR(moved[70].drift_part[by_distance], 0.1 / 5.0, 1e-9);  // ten edges of one centimetre
   EXPECT_EQ(moved[71].drift_part[by_distance], 0.0);
 }
 
@@ -121,22 +121,22 @@ TEST(MotionDriftShortLoops, ALargeMoveIsReported) {
       << report.notes[0];
 }
 
-TEST(MotionDriftShortLoops, AGapExplainsItsLengthAndItsAngleAtTheFarEnd) {
-  const Problem problem = test::circle();  // 10 m across, closed from its first to its last
+TEST(MotionDriftShortLoops, AGapExplainsItsLengthAndItsAngleTimesTheLeverArm) {
+  const Problem problem = test::circle();  // diameter 10 m, closed from first to last keyframe
   Eigen::VectorXd gap = Eigen::VectorXd::Zero(6);
   gap << 3.0, 0.0, 4.0, 0.0, 0.0, 0.1;
   Trajectory moved = problem.keyframes;
   moved[7].world_from_body.translation.z() += 2.5;
   const LargestMove move = largest_move(problem, gap, moved);
   EXPECT_NEAR(move.moved, 2.5, 1e-12);
-  double far = 0.0;
+  double farthest = 0.0;
   for (const StampedPose& k : problem.keyframes) {
-    far = std::max(
-        far,
+    farthest = std::max(
+        farthest,
         (k.world_from_body.translation - problem.keyframes.back().world_from_body.translation)
             .norm());
   }
-  EXPECT_NEAR(move.explained, 5.0 + 0.1 * far, 1e-12);
+  EXPECT_NEAR(move.explained, 5.0 + 0.1 * farthest, 1e-12);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ double rmse(const Trajectory& a, const Trajectory& truth) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// Every edge with the same variances [m^2], [rad^2].
+/// Sets the same variances [m^2], [rad^2] on every edge.
 Problem with_variances(Problem problem, double translation, double rotation) {
   Matrix6 information = Matrix6::Zero();
   information.diagonal() << Vector3::Constant(1.0 / translation), Vector3::Constant(1.0 / rotation);
@@ -38,7 +38,7 @@ Problem with_variances(Problem problem, double translation, double rotation) {
   return problem;
 }
 
-TEST(MotionDrift, IsDualWhenVariancesAreConstantAndNothingDrifts) {
+TEST(MotionDrift, EqualsDualForConstantVariancesWithoutDrift) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Problem problem = with_variances(test::walk(seed, 14, 0.05), 0.04, 0.01);
     MotionDrift::Options options{.model = MotionDrift::Model::constant,
@@ -49,16 +49,17 @@ TEST(MotionDrift, IsDualWhenVariancesAreConstantAndNothingDrifts) {
     options.noise[1][0] = 0.01;
     options.closures = {1.0, 1.0};
     Report report;
-    const Trajectory ours = corrected(options, problem);
+    const Trajectory corrected_poses = corrected(options, problem);
     const Trajectory dual =
         Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-      EXPECT_TRUE(is_close(ours[i].world_from_body, dual[i].world_from_body, 1e-9, 1e-9)) << i;
+    for (std::size_t i = 0; i < corrected_poses.size(); ++i) {
+      EXPECT_TRUE(is_close(corrected_poses[i].world_from_body, dual[i].world_from_body, 1e-9, 1e-9))
+          << i;
     }
   }
 }
 
-TEST(MotionDrift, ChangesNothingWhenNothingIsWrong) {
+TEST(MotionDrift, KeepsAConsistentProblemUnchanged) {
   const Problem problem = test::perfect();
   const Trajectory out = corrected({}, problem);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -66,21 +67,22 @@ TEST(MotionDrift, ChangesNothingWhenNothingIsWrong) {
   }
 }
 
-TEST(MotionDrift, UndoesASteadyDriftThatNoiseAloneCannotExplain) {
-  // Two nested loops, 0.002 to 0.004 m and 0.001 to 0.004 rad wrong in every step alike. That
-  // translation drifts by about a hundredth of the way has to be said: see motion_drift.hpp.
+TEST(MotionDrift, CorrectsSteadyDriftThatNoiseCannotExplain) {
+  // Two nested loops with equal errors of 0.002 to 0.004 m and 0.001 to 0.004 rad in every step.
+  // Translation drift of about one percent of the distance must be given as an option
+  // (motion_drift.hpp).
   const Trajectory truth = test::hand_held_truth();
   const Problem problem = test::hand_held();
   const double constant = rmse(corrected({.model = MotionDrift::Model::constant}, problem), truth);
-  MotionDrift::Options told;
-  told.drift[0][2] = 0.01;  // [m/m]
-  const double drift = rmse(corrected(told, problem), truth);
+  MotionDrift::Options with_drift;
+  with_drift.drift[0][2] = 0.01;  // [m/m]
+  const double drift = rmse(corrected(with_drift, problem), truth);
   EXPECT_LT(drift, 0.75 * constant);
 }
 
-TEST(MotionDrift, SpreadsOneScalarLoopByTheMotionOfItsSteps) {
-  // Straight along x with steps of 1, 2 and 3 m, no turning: variance grows with distance, so of a
-  // gap of 0.7 m with a closure as good as one metre each metre gets 0.1 m.
+TEST(MotionDrift, DistributesOneScalarLoopByDistance) {
+  // Straight along x with steps of 1, 2 and 3 m and no rotation. The variance grows with distance,
+  // and the closure is as precise as one metre, so each metre gets 0.1 m of the gap of 0.7 m.
   Problem problem;
   double x = 0.0;
   problem.keyframes.push_back({0.0, {Rotation::Identity(), Vector3::Zero()}});
@@ -103,17 +105,17 @@ TEST(MotionDrift, SpreadsOneScalarLoopByTheMotionOfItsSteps) {
   EXPECT_NEAR(out[3].world_from_body.translation.x(), 6.6, 1e-9);
 }
 
-TEST(MotionDrift, DoesNotCareAboutTheUnitOfLength) {
-  // A monocular camera does not know it: the same problem in decimetres.
+TEST(MotionDrift, IsIndependentOfScale) {
+  // Unknown scale of a monocular camera: the same problem in decimetres.
   const Problem metres = test::hand_held();
   Problem decimetres = metres;
-  Twist unit = Twist::Ones();
-  unit.head<3>().setConstant(0.1);
+  Twist scale = Twist::Ones();
+  scale.head<3>().setConstant(0.1);
   for (StampedPose& k : decimetres.keyframes) k.world_from_body.translation *= 10.0;
   for (std::vector<Edge>* edges : {&decimetres.odometry, &decimetres.closures}) {
     for (Edge& e : *edges) {
       e.from_from_to.translation *= 10.0;
-      e.information = unit.asDiagonal() * e.information * unit.asDiagonal();
+      e.information = scale.asDiagonal() * e.information * scale.asDiagonal();
     }
   }
   const Trajectory a = corrected({}, metres);
@@ -125,7 +127,7 @@ TEST(MotionDrift, DoesNotCareAboutTheUnitOfLength) {
   }
 }
 
-TEST(MotionDrift, TellsWhatItFitted) {
+TEST(MotionDrift, ReportsTheEstimatedModel) {
   Report report;
   MotionDrift({}).correct(test::hand_held(), report);
   EXPECT_TRUE(std::isfinite(count(report, "log_evidence")));
@@ -134,35 +136,36 @@ TEST(MotionDrift, TellsWhatItFitted) {
               1.0,
               1e-9);
   EXPECT_GE(count(report, "chance.steady"), 0.0);
-  EXPECT_GE(count(report, "noise.t.per_metre"), 0.0);  // 0 where the likeliest denies it
+  EXPECT_GE(count(report, "noise.t.per_metre"), 0.0);  // 0 if the term is excluded
   EXPECT_GE(count(report, "drift.r.per_second.x"), 0.0);
   EXPECT_GT(count(report, "stated"), 0.0);
   EXPECT_GT(count(report, "closures.r"), 0.0);
 }
 
-TEST(MotionDrift, TurnsAboutOneAxisOnlyInThePlane) {
+TEST(MotionDrift, HasOneRotationDriftAxisInThePlane) {
   Report report;
   MotionDrift({}).correct(test::planar(), report);
   EXPECT_TRUE(std::isnan(count(report, "drift.r.per_second.x")));
   EXPECT_GE(count(report, "drift.r.per_second.z"), 0.0);
 }
 
-TEST(MotionDrift, IsDualWhenAllIsBelievedAsStated) {
+TEST(MotionDrift, EqualsDualWhenCovariancesAreAsStated) {
   const Problem problem = test::hand_held();
   MotionDrift::Options options;
   options.prior.as_stated_chance = 1.0;
   options.prior.scaled_chance = 0.0;
   options.prior.steady_chance = 0.0;
   Report report;
-  const Trajectory ours = MotionDrift(options).correct(problem, report);
+  const Trajectory corrected_poses = MotionDrift(options).correct(problem, report);
   const Trajectory dual = Dual({.tolerance = 0.0}).correct(problem, report);
   EXPECT_EQ(count(report, "chance.as_stated"), 1.0);
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    EXPECT_TRUE(is_close(ours[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
+  for (std::size_t i = 0; i < corrected_poses.size(); ++i) {
+    EXPECT_TRUE(is_close(corrected_poses[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6))
+        << i;
   }
 }
 
-TEST(MotionDrift, AnotherSeedHardlyMatters) {
+TEST(MotionDrift, ResultHardlyDependsOnTheSeed) {
   const Problem problem = test::hand_held();
   const Trajectory truth = test::hand_held_truth();
   MotionDrift::Options other;
@@ -171,18 +174,18 @@ TEST(MotionDrift, AnotherSeedHardlyMatters) {
   EXPECT_NEAR(rmse(corrected(other, problem), truth), a, 0.1 * a);
 }
 
-TEST(MotionDrift, ManyClosuresAreTrustedToOneModelNearTheMeanOfAll) {
+TEST(MotionDrift, OneModelIsNearTheMeanOverModels) {
   const Problem problem = test::hand_held();
   const Trajectory truth = test::hand_held_truth();
   const double mean = rmse(corrected({}, problem), truth);
   EXPECT_NEAR(rmse(corrected({.average_closures = 0}, problem), truth), mean, 0.2 * mean);
 }
 
-TEST(MotionDrift, KeepsGivenValuesWhenItDoesNotFit) {
+TEST(MotionDrift, KeepsGivenValuesWithoutFit) {
   Report report;
   MotionDrift::Options options{.fit = false};
   options.drift[1][2] = 0.01;  // [rad/m]
-  options.noise[1][3] = 0.0;   // off
+  options.noise[1][3] = 0.0;   // term removed
   MotionDrift(options).correct(test::hand_held(), report);
   EXPECT_DOUBLE_EQ(count(report, "drift.r.per_metre.z"), 1e-4);
   EXPECT_TRUE(std::isnan(count(report, "noise.r.per_radian")));

@@ -1,5 +1,5 @@
-// One closure that states next to nothing must not change what the others say; nor must the unit
-// that covariances are stated in.
+// A closure with very low information must not change the influence of the others, and the unit of
+// stated covariances must not change the result.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -24,9 +24,9 @@ Problem drive() {
 
 Problem with_weak_closure(Problem problem, double sigma) {
   const std::size_t last = problem.keyframes.size() - 1;
-  const Pose seen = problem.keyframes[last / 5].world_from_body.inverse() *
-                    problem.keyframes[last].world_from_body;
-  problem.closures.push_back({last / 5, last, normalized(seen), information_of(sigma)});
+  const Pose exact = problem.keyframes[last / 5].world_from_body.inverse() *
+                     problem.keyframes[last].world_from_body;
+  problem.closures.push_back({last / 5, last, normalized(exact), information_of(sigma)});
   return problem;
 }
 
@@ -48,14 +48,14 @@ Trajectory corrected(const Problem& problem) {
   return MotionDrift({}).correct(problem, report);
 }
 
-TEST(MotionDriftWeakClosures, ChangeNoAverageOverTheLoops) {
+TEST(MotionDriftWeakClosures, DoNotChangeAveragesOverTheLoops) {
   const Problem problem = drive();
   const std::vector<EdgeMotion> moved = motions(problem);
   const LoopAverages without(problem, moved, gap_of(problem));
   const Problem weak = with_weak_closure(problem, 1e5);
   const LoopAverages with(weak, moved, gap_of(weak));
   for (const Half half : {Half::translation, Half::rotation}) {
-    // The median gap, which weights hang on, may move by one place.
+    // The weights depend on the median gap, which may move by one rank.
     EXPECT_NEAR(with.gap(half), without.gap(half), 0.05 * without.gap(half));
     EXPECT_NEAR(with.stated(half), without.stated(half), 0.05 * without.stated(half));
     const double metres = without.motion(half, Growth::distance, true);
@@ -63,7 +63,7 @@ TEST(MotionDriftWeakClosures, ChangeNoAverageOverTheLoops) {
   }
 }
 
-/// The prior medians with all terms, with default options.
+/// Prior medians of all terms for default options.
 MotionModel medians_of(const Problem& problem) {
   const MotionModel terms{{Cause::noise, Half::translation, Growth::distance},
                           {Cause::noise, Half::rotation, Growth::time},
@@ -81,10 +81,10 @@ TEST(MotionDriftWeakClosures, DoNotShrinkTheCovarianceOfTheOthers) {
   for (std::size_t j = 0; j < with.size(); ++j) {
     EXPECT_NEAR(with[j].value, without[j].value, 0.1 * without[j].value) << name_of(with[j]);
   }
-  EXPECT_EQ(with[3].value, 1.0);  // before: 1e-8, as if all closures were stated in another unit
+  EXPECT_EQ(with[3].value, 1.0);  // before the fix: 1e-8
 }
 
-TEST(MotionDriftWeakClosures, SigmasInAnotherUnitLeaveTheNoiseWhereTheGapsAre) {
+TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheScaleOfTheNoise) {
   const Problem problem = drive();
   Problem scaled = problem;
   for (std::vector<Edge>* edges : {&scaled.odometry, &scaled.closures}) {
@@ -92,7 +92,7 @@ TEST(MotionDriftWeakClosures, SigmasInAnotherUnitLeaveTheNoiseWhereTheGapsAre) {
   }
   const MotionModel stated = medians_of(problem);
   const MotionModel found = medians_of(scaled);
-  for (std::size_t j = 0; j < 2; ++j) {  // before: a million times as much
+  for (std::size_t j = 0; j < 2; ++j) {  // before the fix: a million times larger
     EXPECT_LT(found[j].value, 100.0 * stated[j].value) << name_of(stated[j]);
     EXPECT_GT(found[j].value, 0.01 * stated[j].value) << name_of(stated[j]);
   }
@@ -113,11 +113,12 @@ TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
   }
   const LoopAverages loops(problem, moved, gap_of(problem));
   EXPECT_NEAR(loops.stated(Half::rotation), 0.09, 1e-12);
-  EXPECT_GE(loops.motion(Half::translation, Growth::distance, false), mean);  // floored where slow
+  EXPECT_GE(loops.motion(Half::translation, Growth::distance, false),
+            mean);  // bound for slow loops
   EXPECT_NEAR(loops.motion(Half::translation, Growth::distance, false), mean, 0.2 * mean);
 }
 
-TEST(MotionDriftWeakClosures, AWeakClosureLeavesTheTrajectory) {
+TEST(MotionDriftWeakClosures, AWeakClosureDoesNotChangeTheTrajectory) {
   const Problem problem = drive();
   const Trajectory without = corrected(problem);
   const double moved = largest_distance(without, problem.keyframes);
@@ -127,7 +128,7 @@ TEST(MotionDriftWeakClosures, AWeakClosureLeavesTheTrajectory) {
   }
 }
 
-TEST(MotionDriftWeakClosures, AllSigmasInAnotherUnitLeaveTheTrajectory) {
+TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheTrajectory) {
   const Problem problem = drive();
   Problem scaled = problem;
   for (std::vector<Edge>* edges : {&scaled.odometry, &scaled.closures}) {

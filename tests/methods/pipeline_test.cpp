@@ -11,10 +11,10 @@ namespace {
 
 using namespace test;
 
-/// A corrector made of a function, for wrong ones above all.
-class Made final : public Corrector {
+/// A corrector that calls a function, used for invalid correctors.
+class FunctionCorrector final : public Corrector {
  public:
-  explicit Made(std::function<Trajectory(Trajectory)> work) : work_(std::move(work)) {}
+  explicit FunctionCorrector(std::function<Trajectory(Trajectory)> work) : work_(std::move(work)) {}
   Trajectory correct(const Problem& problem, Report&) const override {
     return work_(problem.keyframes);
   }
@@ -23,7 +23,7 @@ class Made final : public Corrector {
   std::function<Trajectory(Trajectory)> work_;
 };
 
-TEST(WithKeyframes, LeavesFramesWhereTheyAreWhenNothingMoves) {
+TEST(WithKeyframes, KeepsFramesWhenNoKeyframeMoves) {
   const Problem before = hand_held();
   const Problem after = with_keyframes(before, before.keyframes);
   ASSERT_EQ(after.frames.size(), before.frames.size());
@@ -34,7 +34,7 @@ TEST(WithKeyframes, LeavesFramesWhereTheyAreWhenNothingMoves) {
   }
 }
 
-TEST(WithKeyframes, FramesRideOnARigidMotion) {
+TEST(WithKeyframes, FramesFollowARigidMotion) {
   const Problem before = hand_held();
   const Pose motion{exp_so3({0.5, 0.2, -0.9}), {3.0, 2.0, 1.0}};
   const Problem moved = moved_by(motion, before);
@@ -45,7 +45,7 @@ TEST(WithKeyframes, FramesRideOnARigidMotion) {
   }
 }
 
-TEST(WithKeyframes, FramesBlendBetweenTheirNeighboursByTime) {
+TEST(WithKeyframes, FramesInterpolateTheirNeighboursByTime) {
   Problem before;
   before.keyframes = {{0.0, {}}, {4.0, {Rotation::Identity(), {4.0, 0.0, 0.0}}}};
   before.frames = {{1.0, {Rotation::Identity(), {1.0, 0.1, 0.0}}}};
@@ -53,8 +53,8 @@ TEST(WithKeyframes, FramesBlendBetweenTheirNeighboursByTime) {
   lifted[1].world_from_body.translation.z() = 2.0;
   const Problem after = with_keyframes(before, lifted);
   ASSERT_EQ(after.frames.size(), 1u);
-  const Vector3 wanted(1.0, 0.1, 0.5);  // a quarter of the way, a quarter of the lift
-  EXPECT_LT((after.frames[0].world_from_body.translation - wanted).norm(), 1e-15);
+  const Vector3 expected(1.0, 0.1, 0.5);  // a quarter of the time, so a quarter of the lift
+  EXPECT_LT((after.frames[0].world_from_body.translation - expected).norm(), 1e-15);
 }
 
 TEST(WithKeyframes, DropsFramesOutsideTheKeyframes) {
@@ -72,26 +72,26 @@ TEST(WithKeyframes, KeepsEdgesAsMeasured) {
   EXPECT_EQ(after.planar, before.planar);
 }
 
-TEST(Compose, RefusesACorrectorThatLosesAKeyframeOrMovesAStamp) {
-  const auto expect_refused = [](const std::function<Trajectory(Trajectory)>& work) {
-    const auto alone = compose(std::make_unique<Made>(work), nullptr);
-    const auto both = compose(std::make_unique<Made>(work),
+TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {
+  const auto expect_rejected = [](const std::function<Trajectory(Trajectory)>& work) {
+    const auto alone = compose(std::make_unique<FunctionCorrector>(work), nullptr);
+    const auto both = compose(std::make_unique<FunctionCorrector>(work),
                               std::make_unique<CubicSpline>(CubicSpline::Options{}));
     Report report;
     EXPECT_THROW(alone->estimate(hand_held(), report), std::runtime_error);
     EXPECT_THROW(both->estimate(hand_held(), report), std::runtime_error);
   };
-  expect_refused([](Trajectory poses) {
+  expect_rejected([](Trajectory poses) {
     poses.pop_back();
     return poses;
   });
-  expect_refused([](Trajectory poses) {
+  expect_rejected([](Trajectory poses) {
     poses[3].stamp += 0.001;
     return poses;
   });
 }
 
-TEST(Compose, SmoothsWhatTheCorrectorMade) {
+TEST(Compose, SmoothsTheCorrectedKeyframes) {
   const Problem problem = hand_held();
   const Uniform uniform({});
   const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
@@ -111,7 +111,7 @@ TEST(Compose, DeclinesForEitherStage) {
   problem.closures.clear();
   const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
                             std::make_unique<CubicSpline>(CubicSpline::Options{}));
-  EXPECT_EQ(both->declines(problem), "no loop closure to spread");
+  EXPECT_EQ(both->declines(problem), "the problem has no loop closures");
   EXPECT_EQ(compose(nullptr, nullptr)->declines(Problem{}), "no keyframes");
   EXPECT_EQ(compose(nullptr, nullptr)->declines(problem), std::nullopt);
 }

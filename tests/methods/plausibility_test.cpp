@@ -1,4 +1,4 @@
-// chi2 per degree of freedom as dual and pose_graph report it.
+// chi2 per degree of freedom, as reported by dual and pose_graph.
 #include "methods/correctors/plausibility.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Problem with_covariances(Problem problem, double factor) {
   return problem;
 }
 
-TEST(Plausibility, SimulatedDatasetsStateTheirOwnNoise) {
+TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
   for (const auto& [path, planar] : {std::pair{SimulatedPath::driving, true},
                                      std::pair{SimulatedPath::driving, false},
                                      std::pair{SimulatedPath::room, false}}) {
@@ -56,7 +56,7 @@ TEST(Plausibility, DualAndPoseGraphReportTheSameChi2) {
   }
 }
 
-TEST(Plausibility, ImplausibleCovariancesAreNoted) {
+TEST(Plausibility, ImplausibleCovariancesAreReported) {
   const Problem problem = simulated(SimulatedPath::room, false, 2);
   for (const double factor : {1e-2, 1e2}) {
     const Problem wrong = with_covariances(problem, factor);

@@ -1,4 +1,4 @@
-// The three groups a pose graph is solved in, held to one list of laws.
+// Common tests of the three Lie groups of pose graphs.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -18,7 +18,7 @@ class PoseGroup : public ::testing::Test {
   using Square = typename G::Square;
   using Element = typename G::Element;
 
-  /// Small, ordinary and nearly half a turn; uniform in -size..size.
+  /// Uniform in -size..size; the sizes below cover small, ordinary and nearly half-turn twists.
   Tangent random(double size) {
     std::uniform_real_distribution<double> unit(-size, size);
     Tangent out;
@@ -47,7 +47,7 @@ TYPED_TEST(PoseGroup, LogUndoesExp) {
   }
 }
 
-TYPED_TEST(PoseGroup, InverseAndStorageLoseNothing) {
+TYPED_TEST(PoseGroup, InverseAndStorageAreExact) {
   using G = TypeParam;
   for (const auto& xi : this->twists()) {
     const auto a = G::exp(xi);
@@ -59,7 +59,7 @@ TYPED_TEST(PoseGroup, InverseAndStorageLoseNothing) {
   }
 }
 
-TYPED_TEST(PoseGroup, AdjointCarriesTwistsAcross) {
+TYPED_TEST(PoseGroup, AdjointTransformsTwists) {
   using G = TypeParam;
   for (const auto& xi : this->twists()) {
     const auto a = G::exp(this->random(1.0));
@@ -69,17 +69,17 @@ TYPED_TEST(PoseGroup, AdjointCarriesTwistsAcross) {
   }
 }
 
-TYPED_TEST(PoseGroup, ResidualJacobiansAreTheNumericOnes) {
+TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
   using G = TypeParam;
   for (const auto& xi : this->twists()) {
     const auto from = G::exp(this->random(1.0));
     const auto measured = G::exp(this->random(1.0));
     const auto to = G::compose(G::compose(from, measured), G::exp(xi));
-    const auto back = G::inverse(measured);
-    const auto at = edge_residual<G>(back, from, to);
+    const auto inverse_measured = G::inverse(measured);
+    const auto at = edge_residual<G>(inverse_measured, from, to);
     EXPECT_LT((at.error - xi).norm(), 1e-12);
     const auto error = [&](const auto& a, const auto& b) {
-      return edge_error_in<G>(back, G::compose(G::inverse(a), b));
+      return edge_error_in<G>(inverse_measured, G::compose(G::inverse(a), b));
     };
     constexpr double h = 1e-5;
     for (int d = 0; d < G::kDof; ++d) {
@@ -97,7 +97,7 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAreTheNumericOnes) {
   }
 }
 
-TEST(PoseGroups, Se2AndSim3AgreeWithSe3WhereTheyMeet) {
+TEST(PoseGroups, Se2AndSim3AgreeWithSe3OnTheirIntersection) {
   const Eigen::Vector3d flat(0.3, -0.2, 0.7);
   const Pose lifted = exp_se3(twist({0.3, -0.2, 0.0}, {0.0, 0.0, 0.7}));
   EXPECT_TRUE(is_close(Se2::to_scaled_pose(Se2::exp(flat)).pose, lifted, 1e-15, 1e-15));
@@ -109,8 +109,8 @@ TEST(PoseGroups, Se2AndSim3AgreeWithSe3WhereTheyMeet) {
 }
 
 TEST(PoseGroups, AScaledStepAlongAStraightLineIsAGeometricSeries) {
-  // One unit ahead while units double: the second step is twice as long. By hand: e^lambda = 2 and
-  // translation = rho (e^lambda - 1) / lambda.
+  // One unit ahead while the scale doubles: the second step is twice as long. By hand: e^lambda = 2
+  // and translation = rho (e^lambda - 1) / lambda.
   const ScaledPose step{{Rotation::Identity(), {1.0, 0.0, 0.0}}, 2.0};
   const ScaledPose two = step * step;
   EXPECT_DOUBLE_EQ(two.pose.translation.x(), 3.0);

@@ -31,13 +31,13 @@ std::vector<Pose> poses(const Trajectory& trajectory) {
   return out;
 }
 
-double worst_difference(const Trajectory& a, const Trajectory& b) {
-  double worst = 0.0;
+double largest_difference(const Trajectory& a, const Trajectory& b) {
+  double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Twist d = log_se3(a[i].world_from_body.inverse() * b[i].world_from_body);
-    worst = std::max(worst, d.norm());
+    largest = std::max(largest, d.norm());
   }
-  return worst;
+  return largest;
 }
 
 TEST(PoseGraph, EqualsDualOnAChain) {
@@ -47,17 +47,17 @@ TEST(PoseGraph, EqualsDualOnAChain) {
     const Trajectory dual =
         Dual({.max_iterations = 200, .tolerance = 0.0}).correct(problem, report);
     const Trajectory graph = corrected(problem);
-    EXPECT_LT(worst_difference(dual, graph), 1e-4) << seed;
+    EXPECT_LT(largest_difference(dual, graph), 1e-4) << seed;
     const double cost = chain_cost(problem, poses(graph));
     EXPECT_NEAR(chain_cost(problem, poses(dual)), cost, 1e-6 * cost);
   }
 }
 
-TEST(PoseGraph, StandsStillAtItsMinimum) {
-  // Analytic Jacobians are right when no numeric direction lowers the cost any further.
+TEST(PoseGraph, HasZeroGradientAtItsMinimum) {
+  // The analytic Jacobians are correct if no numeric direction lowers the cost.
   const Problem problem = walk(9, 20, 0.1);
   const std::vector<Pose> best = poses(corrected(problem));
-  const double least = chain_cost(problem, best);
+  const double minimum = chain_cost(problem, best);
   for (std::size_t i = 1; i < best.size(); ++i) {
     for (int d = 0; d < 6; ++d) {
       Twist step = Twist::Zero();
@@ -68,19 +68,20 @@ TEST(PoseGraph, StandsStillAtItsMinimum) {
       down[i] = best[i] * exp_se3(-step);
       const double slope = (chain_cost(problem, up) - chain_cost(problem, down)) / 2e-5;
       EXPECT_NEAR(slope, 0.0, 1e-4) << i << " " << d;
-      EXPECT_GT(chain_cost(problem, up), least);
+      EXPECT_GT(chain_cost(problem, up), minimum);
     }
   }
 }
 
-TEST(PoseGraph, StartDoesNotMatterNearTheMinimum) {
+TEST(PoseGraph, ResultDoesNotDependOnTheStartNearTheMinimum) {
   const Problem problem = walk(4, 60, 0.02);
-  EXPECT_LT(worst_difference(corrected(problem),
-                             corrected(problem, {.start = PoseGraphOptimizer::Start::odometry})),
+  EXPECT_LT(largest_difference(corrected(problem),
+                               corrected(problem, {.start = PoseGraphOptimizer::Start::odometry})),
             1e-6);
 }
 
-/// Twelve true loops whose errors obey their information, and every third one false besides.
+/// Twelve true closures with errors according to their information, and a false one for every third
+/// of them.
 Problem partly_false(std::uint64_t seed) {
   Problem problem = walk(seed, 120, 0.0);
   std::mt19937_64 random(seed + 100);
@@ -109,7 +110,7 @@ Problem partly_false(std::uint64_t seed) {
   return problem;
 }
 
-TEST(PoseGraph, GraduatedNonConvexityLetsGoOfFalseClosures) {
+TEST(PoseGraph, GraduatedNonConvexityRejectsFalseClosures) {
   for (const auto kind : {Gnc::tls, Gnc::gm}) {
     const Problem problem = partly_false(7);
     const Trajectory truth = walk(7, 120, 0.0).keyframes;
@@ -132,10 +133,10 @@ TEST(PoseGraph, KeepsEveryClosureWhenAllAreTrue) {
   std::erase_if(problem.closures, [](const Edge& e) { return e.to - e.from == 101; });
   Report report;
   const Trajectory gnc = PoseGraphOptimizer({.gnc = Gnc::tls}).correct(problem, report);
-  EXPECT_LT(worst_difference(gnc, corrected(problem)), 1e-9);
+  EXPECT_LT(largest_difference(gnc, corrected(problem)), 1e-9);
 }
 
-TEST(PoseGraph, BoundedLossesPullLess) {
+TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
   Problem problem = walk(2, 30, 0.01);
   problem.closures.resize(1);
   Pose& measured = problem.closures[0].from_from_to;
@@ -154,7 +155,7 @@ TEST(PoseGraph, BoundedLossesPullLess) {
   EXPECT_LT(moved(Loss::switchable), 0.01 * plain);
 }
 
-/// Three keyframes on a line, steps measured as 1 m, the whole way as 2.3 m, all equally sure.
+/// Three keyframes on a line: steps measured as 1 m, the total as 2.3 m, equal information.
 Problem three_on_a_line() {
   const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
   Problem problem;
@@ -164,7 +165,7 @@ Problem three_on_a_line() {
   return problem;
 }
 
-TEST(PoseGraph, SharesOutThreeTenthsByHand) {
+TEST(PoseGraph, DistributesAGapEvenly) {
   // 0.3 m over three equal variances: 0.1 m each, cost 1/2 * 3 * 0.01. In every group.
   for (const char* group : {"se2", "se3", "sim3"}) {
     Problem problem = three_on_a_line();
@@ -179,10 +180,10 @@ TEST(PoseGraph, SharesOutThreeTenthsByHand) {
   }
 }
 
-TEST(PoseGraph, SpreadsAChangeOfScaleEvenly) {
-  // Four steps that saw no change of scale, and a closure that saw one of 16: five edges, equally
-  // sure, take a fifth of its logarithm each, so steps grow by q = 16^(1/5). The closure's length
-  // is that of such a path: then nothing but scales is wrong.
+TEST(PoseGraph, DistributesAScaleChangeEvenly) {
+  // Four steps without scale change and a closure with a scale change of 16: five edges of equal
+  // information take a fifth of its logarithm each, so steps grow by q = 16^(1/5). The closure's
+  // length matches such a path, so only scales are inconsistent.
   const double q = std::pow(16.0, 0.2);
   const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
   Problem problem;
@@ -204,26 +205,26 @@ TEST(PoseGraph, SpreadsAChangeOfScaleEvenly) {
   EXPECT_NEAR(count(report, "cost"), 0.5 * 5.0 * share * share, 1e-6);
 }
 
-TEST(PoseGraph, TakesAnyConnectedGraphAndDeclinesAnother) {
+TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
   Problem problem = walk(6, 30, 0.0);
   problem.odometry.erase(problem.odometry.begin() + 20);
   const PoseGraphOptimizer method({});
-  EXPECT_EQ(method.declines(problem), std::nullopt);  // a closure leads to the other part
+  EXPECT_EQ(method.declines(problem), std::nullopt);  // a closure joins the two parts
   std::mt19937_64 random(1);
   const Trajectory truth = walk(6, 30, 0.0).keyframes;
-  for (std::size_t i = 21; i < 30; ++i) {  // all of the other part is out of place
+  for (std::size_t i = 21; i < 30; ++i) {  // the second part starts from wrong poses
     Pose& pose = problem.keyframes[i].world_from_body;
     pose = pose * exp_se3(random_twist(random, 0.1, 0.05));
   }
-  EXPECT_LT(worst_difference(corrected(problem), truth), 1e-6);
+  EXPECT_LT(largest_difference(corrected(problem), truth), 1e-6);
   for (const auto start :
        {PoseGraphOptimizer::Start::odometry, PoseGraphOptimizer::Start::chordal}) {
-    EXPECT_LT(worst_difference(corrected(problem, {.start = start}), truth), 1e-6);
+    EXPECT_LT(largest_difference(corrected(problem, {.start = start}), truth), 1e-6);
   }
   std::erase_if(problem.closures, [](const Edge& e) { return e.from < 21 && e.to >= 21; });
   ASSERT_FALSE(problem.closures.empty());
   EXPECT_EQ(method.declines(problem),
-            "the graph is not connected: no edges join keyframe 21 to keyframe 0");
+            "the graph is not connected: no path from keyframe 0 to keyframe 21");
 }
 
 TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
@@ -233,12 +234,12 @@ TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
   const Trajectory a = PoseGraphOptimizer({}).correct(problem, in_plane);
   const Trajectory b =
       PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se3}).correct(problem, in_space);
-  EXPECT_LT(worst_difference(a, b), 1e-7);
+  EXPECT_LT(largest_difference(a, b), 1e-7);
   EXPECT_NEAR(count(in_plane, "cost"), count(in_space, "cost"), 1e-9 * count(in_space, "cost"));
   Problem spatial = problem;
   spatial.planar = false;
   EXPECT_EQ(PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se2}).declines(spatial),
-            "group is se2, the problem not planar");
+            "group is se2, but the problem is not planar");
 }
 
 TEST(PoseGraph, ChordalValuesAreExactWhenMeasurementsAre) {
@@ -249,7 +250,7 @@ TEST(PoseGraph, ChordalValuesAreExactWhenMeasurementsAre) {
   }
 }
 
-TEST(PoseGraph, RefusesInformationThatIsNone) {
+TEST(PoseGraph, RejectsSingularInformation) {
   Problem problem = walk(2, 10, 0.01);
   problem.odometry[3].information.setZero();
   EXPECT_THROW(corrected(problem), std::runtime_error);

@@ -1,4 +1,4 @@
-// smoothing_spline, and what it is made of.
+// smoothing_spline and its parts.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-/// The hat matrix in full: A = (I + lambda Q R^-1 Q')^-1 (Green & Silverman 1994, 2.3.3).
+/// Dense hat matrix: A = (I + lambda Q R^-1 Q')^-1 (Green & Silverman 1994, 2.3.3).
 Eigen::MatrixXd hat_matrix(const std::vector<double>& t, double lambda) {
   const auto n = static_cast<Eigen::Index>(t.size());
   Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(n, n - 2), R = Eigen::MatrixXd::Zero(n - 2, n - 2);
@@ -54,12 +54,12 @@ TEST(Reinsch, AgreesWithTheDenseComputationForTwelvePoints) {
     EXPECT_NEAR(fit.energy.sum(), energy, 1e-8);
     const double gcv = 12.0 * residual / std::pow(I_A.trace(), 2);
     EXPECT_NEAR(score(Criterion::gcv, fit, 12), gcv, 1e-7 * gcv);
-    // det+ is the product of the ten eigenvalues that are not zero.
+    // det+ is the product of the ten nonzero eigenvalues.
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(I_A).eigenvalues();
     const double reml = 10.0 * std::log(energy) - values.tail(10).array().log().sum();
     const double difference = score(Criterion::reml, fit, 12) - reml;
-    if (std::isnan(offset)) offset = difference;  // the constant of the stamps
+    if (std::isnan(offset)) offset = difference;  // constant that depends on the stamps only
     EXPECT_NEAR(difference, offset, 1e-6);
   }
 }
@@ -84,25 +84,25 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
   EXPECT_NEAR(12.0 - stiff.free, 2.0, 1e-6);
 }
 
-TEST(Lattice, FindsTheLeastOfAValley) {
+TEST(Lattice, FindsTheMinimum) {
   for (const int at : {-20, -3, 0, 7, 31}) {
     EXPECT_EQ(least_on_lattice(-20, 31, 8, [&](int k) { return 1.0 + std::abs(k - at); }), at);
   }
 }
 
-TEST(Unrolled, ASteadyTurnIsAStraightLine) {
-  std::vector<Rotation> turn;
+TEST(Unrolled, ConstantAngularVelocityIsAStraightLine) {
+  std::vector<Rotation> rotations;
   const Vector3 rate(0.3, -0.5, 0.8);
-  for (int i = 0; i < 20; ++i) turn.push_back(exp_so3({0.4, 1.0, -2.0}) * exp_so3(i * rate));
-  const Unrolled path(turn);
+  for (int i = 0; i < 20; ++i) rotations.push_back(exp_so3({0.4, 1.0, -2.0}) * exp_so3(i * rate));
+  const Unrolled path(rotations);
   for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_LT((path.flattened(i, turn[i]) - static_cast<double>(i) * rate).norm(), 1e-12);
+    EXPECT_LT((path.flattened(i, rotations[i]) - static_cast<double>(i) * rate).norm(), 1e-12);
   }
-  EXPECT_LT(angle_between(path.rolled(3, 0.25, 3.25 * rate), turn[3] * exp_so3(0.25 * rate)),
+  EXPECT_LT(angle_between(path.rolled(3, 0.25, 3.25 * rate), rotations[3] * exp_so3(0.25 * rate)),
             1e-12);
 }
 
-TEST(Unrolled, IsUndoneByRolling) {
+TEST(Unrolled, RollingIsTheInverse) {
   const Trajectory path = hand_held_truth(30);
   std::vector<Rotation> base, near;
   for (const StampedPose& pose : path) {
@@ -112,12 +112,12 @@ TEST(Unrolled, IsUndoneByRolling) {
   const Unrolled flat(base);
   for (std::size_t i = 0; i < base.size(); ++i) {
     EXPECT_LT(angle_between(flat.rolled(i, 0.0, flat.flattened(i, near[i])), near[i]), 1e-12);
-    if (i == 0) continue;  // reached from the interval before as from the one behind
+    if (i == 0) continue;  // also reached from the previous interval
     EXPECT_LT(angle_between(flat.rolled(i - 1, 1.0, flat.flattened(i, near[i])), near[i]), 1e-12);
   }
 }
 
-TEST(SmoothingSpline, ReproducesUniformMotionWhateverItsStiffness) {
+TEST(SmoothingSpline, ReproducesUniformMotionForAnyPenalty) {
   const auto truth = [](double time) {
     return Pose{exp_so3({0.3, 0.1, -1.0}) * exp_so3(time * Vector3(0.9, -1.5, 1.2)),
                 Vector3(5.0, -2.0, 1.0) + time * Vector3(0.4, 0.3, -0.1)};
@@ -132,13 +132,13 @@ TEST(SmoothingSpline, ReproducesUniformMotionWhateverItsStiffness) {
   }
 }
 
-TEST(SmoothingSpline, WithLittleStiffnessIsTheNaturalCubicSpline) {
+TEST(SmoothingSpline, WithASmallPenaltyIsTheNaturalCubicSpline) {
   const Trajectory keyframes = hand_held_truth(30);
   const auto curve = smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e-12}, {"lambda_r", 1e-12}});
   const auto cubic = smooth<CubicSpline>(keyframes);
   for (double time = keyframes.front().stamp; time < keyframes.back().stamp; time += 0.05) {
     EXPECT_LT((curve->at(time).translation - cubic->at(time).translation).norm(), 1e-8);
-    // Two different curves on SO(3) through the same attitudes.
+    // Two different curves on SO(3) through the same rotations.
     EXPECT_LT(angle_between(curve->at(time).rotation, cubic->at(time).rotation), 5e-3);
   }
   for (const auto& [stamp, pose] : keyframes) {
@@ -146,18 +146,18 @@ TEST(SmoothingSpline, WithLittleStiffnessIsTheNaturalCubicSpline) {
   }
 }
 
-TEST(SmoothingSpline, StiffItTurnsSteadily) {
+TEST(SmoothingSpline, WithALargePenaltyAngularVelocityIsConstant) {
   const Trajectory keyframes = shaken(hand_held_truth(20), 0.05, 3);
   Report report;
   const auto curve =
       smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e9}, {"lambda_r", 1e9}}, &report);
   EXPECT_NEAR(count(report, "free_r"), 2.0, 1e-3);
   const double t = keyframes.front().stamp + 1.0;
-  const auto turn = [&](double from) {
+  const auto rotation_step = [&](double from) {
     return log_so3(curve->at(from).rotation.conjugate() * curve->at(from + 0.5).rotation);
   };
-  EXPECT_LT((turn(t) - turn(t + 2.0)).norm(), 1e-4);
-  EXPECT_GT(turn(t).norm(), 0.01);
+  EXPECT_LT((rotation_step(t) - rotation_step(t + 2.0)).norm(), 1e-4);
+  EXPECT_GT(rotation_step(t).norm(), 0.01);
 }
 
 TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
@@ -174,7 +174,7 @@ TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
   }
 }
 
-TEST(SmoothingSpline, HasNoKinkInSpeedOrTurn) {
+TEST(SmoothingSpline, HasContinuousAngularVelocity) {
   const Trajectory keyframes = shaken(hand_held_truth(20), 0.02, 5);
   Report report;
   const auto curve = smooth<SmoothingSpline>(keyframes, {}, &report);
@@ -182,15 +182,15 @@ TEST(SmoothingSpline, HasNoKinkInSpeedOrTurn) {
   constexpr double h = 1e-5;
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double t = keyframes[i].stamp;
-    const Pose here = curve->at(t);
-    const auto turn = [&](double side) {
-      return Vector3(log_so3(here.rotation.conjugate() * curve->at(t + side).rotation) / side);
+    const Pose current = curve->at(t);
+    const auto angular_velocity = [&](double side) {
+      return Vector3(log_so3(current.rotation.conjugate() * curve->at(t + side).rotation) / side);
     };
-    EXPECT_LT((turn(h) - turn(-h)).norm(), 1e-3) << i;
+    EXPECT_LT((angular_velocity(h) - angular_velocity(-h)).norm(), 1e-3) << i;
   }
 }
 
-TEST(SmoothingSpline, EachAxisMayHaveItsOwnStiffness) {
+TEST(SmoothingSpline, EachAxisCanHaveItsOwnPenalty) {
   Report report;
   const Trajectory keyframes = shaken(hand_held_truth(60), 0.02, 5);
   smooth<SmoothingSpline>(keyframes, {{"axes", std::string("each")}}, &report);
@@ -198,7 +198,7 @@ TEST(SmoothingSpline, EachAxisMayHaveItsOwnStiffness) {
 }
 
 TEST(SmoothingSpline, DeclinesTwoKeyframes) {
-  EXPECT_EQ(SmoothingSpline({}).declines(short_circle(2)), "fewer than 3 keyframes bend nowhere");
+  EXPECT_EQ(SmoothingSpline({}).declines(short_circle(2)), "2 keyframes, fewer than 3");
   EXPECT_EQ(SmoothingSpline({}).declines(short_circle(3)), std::nullopt);
 }
 

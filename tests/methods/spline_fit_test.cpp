@@ -32,36 +32,36 @@ TEST(SplineFactor, JacobiansAgreeWithDifferences) {
   const std::array factors{SplineFactor(basis, PoseAt{2.2, exp_se3(random_twist(random, 1, 1))}),
                            SplineFactor(basis, PoseAt{7.0, all.back()}),
                            SplineFactor(basis, EdgeBetween{0.7, 1.2, edge}),   // share controls
-                           SplineFactor(basis, EdgeBetween{0.2, 6.5, edge})};  // hardly any
+                           SplineFactor(basis, EdgeBetween{0.2, 6.5, edge})};  // few or none
   for (const SplineFactor& factor : factors) {
     std::vector<Pose> controls;
     for (const std::size_t j : factor.controls()) controls.push_back(all[j]);
-    const auto here = factor.evaluate(controls);
+    const auto evaluated = factor.evaluate(controls);
     constexpr double step = 1e-6;
     for (std::size_t j = 0; j < controls.size(); ++j) {
       for (int axis = 0; axis < 6; ++axis) {
         const auto moved = [&](double by) {
-          auto there = controls;
+          auto moved_controls = controls;
           const Twist d = by * Twist::Unit(axis);
-          there[j].translation += d.head<3>();
-          there[j].rotation = exp_so3(d.tail<3>()) * there[j].rotation;
-          return factor.evaluate(there).error;
+          moved_controls[j].translation += d.head<3>();
+          moved_controls[j].rotation = exp_so3(d.tail<3>()) * moved_controls[j].rotation;
+          return factor.evaluate(moved_controls).error;
         };
         const Twist numeric = (moved(step) - moved(-step)) / (2.0 * step);
-        EXPECT_LT((numeric - here.by_control[j].col(axis)).norm(), 2e-8) << j << ", " << axis;
+        EXPECT_LT((numeric - evaluated.by_control[j].col(axis)).norm(), 2e-8) << j << ", " << axis;
       }
     }
   }
 }
 
-TEST(Knots, OneAKeyframeAreThoseOfInterpolation) {
+TEST(Knots, OnePerKeyframeEqualInterpolation) {
   const std::vector<double> times = stamps(hand_held_truth(20));
   EXPECT_EQ(basis_among(4, times, 1.0).breaks(), SplineBasis::for_sites(4, times).breaks());
   EXPECT_EQ(basis_among(4, times, 0.5).size(), 10u);
   EXPECT_EQ(basis_among(6, times, 0.01).size(), 6u);
 }
 
-TEST(SplineRegression, WithAKnotAKeyframeInterpolates) {
+TEST(SplineRegression, WithOneKnotPerKeyframeInterpolates) {
   Problem problem;
   problem.keyframes = hand_held_truth(25);
   Report report;
@@ -73,8 +73,8 @@ TEST(SplineRegression, WithAKnotAKeyframeInterpolates) {
   }
 }
 
-TEST(SplineRegression, WithFewKnotsReproducesWhatASplineCanSay) {
-  // A cubic in position, a cubic angle about one axis: any cubic spline holds it.
+TEST(SplineRegression, WithFewKnotsReproducesSplines) {
+  // Cubic position and cubic angle about one axis: any cubic spline can represent them.
   const auto truth = [](double s) {
     return Pose{exp_so3((0.3 * s - 0.2 * s * s + 0.05 * s * s * s) * Vector3(1, -2, 2) / 3.0),
                 {1.0 + s, 2.0 - 0.5 * s * s, 0.1 * s * s * s}};
@@ -93,10 +93,10 @@ TEST(SplineRegression, WithFewKnotsReproducesWhatASplineCanSay) {
 }
 
 TEST(SplineRegression, DeclinesFewerKeyframesThanItsOrder) {
-  EXPECT_EQ(SplineRegression({}).declines(short_circle(3)), "fewer keyframes than the order, 4");
+  EXPECT_EQ(SplineRegression({}).declines(short_circle(3)), "3 keyframes, fewer than the order 4");
 }
 
-TEST(SplineFit, WithAKnotAKeyframePassesThroughTheOptimumOfThePoseGraph) {
+TEST(SplineFit, WithOneKnotPerKeyframeInterpolatesThePoseGraphOptimum) {
   for (const Problem& problem : {walk(3, 30, 0.02), hand_held()}) {
     Report report, other;
     const auto curve = SplineFit({}).estimate(problem, report);
@@ -111,20 +111,20 @@ TEST(SplineFit, WithAKnotAKeyframePassesThroughTheOptimumOfThePoseGraph) {
   }
 }
 
-TEST(SplineFit, WithFewerKnotsCostsMoreAndStaysSmooth) {
+TEST(SplineFit, WithFewerKnotsHasAHigherCost) {
   const Problem problem = hand_held();
-  Report every, half;
+  Report every, fewer;
   SplineFit({}).estimate(problem, every);
-  const auto curve = SplineFit({.knots_per_keyframe = 0.6}).estimate(problem, half);
-  EXPECT_GT(count(half, "cost"), count(every, "cost"));
-  EXPECT_LT(count(half, "cost"), count(half, "cost_before"));
-  EXPECT_EQ(count(half, "controls"), 36.0);
-  // The start is held.
+  const auto curve = SplineFit({.knots_per_keyframe = 0.6}).estimate(problem, fewer);
+  EXPECT_GT(count(fewer, "cost"), count(every, "cost"));
+  EXPECT_LT(count(fewer, "cost"), count(fewer, "cost_before"));
+  EXPECT_EQ(count(fewer, "controls"), 36.0);
+  // The start is fixed.
   EXPECT_TRUE(
       is_close(curve->at(curve->start()), problem.keyframes[0].world_from_body, 1e-9, 1e-9));
 }
 
-TEST(SplineFit, LeavesPerfectMotionOnASplineAlone) {
+TEST(SplineFit, KeepsPerfectMotion) {
   const Problem problem = straight();
   Report report;
   const auto curve = SplineFit({.order = 6, .knots_per_keyframe = 0.4}).estimate(problem, report);
@@ -134,7 +134,7 @@ TEST(SplineFit, LeavesPerfectMotionOnASplineAlone) {
   }
 }
 
-TEST(SplineFit, DeclinesABrokenChain) {
+TEST(SplineFit, DeclinesAnIncompleteChain) {
   Problem problem = hand_held();
   problem.odometry.pop_back();
   EXPECT_TRUE(SplineFit({}).declines(problem).has_value());

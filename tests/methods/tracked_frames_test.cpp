@@ -15,7 +15,7 @@ std::unique_ptr<const Method> tracked(std::unique_ptr<const Corrector> corrector
   return compose(std::move(corrector), std::make_unique<TrackedFrames>(TrackedFrames::Options{}));
 }
 
-TEST(TrackedFrames, AreTheEstimateBetweenKeyframes) {
+TEST(TrackedFrames, AreInterpolatedBetweenKeyframes) {
   const Problem problem = hand_held();
   Report report;
   const auto curve = tracked()->estimate(problem, report);
@@ -34,16 +34,16 @@ TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
   const Uniform uniform{Uniform::Options{}};
   Report report;
   const Trajectory corrected = uniform.correct(problem, report);
-  const Problem carried = with_keyframes(problem, corrected);
+  const Problem moved_problem = with_keyframes(problem, corrected);
   const auto curve =
       tracked(std::make_unique<Uniform>(Uniform::Options{}))->estimate(problem, report);
   for (const auto& [stamp, pose] : corrected) {
     EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << stamp;
   }
-  ASSERT_EQ(carried.frames.size(), problem.frames.size());
+  ASSERT_EQ(moved_problem.frames.size(), problem.frames.size());
   double moved = 0.0;
-  for (std::size_t i = 0; i < carried.frames.size(); ++i) {
-    const auto& [stamp, pose] = carried.frames[i];
+  for (std::size_t i = 0; i < moved_problem.frames.size(); ++i) {
+    const auto& [stamp, pose] = moved_problem.frames[i];
     EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << stamp;
     moved =
         std::max(moved, (pose.translation - problem.frames[i].world_from_body.translation).norm());

@@ -12,23 +12,23 @@ namespace {
 
 using namespace test;
 
-/// Forward, a stop, then sideways turning: bends at 12, 20 and 29 of 40.
+/// Forward motion, a stop, sideways motion, then with rotation: kinks at 12, 20 and 29 of 40.
 Trajectory stop_and_go() {
   Trajectory out;
-  Vector3 place(1.0, 2.0, 0.0);
+  Vector3 position(1.0, 2.0, 0.0);
   double angle = 0.0, time = 0.0;
   for (std::size_t i = 0; i < 40; ++i) {
-    out.push_back({time, turned_about_z(angle, place)});
+    out.push_back({time, turned_about_z(angle, position)});
     const double step = i % 3 == 0 ? 0.2 : 0.5;
     time += step;
-    if (i < 12) place += step * Vector3(1.0, 0.0, 0.1);
-    if (i >= 20) place += step * Vector3(0.0, -0.7, 0.0);
+    if (i < 12) position += step * Vector3(1.0, 0.0, 0.1);
+    if (i >= 20) position += step * Vector3(0.0, -0.7, 0.0);
     if (i >= 29) angle += 0.4 * step;
   }
   return out;
 }
 
-TEST(TrendFilter, RecoversPiecewiseStraightMotion) {
+TEST(TrendFilter, RecoversPiecewiseLinearMotion) {
   const Trajectory truth = stop_and_go();
   Report report;
   const auto curve = smooth<TrendFilter>(truth, {{"refit", true}}, &report);
@@ -40,7 +40,7 @@ TEST(TrendFilter, RecoversPiecewiseStraightMotion) {
   }
 }
 
-TEST(TrendFilter, FindsTheBendsUnderNoiseAndBeatsTheKeyframes) {
+TEST(TrendFilter, FindsTheKinksUnderNoiseAndReducesTheError) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Trajectory truth = stop_and_go();
@@ -54,7 +54,7 @@ TEST(TrendFilter, FindsTheBendsUnderNoiseAndBeatsTheKeyframes) {
   EXPECT_LT(after, 0.6 * before);
 }
 
-TEST(TrendFilter, TakesOffNoiseFromACurvedPathToo) {
+TEST(TrendFilter, ReducesNoiseOnACurvedPath) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Trajectory truth = hand_held_truth(120);
@@ -67,9 +67,9 @@ TEST(TrendFilter, TakesOffNoiseFromACurvedPathToo) {
   EXPECT_LT(after, 0.9 * before);
 }
 
-TEST(TrendFilter, KinkOfThreePointsIsSoftThresholdedAsWorkedByHand) {
-  // y = (0, 1, 0), unit steps: D = (1, -2, 1), D y = -2, D D' = 6. The line is reached at
-  // lambda = 2 / 6; below, x = y + lambda D' = (lambda, 1 - 2 lambda, lambda).
+TEST(TrendFilter, KinkOfThreePointsIsSoftThresholded) {
+  // y = (0, 1, 0), unit steps: D = (1, -2, 1), D y = -2, D D' = 6. The fit is the line for lambda
+  // >= 2 / 6; below, x = y + lambda D' = (lambda, 1 - 2 lambda, lambda).
   const Trend trend({0.0, 1.0, 2.0});
   const std::vector<Vector3> y{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
   EXPECT_NEAR(trend.straight_from(y), 1.0 / 3.0, 1e-15);
@@ -85,8 +85,8 @@ TEST(TrendFilter, KinkOfThreePointsIsSoftThresholdedAsWorkedByHand) {
   EXPECT_NEAR(trend.refitted(y, {1})[1].x(), 1.0, 1e-15);
 }
 
-TEST(TrendFilter, KeepsTheOptimalityConditions) {
-  // y - x = D' v with |v_j| <= lambda, and v_j = lambda z_j / |z_j| where D x = z is not zero.
+TEST(TrendFilter, SatisfiesTheOptimalityConditions) {
+  // y - x = D' v with |v_j| <= lambda, and v_j = lambda z_j / |z_j| where z = D x is nonzero.
   const std::vector<Vector3> y = wavy(kTwelve);
   const Trend trend(kTwelve);
   const double lambda = 0.2 * trend.straight_from(y);
@@ -95,16 +95,16 @@ TEST(TrendFilter, KeepsTheOptimalityConditions) {
   std::vector<double> times = kTwelve;
   for (double& time : times) time /= trend.interval();
   const SlopeChange D(times);
-  std::vector<Vector3> missed = y;
-  for (std::size_t i = 0; i < 12; ++i) missed[i] -= fit.values[i];
-  std::vector<Vector3> v = D.of(missed);
+  std::vector<Vector3> residual = y;
+  for (std::size_t i = 0; i < 12; ++i) residual[i] -= fit.values[i];
+  std::vector<Vector3> v = D.of(residual);
   PentadiagonalFactor(D.outer()).solve(v);
-  const std::vector<Vector3> bends = D.of(fit.values);
+  const std::vector<Vector3> slope_changes = D.of(fit.values);
   for (std::size_t j = 0; j < v.size(); ++j) {
     EXPECT_LE(v[j].norm(), lambda * (1.0 + 1e-6));
     const bool kink = std::ranges::find(fit.kinks, j + 1) != fit.kinks.end();
     if (kink) {
-      EXPECT_LT((v[j] - lambda * bends[j].normalized()).norm(), 1e-5 * lambda);
+      EXPECT_LT((v[j] - lambda * slope_changes[j].normalized()).norm(), 1e-5 * lambda);
     }
   }
   EXPECT_GT(fit.kinks.size(), 0u);

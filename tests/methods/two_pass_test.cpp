@@ -24,7 +24,7 @@ double gap(const Edge& loop, const Trajectory& t) {
          angle_between(target.rotation, end.rotation);
 }
 
-/// Steps of 1 m along x, never turning; the loop says the end looks 90 degrees to the left.
+/// Steps of 1 m along x without rotation, and one closure from the first to the last keyframe.
 Problem straight(int steps, const Pose& measured, double scale = 1.0) {
   Problem out;
   for (int i = 0; i <= steps; ++i) {
@@ -34,9 +34,10 @@ Problem straight(int steps, const Pose& measured, double scale = 1.0) {
   return out;
 }
 
-TEST(TwoPass, TurnsTheStepsAfterATurnAndThenSpreadsTheShift) {
-  // Two steps: the first turns by 45 degrees at its end, so the second points there. The chain then
-  // ends at (1 + r, r) with r = sqrt(1/2); asked for exactly that, no shift is left.
+TEST(TwoPass, RotatesTheLaterStepsAndThenDistributesTheShift) {
+  // Two steps: the first keyframe after the start rotates by 45 degrees, so the second step points
+  // there. The chain then ends at (1 + r, r) with r = sqrt(1/2); if the closure measures exactly
+  // that, no shift remains.
   const double r = std::sqrt(0.5);
   const Problem problem = straight(2, {exp_so3({0, 0, kPi / 2}), Vector3(1.0 + r, r, 0.0)});
   const Trajectory out = corrected(problem);
@@ -44,50 +45,51 @@ TEST(TwoPass, TurnsTheStepsAfterATurnAndThenSpreadsTheShift) {
       is_close(out[1].world_from_body, {exp_so3({0, 0, kPi / 4}), {1, 0, 0}}, 1e-12, 1e-12));
   EXPECT_TRUE(is_close(out[2].world_from_body, problem.closures[0].from_from_to, 1e-12, 1e-12));
 
-  // A shift of (0, 0, 3) besides is spread evenly.
+  // An additional shift of (0, 0, 3) is distributed evenly.
   Problem lifted = problem;
   lifted.closures[0].from_from_to.translation.z() = 3.0;
   EXPECT_NEAR(corrected(lifted)[1].world_from_body.translation.z(), 1.5, 1e-12);
 }
 
-TEST(TwoPass, SpreadsScaleAsAPowerOfTheShare) {
-  // Four steps measured as 1, in a unit that grows by 16 = 2^4 over the loop: 1, 2, 4, 8.
+TEST(TwoPass, DistributesScaleAsAPowerOfTheShare) {
+  // Four steps measured as 1, with a scale that grows by 16 = 2^4 over the loop: 1, 2, 4, 8.
   const Problem problem = straight(4, {Rotation::Identity(), Vector3(15, 0, 0)}, 16.0);
   const Trajectory out = corrected(problem);
-  const double wanted[] = {0.0, 1.0, 3.0, 7.0, 15.0};
+  const double expected[] = {0.0, 1.0, 3.0, 7.0, 15.0};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    EXPECT_NEAR(out[i].world_from_body.translation.x(), wanted[i], 1e-9);
+    EXPECT_NEAR(out[i].world_from_body.translation.x(), expected[i], 1e-9);
   }
   const Trajectory rigid = corrected(problem, {.scale = false});
   EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
 }
 
-TEST(TwoPass, ScaleSpreadByOneLoopIsNotSpreadAgainByTheNext) {
-  // As above, measured by halves, each in the unit at its own start: the second half is 1 + 2.
+TEST(TwoPass, ScaleIsNotDistributedTwiceByOverlappingLoops) {
+  // The same loop as two halves, each in the scale at its start: the second half is 1 + 2.
   Problem problem = straight(4, {});
-  const auto loop = [](std::size_t from, std::size_t to, double way, double scale) {
-    return Edge{from, to, {Rotation::Identity(), Vector3(way, 0, 0)}, Matrix6::Identity(), scale};
+  const auto loop = [](std::size_t from, std::size_t to, double length, double scale) {
+    return Edge{
+        from, to, {Rotation::Identity(), Vector3(length, 0, 0)}, Matrix6::Identity(), scale};
   };
-  const double wanted[] = {0.0, 1.0, 3.0, 7.0, 15.0};
-  const std::vector<std::vector<Edge>> said{{loop(0, 2, 3, 4), loop(2, 4, 3, 4)},
-                                            {loop(0, 4, 15, 16), loop(0, 4, 15, 16)}};
-  for (const std::vector<Edge>& closures : said) {
+  const double expected[] = {0.0, 1.0, 3.0, 7.0, 15.0};
+  const std::vector<std::vector<Edge>> cases{{loop(0, 2, 3, 4), loop(2, 4, 3, 4)},
+                                             {loop(0, 4, 15, 16), loop(0, 4, 15, 16)}};
+  for (const std::vector<Edge>& closures : cases) {
     problem.closures = closures;
     const Trajectory out = corrected(problem);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      EXPECT_NEAR(out[i].world_from_body.translation.x(), wanted[i], 1e-9) << i;
+      EXPECT_NEAR(out[i].world_from_body.translation.x(), expected[i], 1e-9) << i;
     }
   }
 }
 
-TEST(TwoPass, CarriesTheTailAlong) {
+TEST(TwoPass, MovesTheTailRigidly) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};
   const Trajectory out = corrected(problem);
   EXPECT_TRUE(is_close(out[6].world_from_body, {exp_so3({0, 0, kPi / 2}), {1, 5, 0}}, 1e-9, 1e-9));
 }
 
-TEST(TwoPass, OpenLeavesEveryLoopClosedWholeOnlyTheLast) {
+TEST(TwoPass, OpenKeepsAllLoopsClosedWholeOnlyTheLast) {
   const Problem problem = test::drifting(test::hand_held_truth(60),
                                          twist({0.002, -0.001, 0.003}, {0.001, 0.002, 0.01}),
                                          {{5, 30}, {10, 45}, {2, 57}});
@@ -98,31 +100,31 @@ TEST(TwoPass, OpenLeavesEveryLoopClosedWholeOnlyTheLast) {
   EXPECT_GT(gap(problem.closures.front(), whole), 1e-3);
 }
 
-TEST(TwoPass, EqualsMaximumLikelihoodToFirstOrderForOneSureLoop) {
-  // Isotropic equal steps and a closure that is certain: the multipliers of the closed-form
-  // solution spread rotation evenly too, so the two differ by the lever arm alone. On a straight
-  // line driven without turning, for a pure shift, there is none: the two agree exactly.
+TEST(TwoPass, EqualsMaximumLikelihoodForOneExactLoop) {
+  // Isotropic equal steps and an exact closure: the closed-form solution also distributes rotation
+  // evenly, so the two differ only by the lever arm. For a pure shift on a straight line without
+  // rotation there is none, so they agree exactly.
   Problem problem = straight(8, {Rotation::Identity(), Vector3(8.2, 0.1, -0.05)});
   for (std::size_t i = 0; i < 8; ++i) {
     Matrix6 information = Matrix6::Identity();
-    information.bottomRightCorner<3, 3>() *= 1e12;  // turning is out of the question
+    information.bottomRightCorner<3, 3>() *= 1e12;  // no rotation
     problem.odometry.push_back({i, i + 1, {Rotation::Identity(), {1, 0, 0}}, information});
   }
   problem.closures[0].information *= 1e12;
   Report report;
   const Trajectory dual = Dual({}).correct(problem, report);
-  const Trajectory ours = corrected(problem);
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    EXPECT_TRUE(is_close(ours[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
+  const Trajectory two_pass = corrected(problem);
+  for (std::size_t i = 0; i < two_pass.size(); ++i) {
+    EXPECT_TRUE(is_close(two_pass[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
   }
 }
 
-TEST(TwoPass, RefusesUnsortedClosures) {
+TEST(TwoPass, RejectsUnsortedClosures) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 5, {}, Matrix6::Identity()}, {0, 3, {}, Matrix6::Identity()}};
   EXPECT_THROW(corrected(problem), std::runtime_error);
   problem.closures.clear();
-  EXPECT_EQ(TwoPass({}).declines(problem), "no loop closure to spread");
+  EXPECT_EQ(TwoPass({}).declines(problem), "the problem has no loop closures");
 }
 
 }  // namespace

@@ -33,12 +33,12 @@ Result corrected(const Problem& problem, const Params& params = {}) {
 
 Params option(const std::string& name, const std::string& word) { return {{name, word}}; }
 
-/// Along x, one keyframe at each place, a second apart; attitude kept.
-Problem along_x(const std::vector<double>& places, const std::vector<double>& times = {}) {
+/// Keyframes at the given positions along x, a second apart by default, with identity rotation.
+Problem along_x(const std::vector<double>& positions, const std::vector<double>& times = {}) {
   Problem out;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     const double stamp = times.empty() ? static_cast<double>(i) : times[i];
-    out.keyframes.push_back({stamp, {Rotation::Identity(), {places[i], 0.0, 0.0}}});
+    out.keyframes.push_back({stamp, {Rotation::Identity(), {positions[i], 0.0, 0.0}}});
   }
   return out;
 }
@@ -47,54 +47,55 @@ Edge closure(std::size_t from, std::size_t to, const Vector3& place, double yaw 
   return {from, to, turned_about_z(yaw, place)};
 }
 
-void expect_place(const Vector3& got, const Vector3& wanted) {
-  EXPECT_LT((got - wanted).norm(), 1e-12) << got.transpose() << " is not " << wanted.transpose();
+void expect_place(const Vector3& result, const Vector3& expected) {
+  EXPECT_LT((result - expected).norm(), 1e-12)
+      << result.transpose() << " is not " << expected.transpose();
 }
 
 TEST(Uniform, DeclinesWithoutClosures) {
-  EXPECT_EQ(Uniform({}).declines(along_x({0, 1, 2})), "no loop closure to spread");
+  EXPECT_EQ(Uniform({}).declines(along_x({0, 1, 2})), "the problem has no loop closures");
 }
 
-TEST(Uniform, SpreadsAPositionErrorByIndexAndCarriesTheRestAlong) {
+TEST(Uniform, DistributesAPositionErrorByIndexAndMovesTheTail) {
   Problem problem = along_x({0, 1, 2, 3, 4, 6});
   problem.closures = {closure(0, 4, {4.0, 0.8, 0.0})};
-  const Result got = corrected(problem);
-  expect_place(got.place(0), {0.0, 0.0, 0.0});
-  expect_place(got.place(1), {1.0, 0.2, 0.0});
-  expect_place(got.place(2), {2.0, 0.4, 0.0});
-  expect_place(got.place(3), {3.0, 0.6, 0.0});
-  expect_place(got.place(4), {4.0, 0.8, 0.0});
-  expect_place(got.place(5), {6.0, 0.8, 0.0});
-  EXPECT_LT(got.count("largest_gap_left"), 1e-12);
+  const Result result = corrected(problem);
+  expect_place(result.place(0), {0.0, 0.0, 0.0});
+  expect_place(result.place(1), {1.0, 0.2, 0.0});
+  expect_place(result.place(2), {2.0, 0.4, 0.0});
+  expect_place(result.place(3), {3.0, 0.6, 0.0});
+  expect_place(result.place(4), {4.0, 0.8, 0.0});
+  expect_place(result.place(5), {6.0, 0.8, 0.0});
+  EXPECT_LT(result.count("largest_gap_left"), 1e-12);
 }
 
-TEST(Uniform, TurnsAboutTheStartOfTheLoop) {
-  // The end of 4 m along x is seen to lie 4 m along y, turned by a quarter: dt is zero, so each
-  // pose turns about the start by its share of 90 degrees.
+TEST(Uniform, RotatesAboutTheStartOfTheLoop) {
+  // The end of 4 m along x is measured at 4 m along y, rotated by 90 degrees: dt is zero, so each
+  // pose rotates about the start by its share of 90 degrees.
   Problem problem = along_x({7, 8, 9, 10, 11, 12});
   const Vector3 start(7.0, 0.0, 0.0);
   const double quarter = 0.5 * std::numbers::pi;
   problem.closures = {closure(0, 4, {0.0, 4.0, 0.0}, quarter)};
-  const Result got = corrected(problem);
+  const Result result = corrected(problem);
   for (std::size_t i = 0; i < 5; ++i) {
     const double radius = static_cast<double>(i);
     const double angle = 0.25 * radius * quarter;
-    EXPECT_NEAR(got.yaw(i), angle, 1e-12);
-    expect_place(got.place(i), start + radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
+    EXPECT_NEAR(result.yaw(i), angle, 1e-12);
+    expect_place(result.place(i), start + radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
   }
-  EXPECT_NEAR(got.yaw(5), quarter, 1e-12);  // rigidly behind the end
-  expect_place(got.place(5), {7.0, 5.0, 0.0});
+  EXPECT_NEAR(result.yaw(5), quarter, 1e-12);  // moves rigidly with the end
+  expect_place(result.place(5), {7.0, 5.0, 0.0});
 }
 
 TEST(Uniform, WithRotationNoneOnlyPositionsMove) {
   Problem problem = along_x({0, 1, 2, 3, 4, 5});
   problem.closures = {closure(0, 4, {0.0, 4.0, 0.0}, 1.0)};
-  const Result got = corrected(problem, option("rotation", "none"));
+  const Result result = corrected(problem, option("rotation", "none"));
   for (std::size_t i = 0; i < 6; ++i) {
     const double share = std::min(0.25 * static_cast<double>(i), 1.0);
-    EXPECT_EQ(got.yaw(i), 0.0);
+    EXPECT_EQ(result.yaw(i), 0.0);
     expect_place(
-        got.place(i),
+        result.place(i),
         problem.keyframes[i].world_from_body.translation + share * Vector3(-4.0, 4.0, 0.0));
   }
 }
@@ -105,8 +106,8 @@ TEST(Uniform, WeighsByTimeDistanceAndRotation) {
   problem.keyframes[3].world_from_body.rotation = exp_so3({0.0, 0.0, 0.4});
   problem.closures = {closure(0, 3, {4.0, 0.0, 1.0}, 0.4)};
   const auto heights = [&](const std::string& weights) {
-    const Result got = corrected(problem, option("weights", weights));
-    return Vector3(got.place(1).z(), got.place(2).z(), got.place(3).z());
+    const Result result = corrected(problem, option("weights", weights));
+    return Vector3(result.place(1).z(), result.place(2).z(), result.place(3).z());
   };
   EXPECT_TRUE(heights("index").isApprox(Vector3(1.0 / 3.0, 2.0 / 3.0, 1.0), 1e-12));
   EXPECT_TRUE(heights("time").isApprox(Vector3(0.5, 0.6, 1.0), 1e-12));
@@ -114,31 +115,32 @@ TEST(Uniform, WeighsByTimeDistanceAndRotation) {
   EXPECT_TRUE(heights("rotation").isApprox(Vector3(0.0, 0.75, 1.0), 1e-12));
 }
 
-TEST(Uniform, FallsBackToIndexWhenNothingCanBeWeighedAndSaysSo) {
+TEST(Uniform, FallsBackToIndexForZeroWeightsAndReportsIt) {
   Problem problem = along_x({0, 0, 0});
   problem.closures = {closure(0, 2, {0.0, 1.0, 0.0})};
-  const Result got = corrected(problem, option("weights", "distance"));
-  expect_place(got.place(1), {0.0, 0.5, 0.0});
-  ASSERT_EQ(got.report.notes.size(), 1u);
-  EXPECT_EQ(got.report.notes[0], "1 closures: distance is zero along the loop, spread by index");
+  const Result result = corrected(problem, option("weights", "distance"));
+  expect_place(result.place(1), {0.0, 0.5, 0.0});
+  ASSERT_EQ(result.report.notes.size(), 1u);
+  EXPECT_EQ(result.report.notes[0],
+            "1 closures: distance is zero along the loop, distributed by index");
 }
 
 TEST(Uniform, ClosesSeparateLoopsExactly) {
   for (const char* overlap : {"whole", "open"}) {
     const Problem problem =
         with_closures(hand_held(), hand_held_truth(), {{2, 20}, {20, 30}, {35, 50}});
-    const Result got = corrected(problem, option("overlap", overlap));
-    EXPECT_LT(got.count("largest_gap_left"), 1e-12);
+    const Result result = corrected(problem, option("overlap", overlap));
+    EXPECT_LT(result.count("largest_gap_left"), 1e-12);
     for (const Edge& loop : problem.closures) {
-      EXPECT_TRUE(is_close(got.poses[loop.from].world_from_body * loop.from_from_to,
-                           got.poses[loop.to].world_from_body,
+      EXPECT_TRUE(is_close(result.poses[loop.from].world_from_body * loop.from_from_to,
+                           result.poses[loop.to].world_from_body,
                            1e-12,
                            1e-12));
     }
   }
 }
 
-TEST(Uniform, AnOverlappingLoopOpensTheEarlierOneUnlessAskedNotTo) {
+TEST(Uniform, AnOverlappingLoopReopensTheEarlierOneOnlyWithWhole) {
   // First 0 -> 2 is lifted to 1 m; then 1 -> 4 lifts its end from 1 m to 0.5 + 2 m.
   Problem problem = along_x({0, 1, 2, 3, 4});
   problem.closures = {closure(0, 2, {2.0, 0.0, 1.0}), closure(1, 4, {3.0, 0.0, 2.0})};
@@ -148,23 +150,22 @@ TEST(Uniform, AnOverlappingLoopOpensTheEarlierOneUnlessAskedNotTo) {
   expect_place(whole.place(4), {4.0, 0.0, 2.5});
   EXPECT_NEAR(whole.count("largest_gap_left"), 0.5, 1e-12);
   const Result open = corrected(problem, option("overlap", "open"));
-  expect_place(open.place(2), {2.0, 0.0, 1.0});  // keeps its shape
+  expect_place(open.place(2), {2.0, 0.0, 1.0});  // unchanged
   expect_place(open.place(3), {3.0, 0.0, 1.75});
   expect_place(open.place(4), {4.0, 0.0, 2.5});
   EXPECT_LT(open.count("largest_gap_left"), 1e-12);
 }
 
-TEST(Uniform, OpenLeavesALoopInsideAnEarlierOneAloneAndSaysSo) {
+TEST(Uniform, OpenIgnoresALoopInsideAnEarlierOneAndReportsIt) {
   Problem problem = along_x({0, 1, 2, 3});
   problem.closures = {closure(0, 3, {3.0, 0.3, 0.0}), closure(1, 3, {2.0, 7.0, 0.0})};
-  const Result got = corrected(problem, option("overlap", "open"));
-  expect_place(got.place(3), {3.0, 0.3, 0.0});
-  ASSERT_EQ(got.report.notes.size(), 1u);
-  EXPECT_EQ(got.report.notes[0],
-            "1 closures: every step lies inside an earlier loop, left as it was");
+  const Result result = corrected(problem, option("overlap", "open"));
+  expect_place(result.place(3), {3.0, 0.3, 0.0});
+  ASSERT_EQ(result.report.notes.size(), 1u);
+  EXPECT_EQ(result.report.notes[0], "1 closures: ignored, every step lies inside an earlier loop");
 }
 
-TEST(Uniform, RefusesClosuresThatAreNotSortedOrNameNoKeyframe) {
+TEST(Uniform, RejectsUnsortedClosuresAndMissingKeyframes) {
   Report report;
   Problem problem = along_x({0, 1, 2, 3});
   problem.closures = {closure(0, 3, {3, 0, 0}), closure(0, 2, {2, 0, 0})};
@@ -173,12 +174,12 @@ TEST(Uniform, RefusesClosuresThatAreNotSortedOrNameNoKeyframe) {
   EXPECT_THROW(Uniform({}).correct(problem, report), std::runtime_error);
 }
 
-TEST(Uniform, GivesBackTheCircleWhenYawCreepsEvenly) {
-  // A constant bias per step is what even spreading assumes, so most of the error must go.
+TEST(Uniform, RecoversACircleWithConstantYawDrift) {
+  // Even distribution assumes a constant bias per step, so most of the error must vanish.
   const Problem drifted = circle(41, 0.01);
   const Problem truth = circle(41, 0.0);
-  const Result got = corrected(drifted);
-  const auto worst = [&](const Trajectory& poses) {
+  const Result result = corrected(drifted);
+  const auto largest_error = [&](const Trajectory& poses) {
     double out = 0.0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Vector3 error =
@@ -187,8 +188,8 @@ TEST(Uniform, GivesBackTheCircleWhenYawCreepsEvenly) {
     }
     return out;
   };
-  EXPECT_GT(worst(drifted.keyframes), 1.5);
-  EXPECT_LT(worst(got.poses), 0.5 * worst(drifted.keyframes));
+  EXPECT_GT(largest_error(drifted.keyframes), 1.5);
+  EXPECT_LT(largest_error(result.poses), 0.5 * largest_error(drifted.keyframes));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Factors on odometry's covariances, estimated from loops.
+// Factors on the odometry's covariances, estimated from the loops.
 #include "methods/correctors/variance_components.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Sequence simulated(std::int64_t seed) {
   return load_simulated(options);
 }
 
-double off(const Trajectory& a, const Trajectory& b) {
+double rms_between(const Trajectory& a, const Trajectory& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     sum += (a[i].world_from_body.translation - b[i].world_from_body.translation).squaredNorm();
@@ -28,7 +28,7 @@ double off(const Trajectory& a, const Trajectory& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-TEST(VarianceComponents, FactorsMultiplyCovariancesWhole) {
+TEST(VarianceComponents, FactorsMultiplyFullCovariances) {
   const Problem problem = test::walk(3, 10, 0.1);
   const Problem scaled = with_factors(problem, {4.0, 9.0});
   const Matrix6 before = problem.odometry[2].information.inverse();
@@ -38,9 +38,9 @@ TEST(VarianceComponents, FactorsMultiplyCovariancesWhole) {
   EXPECT_NEAR(after(5, 5), 9.0 * before(5, 5), 1e-12);
 }
 
-TEST(VarianceComponents, WrongStatedVariancesAreFoundFromTheLoops) {
-  // Stated: translation 10 times too uncertain, rotation 10 times too certain. Estimated deviations
-  // agree with the true ones to a factor of 3 at worst, on average much better.
+TEST(VarianceComponents, EstimatesWrongVariancesFromTheLoops) {
+  // Stated: translation 10 times too uncertain, rotation 10 times too certain. Each estimated
+  // deviation is correct up to a factor of 3, and much better on average.
   double log_t = 0.0, log_r = 0.0;
   constexpr int kSeeds = 6;
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -69,22 +69,22 @@ TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
       while (j + 1 < sequence.reference.size() && sequence.reference[j].stamp < k.stamp - 1e-6) ++j;
       truth.push_back(sequence.reference[j]);
     }
-    right += off(best, truth);
-    wrong += off(Dual({}).correct(misstated, report), truth);
-    rescaled += off(Dual({.rescale = true}).correct(misstated, report), truth);
+    right += rms_between(best, truth);
+    wrong += rms_between(Dual({}).correct(misstated, report), truth);
+    rescaled += rms_between(Dual({.rescale = true}).correct(misstated, report), truth);
   }
   EXPECT_GT(wrong, 1.1 * right);
   EXPECT_LT(rescaled, 1.03 * right);
 }
 
-TEST(VarianceComponents, DualAndPoseGraphRescaleAlike) {
+TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
   const Problem misstated = with_factors(simulated(2).problem, {100.0, 0.01});
   Report a, b;
   const Trajectory dual = Dual({.rescale = true}).correct(misstated, a);
   const Trajectory graph = PoseGraphOptimizer({.rescale = true}).correct(misstated, b);
   EXPECT_EQ(test::count(a, "factor_t"), test::count(b, "factor_t"));
   EXPECT_EQ(test::count(a, "factor_r"), test::count(b, "factor_r"));
-  EXPECT_LT(off(dual, graph), 1e-3);
+  EXPECT_LT(rms_between(dual, graph), 1e-3);
 }
 
 }  // namespace

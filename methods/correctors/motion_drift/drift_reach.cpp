@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-/// Whether any loop encloses each odometry edge.
+/// For each odometry edge, whether at least one loop encloses it.
 std::vector<bool> enclosed_edges(const Problem& problem) {
   std::vector<int> change(problem.odometry.size() + 1, 0);
   for (const Edge& loop : problem.closures) {
@@ -21,24 +21,24 @@ std::vector<bool> enclosed_edges(const Problem& problem) {
   return out;
 }
 
-/// The part of each edge that begins less than `reach` after the last enclosed edge. `edges` is an
-/// order of the edges: forwards or backwards along the chain.
+/// Computes the part of each edge that lies within `reach` of the last enclosed edge. `edges` lists
+/// the edge indices forwards or backwards along the chain; `of` returns the regressor of an edge.
 template <class Edges, class Of>
 void reach_along(const Edges& edges,
                  const std::vector<bool>& enclosed,
                  double reach,
                  Of of,
                  std::vector<double>& part) {
-  double left = 0.0;
+  double remaining = 0.0;
   for (const std::size_t i : edges) {
     if (enclosed[i]) {
       part[i] = 1.0;
-      left = reach;
+      remaining = reach;
       continue;
     }
     const double along = of(i);
-    if (left > 0.0) part[i] = std::max(part[i], along > left ? left / along : 1.0);
-    left -= along;
+    if (remaining > 0.0) part[i] = std::max(part[i], along > remaining ? remaining / along : 1.0);
+    remaining -= along;
   }
 }
 

@@ -8,7 +8,7 @@
 namespace loopbench {
 namespace {
 
-/// Rows of the full system that a problem has.
+/// Rows of the full gap vector that belong to `closures`: six per closure, three if planar.
 std::vector<Eigen::Index> rows_of(const std::vector<std::size_t>& closures, bool planar) {
   const std::vector<int> axes = planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
   std::vector<Eigen::Index> out;
@@ -18,7 +18,7 @@ std::vector<Eigen::Index> rows_of(const std::vector<std::size_t>& closures, bool
   return out;
 }
 
-Matrix6 only(Half half, const Matrix6& matrix) {
+Matrix6 block_of(Half half, const Matrix6& matrix) {
   Matrix6 out = Matrix6::Zero();
   const Eigen::Index at = half == Half::translation ? 0 : 3;
   out.block<3, 3>(at, at) = matrix.block<3, 3>(at, at);
@@ -47,9 +47,9 @@ Eigen::MatrixXd share_of(const Term& term,
           through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
                                return drifted(term.growth, motions[i]) * jacobian.edge[i];
                              }));
-      const Eigen::MatrixXd moved =
+      const Eigen::MatrixXd columns =
           shape.middleCols(half + (term.axis < 0 ? 0 : term.axis), term.axis < 0 ? 3 : 1);
-      return moved * moved.transpose();
+      return columns * columns.transpose();
     }
     case Cause::closures:
       break;
@@ -58,7 +58,7 @@ Eigen::MatrixXd share_of(const Term& term,
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t k = 0; k < sums.loops(); ++k) {
     const auto at = static_cast<Eigen::Index>(6 * k);
-    out.block<6, 6>(at, at) = only(term.half, problem.closures[k].information.inverse());
+    out.block<6, 6>(at, at) = block_of(term.half, problem.closures[k].information.inverse());
   }
   return out;
 }
@@ -86,7 +86,7 @@ Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidenc
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t j = 0; j < model.size(); ++j) {
     if (model[j].value == 0.0) continue;
-    out.noalias() += model[j].value * evidence.shares[j];  // whole: faster than half of it
+    out.noalias() += model[j].value * evidence.shares[j];  // faster than the lower triangle alone
   }
   return out;
 }

@@ -1,4 +1,4 @@
-/// What the loops themselves say about the error model, without any reference.
+/// Marginal likelihood (evidence) of the loop gaps under an error model. No reference is used.
 #pragma once
 
 #include <vector>
@@ -8,25 +8,28 @@
 
 namespace loopbench {
 
-/// The gaps of the loops and what each term of a model would make of them, at one linearisation.
+/// The gaps of the loops and the covariance that each term of a model gives them, at one
+/// linearisation point.
 struct Evidence {
-  std::vector<Eigen::Index> rows;       ///< which of all gaps, six a closure, are looked at
-  Eigen::VectorXd gap;                  ///< of these rows
-  std::vector<Eigen::MatrixXd> shares;  ///< one a term: its covariance of the gap at value 1
+  std::vector<Eigen::Index> rows;       ///< selected rows of the full gap vector (six per closure)
+  Eigen::VectorXd gap;                  ///< gaps of these rows [m], [rad]
+  std::vector<Eigen::MatrixXd> shares;  ///< one per term: gap covariance for a term value of 1
 };
 
-/// Of `closures`, ascending; a planar problem's gaps have x, y and yaw only. Of a share the lower
-/// triangle is filled. O(edges terms + closures^2 terms).
+/// Computes the evidence of `closures` (ascending indices). Planar problems use x, y and yaw of
+/// each gap only. Only the lower triangle of each share is filled. O(edges terms + closures^2
+/// terms).
 Evidence evidence_of(const MotionModel& model,
                      const LoopedChain& chain,
                      const Problem& problem,
                      const std::vector<EdgeMotion>& motions,
                      const std::vector<std::size_t>& closures);
 
-/// sum_j value_j share_j; only its lower triangle means anything.
+/// Returns sum_j value_j share_j. Only the lower triangle is valid.
 Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidence);
 
-/// log N(gap; 0, gap_covariance); -inf when that is no covariance. O(gaps^3 + gaps^2 terms).
+/// Returns log N(gap; 0, gap_covariance), or -inf when gap_covariance is not positive definite.
+/// O(gaps^3 + gaps^2 terms).
 double log_evidence(const MotionModel& model, const Evidence& evidence);
 
 }  // namespace loopbench

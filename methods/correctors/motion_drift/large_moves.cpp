@@ -15,12 +15,13 @@ LargestMove largest_move(const Problem& problem,
     out.moved = std::max(out.moved, distance(corrected[i], problem.keyframes[i]));
   }
   for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-    double far = 0.0;
+    double farthest = 0.0;
     for (const StampedPose& keyframe : problem.keyframes) {
-      far = std::max(far, distance(keyframe, problem.keyframes[problem.closures[k].to]));
+      farthest = std::max(farthest, distance(keyframe, problem.keyframes[problem.closures[k].to]));
     }
     const auto twist = gap.segment<6>(static_cast<Eigen::Index>(6 * k));
-    out.explained = std::max(out.explained, twist.head<3>().norm() + far * twist.tail<3>().norm());
+    out.explained =
+        std::max(out.explained, twist.head<3>().norm() + farthest * twist.tail<3>().norm());
   }
   return out;
 }

@@ -1,4 +1,5 @@
-/// Whether a correction moves the chain further than the gaps of its loops explain.
+/// Compares the largest displacement of a correction with the displacement that the loop gaps
+/// explain.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +9,13 @@
 namespace loopbench {
 
 struct LargestMove {
-  double moved = 0.0;      ///< largest displacement of a keyframe [m]
-  double explained = 0.0;  ///< by the largest gap, its rotation at the chain's far end [m]
+  double moved = 0.0;      ///< largest displacement of any keyframe [m]
+  double explained = 0.0;  ///< largest displacement explained by the gap of one closure [m]
 };
 
-/// A gap of t [m] and r [rad] explains displacements of t + r R, R being the distance from the
-/// loop's end to the farthest keyframe. `gap` holds six numbers per closure.
-/// O(keyframes closures).
+/// Computes both displacements. A gap of t [m] and r [rad] explains t + r R, where R is the
+/// distance from the loop's last keyframe to the keyframe farthest from it. `gap` holds six numbers
+/// per closure. O(keyframes closures).
 LargestMove largest_move(const Problem& problem,
                          const Eigen::VectorXd& gap,
                          const Trajectory& corrected);

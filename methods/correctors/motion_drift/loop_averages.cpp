@@ -24,7 +24,7 @@ LoopAverages::LoopAverages(const Problem& problem,
 }
 
 LoopAverages::Means LoopAverages::means_of(Half half, const Eigen::VectorXd& gap) const {
-  // A planar gap is x, y and yaw; the other entries are zero and do not change a sum.
+  // A planar gap has only x, y and yaw; the other entries are zero.
   const double axes = !problem_.planar ? 3.0 : half == Half::translation ? 2.0 : 1.0;
   const auto first = static_cast<Eigen::Index>(3 * index(half));
   std::vector<double> gaps, stated;
@@ -49,7 +49,7 @@ LoopAverages::Means LoopAverages::means_of(Half half, const Eigen::VectorXd& gap
 }
 
 template <class Of>
-double LoopAverages::along_loops(Half half, bool squared, Of of) const {
+double LoopAverages::mean_along_loops(Half half, bool squared, Of of) const {
   const std::size_t edges = problem_.odometry.size();
   std::vector<double> sum(edges + 1, 0.0);
   for (std::size_t i = 0; i < edges; ++i) sum[i + 1] = sum[i] + of(i);
@@ -66,12 +66,12 @@ double LoopAverages::along_loops(Half half, bool squared, Of of) const {
 }
 
 double LoopAverages::motion(Half half, Growth growth, bool squared) const {
-  return along_loops(half, squared, [&](std::size_t i) { return grown(growth, motions_[i]); });
+  return mean_along_loops(half, squared, [&](std::size_t i) { return grown(growth, motions_[i]); });
 }
 
 double LoopAverages::stated_odometry(Half half) const {
   const auto first = static_cast<Eigen::Index>(3 * index(half));
-  return along_loops(half, false, [&](std::size_t i) {
+  return mean_along_loops(half, false, [&](std::size_t i) {
     return problem_.odometry[i].information.inverse().diagonal().segment<3>(first).mean();
   });
 }

@@ -1,4 +1,4 @@
-/// Averages over the loops of a chain, by which the prior of the error model is scaled.
+/// Weighted averages over the loops of a chain, used to scale the prior of the error model.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,14 +7,14 @@
 
 namespace loopbench {
 
-/// Weighted means over the loop closures. A closure has the weight 1 / (s + g)^2, the inverse
-/// variance of a squared gap, where s is its own stated variance and g the lower median of the
-/// squared gaps. Equal variances give equal weights, a closure much weaker than the gaps has next
-/// to none, and one that is much stronger counts no more than the others. Translation and rotation
-/// are weighted separately.
+/// Weighted means over the loop closures. Closure k has the weight 1 / (s + g)^2, the inverse
+/// variance of a squared gap, where s is its stated variance and g the lower median of the squared
+/// gaps. Equal variances give equal weights; a closure whose variance is much larger than the gaps
+/// has almost no weight; a closure whose variance is much smaller counts no more than the others.
+/// Translation and rotation are weighted separately.
 ///
-/// A loop has at least the chain's mean motion times its own duration: one that closes while the
-/// vehicle is at rest measures no error per metre or per radian.
+/// The motion of a loop is at least the chain's mean motion per second times the loop's duration: a
+/// loop closed while the vehicle is at rest does not determine an error per metre or per radian.
 class LoopAverages {
  public:
   /// `gap` holds six numbers per closure. O(closures log closures + edges).
@@ -25,25 +25,27 @@ class LoopAverages {
   /// Mean squared gap per axis [m^2], [rad^2].
   double gap(Half half) const { return means_[index(half)].gap; }
 
-  /// Mean variance that the closures state per axis [m^2], [rad^2].
+  /// Mean stated variance of the closures per axis [m^2], [rad^2].
   double stated(Half half) const { return means_[index(half)].stated; }
 
-  /// Mean of the motion accumulated along a loop, or of its square. O(edges + closures).
+  /// Mean over the loops of the (optionally squared) motion accumulated along a loop. O(edges +
+  /// closures).
   double motion(Half half, Growth growth, bool squared) const;
 
-  /// Mean of the variance that the odometry edges along a loop state per axis. O(edges + closures).
+  /// Mean over the loops of the stated odometry variance per axis accumulated along a loop [m^2],
+  /// [rad^2]. O(edges + closures).
   double stated_odometry(Half half) const;
 
  private:
   struct Means {
     double gap = 0.0;
     double stated = 0.0;
-    std::vector<double> weights;  ///< one per closure, their sum is 1
+    std::vector<double> weights;  ///< one per closure, normalised to a sum of 1
   };
   static std::size_t index(Half half) { return static_cast<std::size_t>(half); }
   Means means_of(Half half, const Eigen::VectorXd& gap) const;
   template <class Of>
-  double along_loops(Half half, bool squared, Of of) const;
+  double mean_along_loops(Half half, bool squared, Of of) const;
 
   const Problem& problem_;
   const std::vector<EdgeMotion>& motions_;

@@ -8,7 +8,7 @@
 namespace loopbench {
 namespace {
 
-/// One a term: mean_s(v_js C_s^-1 c), six numbers a closure.
+/// For each term j: mean_s(v_js C_s^-1 c), six numbers per closure.
 std::vector<Eigen::VectorXd> mean_multipliers(const std::vector<MotionModel>& models,
                                               const Evidence& evidence,
                                               Eigen::Index size) {
@@ -28,16 +28,16 @@ std::vector<Eigen::VectorXd> mean_multipliers(const std::vector<MotionModel>& mo
   return out;
 }
 
-/// edge[i]' times what all loops over edge i pull at it.
-std::vector<Twist> pulls(const Eigen::VectorXd& multipliers,
-                         const LoopJacobian& jacobian,
-                         const std::vector<Edge>& closures) {
+/// For each edge i: edge[i]' times the summed generalised force of all loops that enclose it.
+std::vector<Twist> edge_forces(const Eigen::VectorXd& multipliers,
+                               const LoopJacobian& jacobian,
+                               const std::vector<Edge>& closures) {
   std::vector<Twist> change(jacobian.edge.size() + 1, Twist::Zero());
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    const Twist pull =
+    const Twist force =
         jacobian.loop[k].transpose() * multipliers.segment<6>(static_cast<Eigen::Index>(6 * k));
-    change[closures[k].from] += pull;
-    change[closures[k].to] -= pull;
+    change[closures[k].from] += force;
+    change[closures[k].to] -= force;
   }
   std::vector<Twist> out(jacobian.edge.size());
   Twist sum = Twist::Zero();
@@ -48,7 +48,7 @@ std::vector<Twist> pulls(const Eigen::VectorXd& multipliers,
   return out;
 }
 
-/// Keeps the axes a term is about.
+/// Keeps the axes of the term and sets the others to 0.
 Twist on_axes_of(const Term& term, const Twist& all) {
   Twist out = Twist::Zero();
   const Eigen::Index at = term.half == Half::translation ? 0 : 3;
@@ -78,18 +78,18 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
   for (std::size_t j = 0; j < terms.size(); ++j) {
     const Term& term = terms[j];
     if (term.cause == Cause::closures) continue;
-    const std::vector<Twist> pull = pulls(multipliers[j], jacobian, problem.closures);
-    Twist together = Twist::Zero();  // drift: one rate all along
-    for (std::size_t i = 0; i < pull.size(); ++i) {
-      together += drifted(term.growth, motions[i]) * pull[i];
+    const std::vector<Twist> force = edge_forces(multipliers[j], jacobian, problem.closures);
+    Twist total = Twist::Zero();  // drift: one rate along the whole chain
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      total += drifted(term.growth, motions[i]) * force[i];
     }
-    for (std::size_t i = 0; i < pull.size(); ++i) {
+    for (std::size_t i = 0; i < force.size(); ++i) {
       if (term.cause == Cause::stated) {
-        out[i] -= problem.odometry[i].information.inverse() * pull[i];
+        out[i] -= problem.odometry[i].information.inverse() * force[i];
       } else if (term.cause == Cause::drift) {
-        out[i] -= drifted(term.growth, motions[i]) * on_axes_of(term, together);
+        out[i] -= drifted(term.growth, motions[i]) * on_axes_of(term, total);
       } else {
-        out[i] -= grown(term.growth, motions[i]) * on_axes_of(term, pull[i]);
+        out[i] -= grown(term.growth, motions[i]) * on_axes_of(term, force[i]);
       }
     }
   }

@@ -1,4 +1,4 @@
-/// The errors of the odometry that many error models expect together.
+/// Expected odometry errors, averaged over many error models.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace loopbench {
 
-/// The mean over `models`, alike in their terms, of what each expects of the edges' errors given
-/// the loops, at the chain's current linearisation. With c the gaps and C_s = sum_j v_js Q_j their
-/// covariance under model s,
+/// Returns the expected error of each odometry edge given the loops, averaged over `models`, at the
+/// chain's current linearisation point. All models must have the same terms. With the gaps c and
+/// their covariance C_s = sum_j v_js Q_j under model s,
 ///
 ///     e_i = - sum_j  S_ji A_i' mean_s(v_js C_s^-1 c),
 ///
-/// S_j being the covariance that term j at value 1 gives all edges' errors: only one vector a term
-/// is averaged, and the edges are passed once. Throws std::runtime_error when a C_s is singular.
-/// O(edges terms + models (6 closures)^3).
+/// where S_j is the covariance of all edge errors due to term j with value 1. Only one vector per
+/// term is averaged, so the edges are visited once. Throws std::runtime_error when a C_s is
+/// singular. O(edges terms + models (6 closures)^3).
 std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
                                const LoopedChain& chain,
                                const Problem& problem,

@@ -6,11 +6,11 @@
 namespace loopbench {
 namespace {
 
-/// No edge's variance falls below this part of the chain's mean: an edge that did not move would
-/// have none, and no inverse.
+/// Lower bound on each edge's variance, as a fraction of the chain's mean variance. An edge without
+/// motion would otherwise have a singular covariance.
 constexpr double kFloor = 1e-9;
 
-/// `value` on the axes the term is about.
+/// `value` on the axes of the term, 0 elsewhere.
 Twist on_axes(const Term& term, double value) {
   Twist out = Twist::Zero();
   const Eigen::Index at = term.half == Half::translation ? 0 : 3;
@@ -22,28 +22,28 @@ Twist on_axes(const Term& term, double value) {
   return out;
 }
 
-void add_odometry(ChainBelief& belief,
+void add_odometry(ChainBelief& noise_model,
                   const MotionModel& model,
                   const Problem& problem,
                   const std::vector<EdgeMotion>& motions) {
-  belief.covariance.assign(motions.size(), Matrix6::Zero());
+  noise_model.covariance.assign(motions.size(), Matrix6::Zero());
   for (const Term& term : model) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       if (term.cause == Cause::noise) {
-        belief.covariance[i].diagonal() +=
+        noise_model.covariance[i].diagonal() +=
             on_axes(term, term.value * grown(term.growth, motions[i]));
       } else if (term.cause == Cause::stated) {
-        belief.covariance[i] += term.value * problem.odometry[i].information.inverse();
+        noise_model.covariance[i] += term.value * problem.odometry[i].information.inverse();
       }
     }
   }
   Twist mean = Twist::Zero();
-  for (const Matrix6& c : belief.covariance) {
+  for (const Matrix6& c : noise_model.covariance) {
     mean += c.diagonal() / static_cast<double>(motions.size());
   }
-  for (Matrix6& c : belief.covariance) {
+  for (Matrix6& c : noise_model.covariance) {
     c.diagonal() = c.diagonal().cwiseMax(kFloor * mean);
-    belief.information.push_back(c.inverse());
+    noise_model.information.push_back(c.inverse());
   }
 }
 
@@ -63,17 +63,18 @@ ChainBelief belief_of(const MotionModel& model,
                       const std::vector<EdgeMotion>& motions) {
   ChainBelief out;
   add_odometry(out, model, problem, motions);
-  Twist stretch = Twist::Ones();  // of a closure's standard deviations
+  Twist scale = Twist::Ones();  // factor on the closures' standard deviations
   for (const Term& term : model) {
     if (term.cause != Cause::closures) continue;
-    const double by = std::sqrt(term.value);
-    (term.half == Half::translation ? stretch.head<3>() : stretch.tail<3>()).setConstant(by);
+    const double deviation = std::sqrt(term.value);
+    (term.half == Half::translation ? scale.head<3>() : scale.tail<3>()).setConstant(deviation);
   }
   for (const Edge& loop : problem.closures) {
-    const Twist shrink = stretch.cwiseInverse();
-    out.closure_covariance.push_back(stretch.asDiagonal() * loop.information.inverse() *
-                                     stretch.asDiagonal());
-    out.closure_information.push_back(shrink.asDiagonal() * loop.information * shrink.asDiagonal());
+    const Twist inverse_scale = scale.cwiseInverse();
+    out.closure_covariance.push_back(scale.asDiagonal() * loop.information.inverse() *
+                                     scale.asDiagonal());
+    out.closure_information.push_back(inverse_scale.asDiagonal() * loop.information *
+                                      inverse_scale.asDiagonal());
   }
   for (const Growth growth : kGrowths) {
     Twist rates = Twist::Zero();

@@ -1,4 +1,4 @@
-/// The motion-dependent error model: a list of variances, each with what it grows with.
+/// The motion-dependent error model: a list of variances, each with its regressor.
 #pragma once
 
 #include <string>
@@ -9,30 +9,31 @@
 
 namespace loopbench {
 
-/// Which half of a twist a term is about.
+/// Component of a twist that a term describes.
 enum class Half { translation, rotation };
 
-/// Noise: fresh in every edge, of variance value * grown on each axis. Drift: one unknown rate a
-/// body axis all along the chain, rate ~ N(0, value), error = rate * grown. Stated: value is a
-/// factor on what the odometry edges state, added to the noise. Closures: value is a factor on
-/// their stated covariance.
+/// noise: independent in every edge, with variance value * regressor on each axis. drift: one
+/// unknown constant rate per body axis along the whole chain, rate ~ N(0, value), error = rate *
+/// regressor. stated: value is a factor on the stated covariance of the odometry edges, added to
+/// the noise. closures: value is a factor on the stated covariance of the closures.
 enum class Cause { noise, drift, stated, closures };
 
 struct Term {
   Cause cause;
-  Half half;           ///< not used by stated
-  Growth growth;       ///< of noise and drift
-  double value = 0.0;  ///< a variance or factor, never negative
-  bool given = false;  ///< value was stated in the options, not guessed
-  int axis = -1;       ///< drift only: 0, 1, 2 of the half; -1: each of them
+  Half half;           ///< ignored for stated
+  Growth growth;       ///< for noise and drift only
+  double value = 0.0;  ///< variance or factor, >= 0
+  bool given = false;  ///< the value was set by an option
+  int axis = -1;       ///< drift only: 0, 1, 2 for one axis of the component; -1 for all three
 };
 
-/// "noise.r.per_metre": as the options name it; drift of one axis has that appended: ".x".
+/// Option name of a term, for example "noise.r.per_metre". The name of a single-axis drift ends in
+/// ".x", ".y" or ".z".
 std::string name_of(const Term& term);
 
 using MotionModel = std::vector<Term>;
 
-/// What the model says about each edge and closure of the problem. O((edges + closures) terms).
+/// Returns the noise model of every edge and closure of the problem. O((edges + closures) terms).
 ChainBelief belief_of(const MotionModel& model,
                       const Problem& problem,
                       const std::vector<EdgeMotion>& motions);

@@ -1,4 +1,4 @@
-/// How far, how long and how much each odometry edge moved: what its error may grow with.
+/// Duration, length and rotation angle of each odometry edge: the regressors of its error.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace loopbench {
 
-/// What an error grows with.
+/// Regressor of an error variance or of a drift.
 enum class Growth { edge, time, distance, rotation, speed };
 inline constexpr std::array kGrowths{
     Growth::edge, Growth::time, Growth::distance, Growth::rotation, Growth::speed};
 
-/// "edge", "second", "metre", "radian", "speed": what an option `per_...` is named by.
+/// "edge", "second", "metre", "radian", "speed": the suffix of the options `per_...`.
 inline const char* name_of(Growth growth) {
   static constexpr const char* kNames[] = {"edge", "second", "metre", "radian", "speed"};
   return kNames[static_cast<std::size_t>(growth)];
@@ -21,9 +21,10 @@ inline const char* name_of(Growth growth) {
 
 struct EdgeMotion {
   double seconds = 0.0;
-  double metres = 0.0;   ///< of the measured step
-  double radians = 0.0;  ///< of the measured rotation
-  /// By Growth, the part of the edge over which steady drift is extrapolated: see drift_reach.hpp.
+  double metres = 0.0;   ///< length of the measured translation
+  double radians = 0.0;  ///< angle of the measured rotation
+  /// Per regressor, the fraction of the edge over which steady drift is extrapolated: see
+  /// drift_reach.hpp.
   std::array<double, kGrowths.size()> drift_part{1.0, 1.0, 1.0, 1.0, 1.0};
 };
 
@@ -39,7 +40,7 @@ inline std::vector<EdgeMotion> motions(const Problem& problem) {
   return out;
 }
 
-/// 1, dt, d, |dtheta| and (d / dt)^2 dt.
+/// Value of the regressor for one edge: 1, dt, d, |dtheta| or (d / dt)^2 dt.
 inline double grown(Growth with, const EdgeMotion& motion) {
   switch (with) {
     case Growth::edge:
@@ -56,7 +57,7 @@ inline double grown(Growth with, const EdgeMotion& motion) {
   return 0.0;
 }
 
-/// What the error of steady drift grows with.
+/// Value of the regressor for steady drift, limited by drift_part.
 inline double drifted(Growth with, const EdgeMotion& motion) {
   return motion.drift_part[static_cast<std::size_t>(with)] * grown(with, motion);
 }

@@ -57,7 +57,8 @@ void add_drift(MotionModel& out, const MotionDrift::Options& o, bool planar) {
         out.push_back(term);
         continue;
       }
-      // An axis on its own: odometers turn steadily about one far more than about the others.
+      // One term per axis: odometry drift is often much larger about one axis than about the
+      // others.
       for (term.axis = planar ? 2 : 0; term.axis < 3; ++term.axis) out.push_back(term);
     }
   }
@@ -78,8 +79,8 @@ MotionModel model_of(const MotionDrift::Options& o, bool planar) {
   return out;
 }
 
-/// At most `most` of 0 .. size - 1, evenly.
-std::vector<std::size_t> spread_choice(std::size_t size, std::size_t most) {
+/// At most `most` evenly spaced indices of 0 .. size - 1.
+std::vector<std::size_t> evenly_spaced(std::size_t size, std::size_t most) {
   std::vector<std::size_t> out;
   const std::size_t count = std::min(size, most);
   for (std::size_t i = 0; i < count; ++i) out.push_back(i * size / count);
@@ -100,18 +101,18 @@ void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, R
   report.count("chance.steady", steady);
 }
 
-/// An iteration of the average factorises one dense matrix per model. With many closures the models
-/// differ less, and fewer suffice.
+/// Subsamples the models: each iteration of the average factorises one dense matrix per model, and
+/// with many closures the models differ less.
 std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::size_t closures) {
   constexpr std::size_t kFewClosures = 16;
-  constexpr std::size_t kEnough = 64;
-  if (closures <= kFewClosures || draws.size() <= kEnough) return draws;
+  constexpr std::size_t kAveraged = 64;
+  if (closures <= kFewClosures || draws.size() <= kAveraged) return draws;
   std::vector<MotionModel> out;
-  for (const std::size_t i : spread_choice(draws.size(), kEnough)) out.push_back(draws[i]);
+  for (const std::size_t i : evenly_spaced(draws.size(), kAveraged)) out.push_back(draws[i]);
   return out;
 }
 
-/// Loops that cover little of the chain leave the rest to extrapolation.
+/// Loops that cover a small part of the chain leave the rest to extrapolation.
 void note_large_move(const LargestMove& move, Report& report) {
   constexpr double kLarge = 3.0;
   report.count("largest_move", move.moved);
@@ -123,24 +124,24 @@ void note_large_move(const LargestMove& move, Report& report) {
     std::string text = std::to_string(std::round(metres / unit) * unit);
     return text.substr(0, text.find('.') + (metres < 10.0 ? 3 : 0));
   };
-  report.notes.push_back("keyframes move by up to " + rounded(move.moved) +
-                         " m, the gaps of the loops explain " + rounded(move.explained) +
+  report.notes.push_back("largest keyframe displacement is " + rounded(move.moved) +
+                         " m, the loop gaps explain " + rounded(move.explained) +
                          " m: the drift is extrapolated far beyond the loops");
 }
 
-double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& less) {
+double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& other) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - less[i]).squaredNorm();
+  for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - other[i]).squaredNorm();
   return sum;
 }
 
 }  // namespace
 
 std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "no loop closure to spread";
+  if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(options_.max_closures)) {
     return std::to_string(problem.closures.size()) +
-           " closures, more than max_closures = " + std::to_string(options_.max_closures);
+           " closures exceed max_closures = " + std::to_string(options_.max_closures);
   }
   if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
   return std::nullopt;
@@ -152,29 +153,32 @@ Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
 }
 
 Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
-  std::vector<EdgeMotion> moved = motions(problem);
-  limit_drift(moved, problem, options_.prior.drift_reach);
+  std::vector<EdgeMotion> edge_motions = motions(problem);
+  limit_drift(edge_motions, problem, options_.prior.drift_reach);
   LoopedChain chain(problem, stated_belief(problem));
   const Eigen::VectorXd gap = chain.linearised().gap;
   const MotionPrior prior =
-      prior_of(model_of(options_, problem.planar), options_.prior, problem, moved, gap);
+      prior_of(model_of(options_, problem.planar), options_.prior, problem, edge_motions, gap);
   MotionPosterior posterior;
   posterior.centre = prior.hypotheses.back().medians;
-  chain.believe(belief_of(posterior.centre, problem, moved));
+  chain.believe(belief_of(posterior.centre, problem, edge_motions));
   int iterations = most_likely(chain);
   if (options_.fit) {
-    const auto seen =
-        spread_choice(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
-    posterior = posterior_of(
-        prior, evidence_of(posterior.centre, chain, problem, moved, seen), options_.sampling);
-    chain.believe(belief_of(posterior.centre, problem, moved));
+    const auto fitted =
+        evenly_spaced(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
+    posterior = posterior_of(prior,
+                             evidence_of(posterior.centre, chain, problem, edge_motions, fitted),
+                             options_.sampling);
+    chain.believe(belief_of(posterior.centre, problem, edge_motions));
     iterations += most_likely(chain);
     report.count("log_evidence", posterior.log_evidence);
     count_chances(prior, posterior, report);
   }
-  const bool few = problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
-  if (posterior.draws.size() > 1 && few) {
-    iterations += average(thinned(posterior.draws, problem.closures.size()), chain, problem, moved);
+  const bool is_averaged =
+      problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
+  if (posterior.draws.size() > 1 && is_averaged) {
+    iterations +=
+        average(thinned(posterior.draws, problem.closures.size()), chain, problem, edge_motions);
   }
   report.count("iterations", iterations);
   for (const Term& term : posterior.centre) report.count(name_of(term), term.value);
@@ -197,13 +201,13 @@ int MotionDrift::most_likely(LoopedChain& chain) const {
 int MotionDrift::average(const std::vector<MotionModel>& models,
                          LoopedChain& chain,
                          const Problem& problem,
-                         const std::vector<EdgeMotion>& moved) const {
-  const std::vector<Twist> zero(moved.size(), Twist::Zero());
+                         const std::vector<EdgeMotion>& edge_motions) const {
+  const std::vector<Twist> zero(edge_motions.size(), Twist::Zero());
   double last = std::numeric_limits<double>::infinity();
   for (int iterations = 0; iterations < options_.max_iterations; ++iterations) {
-    std::vector<Twist> errors = mean_errors(models, chain, problem, moved);
+    std::vector<Twist> errors = mean_errors(models, chain, problem, edge_motions);
     const double change = squared_change(errors, chain.errors());
-    if (!(change < last)) return iterations;  // to rounding, or for good
+    if (!(change < last)) return iterations;  // converged to rounding, or diverging
     last = change;
     chain.correct_by(std::move(errors));
     if (change <= options_.tolerance * squared_change(chain.errors(), zero)) return iterations + 1;

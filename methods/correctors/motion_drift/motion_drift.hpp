@@ -1,4 +1,4 @@
-/// A chain corrected under a model of how its odometry errs: with motion, and steadily.
+/// Corrects a chain under an odometry error model with motion-dependent noise and steady drift.
 #pragma once
 
 #include "methods/correctors/motion_drift/posterior.hpp"
@@ -6,39 +6,42 @@
 
 namespace loopbench {
 
-/// The error of odometry edge i is e_i = sum_j B_j phi_j(i) + w_i with phi the edge's duration
-/// [s], length [m] and turn [rad]:
+/// The error of odometry edge i is e_i = sum_j B_j phi_j(i) + w_i. The regressors phi_j are the
+/// edge's duration [s], length [m] and rotation angle [rad].
 ///
-/// - noise w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt, for translation and
-///   rotation apart, on all three axes alike, plus a multiple of the covariance the edge states;
-/// - steady drift B_j ~ N(0, V_j) of rotation: unknown rates, the same all along the chain. They
-///   make a chain's errors hang together, which noise alone denies, and loops far apart in time
-///   teach them. Steady drift of translation (a wrong scale) hardly opens a loop, so that loops
-///   cannot teach it; it is there when its size is given. Beyond the loops drift is extrapolated
-///   over twice the motion that they enclose, and no further (drift_reach.hpp).
+/// - Noise: w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt, separately for
+///   translation and rotation and equal on all three axes, plus a multiple of the edge's stated
+///   covariance.
+/// - Steady drift: B_j ~ N(0, V_j), unknown rotation rates that are constant along the chain. They
+///   correlate the errors of the whole chain, and loops far apart in time determine them. Steady
+///   drift of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
+///   used only when its size is given as an option. Outside the loops, drift is extrapolated over
+///   at most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
 ///
-/// Nobody knows these variances, and a few loops do not tell them: they are drawn from what is
-/// believed of them before (prior.hpp) times the density of the gaps that the loops leave
-/// (posterior.hpp), and the answer is the mean of the errors that the models drawn expect
-/// (mean_errors.hpp), relinearised until it rests. No reference is needed. Simple hypotheses are
-/// believed beside the full model: that all covariances are as stated, or wrong by a factor each
-/// for odometry and closures; that nothing drifts. Where loops say little the answer stays near
-/// `dual`'s. Values given as options (by `loopbench calibrate`) replace the prior's medians; with
-/// `fit: false` they are kept as they are.
+/// A few loops do not determine these variances. The method therefore draws error models from the
+/// posterior: a prior (prior.hpp) times the likelihood of the loop gaps (posterior.hpp). It
+/// corrects the chain by the expected errors averaged over the drawn models (mean_errors.hpp) and
+/// relinearises until convergence. No reference is needed. The prior also contains simpler
+/// hypotheses: all covariances as stated, one factor for the odometry and one each for the
+/// closures, no drift. Where the loops carry little information the result stays near that of
+/// `dual`. Values given as options (for example by `loopbench calibrate`) replace the prior
+/// medians; with `fit: false` they are used unchanged.
 ///
-/// With more than `average_closures` closures, which leave little doubt, one model stands for all:
-/// the logarithmic mean of those drawn of the likeliest hypothesis. Where edges change the unit of
-/// length (Sim(3)) that is settled first, as in `dual`.
+/// With more than `average_closures` closures the posterior is narrow, and one model is used: the
+/// geometric mean of the models drawn under the most probable hypothesis. Scale changes of edges
+/// (Sim(3)) are estimated and removed first, as in `dual`.
 ///
-/// Complexity O(edges + (6 closures)^3) some ten times, O((6 fit_closures)^3) some thousand times.
-/// Sources: design notes, methods 5; Murray, Adams, MacKay, Elliptical slice sampling, AISTATS
-/// 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
+/// Complexity: about ten times O(edges + (6 closures)^3) and about a thousand times O((6
+/// fit_closures)^3). Sources: design notes, methods 5; Murray, Adams, MacKay, Elliptical slice
+/// sampling, AISTATS 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
 class MotionDrift final : public Corrector {
  public:
-  /// What errors grow with, each including those before it. `drift` adds steady drift and what the
-  /// edges state to `rotation`: speed is left out, for between even keyframes it is distance again.
+  /// Noise terms of the error model. `constant` noise is equal in every edge; `time`, `distance`,
+  /// `rotation` and `speed` each add a regressor to the one before. `drift` is `rotation` plus
+  /// steady drift and the stated odometry covariance; it omits speed, because for evenly spaced
+  /// keyframes speed is proportional to distance.
   enum class Model { constant, time, distance, rotation, speed, drift };
-  using Values = std::array<std::optional<double>, kGrowths.size()>;  ///< by Growth
+  using Values = std::array<std::optional<double>, kGrowths.size()>;  ///< indexed by Growth
 
   struct Options {
     Model model = Model::drift;
@@ -53,21 +56,22 @@ class MotionDrift final : public Corrector {
     bool scale = true;
     std::array<Values, 2> noise{};                    ///< by Half; variances
     std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates
-    std::array<std::optional<double>, 2> closures{};  ///< by Half; factors on the stated covariance
+    std::array<std::optional<double>, 2> closures{};  ///< by Half; factors on stated covariances
   };
   explicit MotionDrift(const Options& options) : options_(options) {}
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations`, `log_evidence` of the gaps, `chance.*` of the hypotheses given the gaps,
-  /// every variance of the likeliest one by its name (0: denied), `largest_move` of a keyframe and
-  /// the `explained_move` [m] (large_moves.hpp). Notes when the first is far above the second.
-  /// Throws std::runtime_error when the loop equations cannot be solved.
+  /// Counts: `iterations`; `log_evidence` of the gaps; `chance.*`, the posterior probabilities of
+  /// the hypotheses; the variances of the most probable hypothesis by name (0: term excluded);
+  /// `largest_move` of a keyframe and `explained_move` [m] (large_moves.hpp). Adds a note when
+  /// largest_move is far above explained_move. Throws std::runtime_error when the loop equations
+  /// cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
   Trajectory correct_rigid(const Problem& problem, Report& report) const;
-  /// Both return the iterations they took.
+  /// Both functions return the number of iterations.
   int most_likely(LoopedChain& chain) const;
   int average(const std::vector<MotionModel>& models,
               LoopedChain& chain,
@@ -89,70 +93,127 @@ inline auto choices(MotionDrift::Model) {
 
 template <class Visit>
 void fields(MotionDrift::Options& o, Visit visit) {
-  visit("model", o.model, "what errors grow with, each with those before it");
-  visit("fit", o.fit, "fit the variances to the loops; false: keep guesses and given values");
+  visit(
+      "model",
+      o.model,
+      "error terms of the model; const: equal in every edge; time, distance, rotation, speed: "
+      "noise that grows with that quantity and those before it; drift: rotation plus steady drift");
+  visit("fit",
+        o.fit,
+        "estimate the variances from the loops; false: use prior medians and given values");
 
   MotionPriorOptions& p = o.prior;
   const Between share{0.0, 1.0};
-  const Between spread{0.0, 10.0};
-  visit("prior.noise_part", p.noise_part, "translation noise a loop, of its way", Above{0.0});
-  visit("prior.stated_part", p.stated_part, "of the noise, shaped as edges state [-]", share);
+  const Between deviation{0.0, 10.0};
+  visit("prior.noise_part",
+        p.noise_part,
+        "prior translation noise along a loop, as a fraction of its path length [-]",
+        Above{0.0});
+  visit("prior.stated_part",
+        p.stated_part,
+        "prior fraction of the rotation noise that is proportional to the stated covariances of "
+        "the odometry [-]",
+        share);
   visit("prior.steady_after",
         p.steady_after,
-        "length of loops that gather as much from drift as from noise [s]",
+        "loop duration at which drift and noise contribute equal rotation variance a priori [s]",
         Above{0.0});
-  visit("prior.scale_spread", p.scale_spread, "of a half's errors, in logarithms [-]", spread);
-  visit("prior.steady_spread", p.steady_spread, "of drift against noise [-]", spread);
-  visit("prior.axis_spread", p.axis_spread, "of an axis' drift against the others' [-]", spread);
-  visit("prior.share_spread", p.share_spread, "of each term beside all that [-]", spread);
-  visit("prior.stated_spread", p.stated_spread, "of what edges state beside that [-]", spread);
-  visit("prior.closures_spread", p.closures_spread, "of the closures' factors [-]", spread);
+  visit("prior.scale_spread",
+        p.scale_spread,
+        "standard deviation of the log variance scale common to all translation (or rotation) "
+        "errors [-]",
+        deviation);
+  visit("prior.steady_spread",
+        p.steady_spread,
+        "standard deviation of the log ratio of drift to noise variance [-]",
+        deviation);
+  visit("prior.axis_spread",
+        p.axis_spread,
+        "standard deviation of the log drift variance of one body axis [-]",
+        deviation);
+  visit("prior.share_spread",
+        p.share_spread,
+        "standard deviation of the log variance of one term (time, distance, rotation) [-]",
+        deviation);
+  visit("prior.stated_spread",
+        p.stated_spread,
+        "standard deviation of the log factor on the stated odometry covariances [-]",
+        deviation);
+  visit("prior.closures_spread",
+        p.closures_spread,
+        "standard deviation of the log factors on the stated closure covariances [-]",
+        deviation);
   visit("prior.as_stated_chance",
         p.as_stated_chance,
-        "that all err as stated, but for one factor [-]",
+        "prior probability that all stated covariances are correct up to one common factor [-]",
         share);
-  visit("prior.scaled_chance", p.scaled_chance, "that closures need another factor [-]", share);
-  visit("prior.steady_chance", p.steady_chance, "that anything drifts steadily [-]", share);
+  visit("prior.scaled_chance",
+        p.scaled_chance,
+        "prior probability that odometry and closure covariances are correct up to separate "
+        "factors [-]",
+        share);
+  visit("prior.steady_chance", p.steady_chance, "prior probability of steady drift [-]", share);
   visit("prior.drift_reach",
         p.drift_reach,
-        "extrapolation of drift beyond the loops, as a multiple of the motion they enclose [-]",
+        "limit on extrapolating drift outside the loops, as a multiple of the motion enclosed by "
+        "loops [-]",
         Between{0.0});
 
   visit("draws",
         o.sampling.draws,
-        "error models averaged; with more than 16 closures 64 of them",
+        "number of error models drawn from the posterior; at most 64 of them are averaged when "
+        "there are more than 16 closures",
         Between{1, 10000});
-  visit("draw_steps", o.sampling.steps, "of the sampler from draw to draw", Between{1, 1000});
-  visit("warm_up", o.sampling.warm_up, "steps before the first draw", Between{0, 100000});
-  visit("seed", o.sampling.seed, "of the sampler", Between{0});
-  visit("fit_closures", o.fit_closures, "closures the fit looks at, well spread", Between{1, 300});
+  visit("draw_steps", o.sampling.steps, "sampler steps between two draws", Between{1, 1000});
+  visit("warm_up", o.sampling.warm_up, "sampler steps before the first draw", Between{0, 100000});
+  visit("seed", o.sampling.seed, "seed of the sampler's random numbers", Between{0});
+  visit("fit_closures",
+        o.fit_closures,
+        "maximum number of closures used to estimate the variances, evenly subsampled",
+        Between{1, 300});
   visit("average_closures",
         o.average_closures,
-        "with more, one model stands for all drawn",
+        "maximum number of closures for averaging over models; above it one model is used",
         Between{0, 2000});
-  visit("max_iterations", o.max_iterations, "relinearisations after that", Between{1, 1000});
+  visit("max_iterations",
+        o.max_iterations,
+        "maximum number of relinearisations after the variances are estimated",
+        Between{1, 1000});
   visit("tolerance",
         o.tolerance,
-        "relative change of cost or squared errors that ends them [-]",
+        "convergence threshold: relative change of the cost or of the squared corrections [-]",
         Between{0.0, 1.0});
   visit("max_closures",
         o.max_closures,
-        "declines above: the dense solve grows with their cube",
+        "maximum number of closures; the time of the dense solve grows with its cube",
         Between{1, 2000});
-  visit("scale", o.scale, "first settle the unit of length where edges change it (Sim(3) chains)");
+  visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
 
-  const char* none = "none: guessed";
-  const auto by_growth = [&](const std::string& what, MotionDrift::Values& values, auto first) {
+  const auto by_growth = [&](const std::string& what,
+                             const std::string& help,
+                             MotionDrift::Values& values,
+                             auto first) {
     for (std::size_t g = first; g < kGrowths.size(); ++g) {
-      visit((what + ".per_" + name_of(kGrowths[g])).c_str(), values[g], none, Between{0.0});
+      const std::string unit = name_of(kGrowths[g]);
+      visit((what + ".per_" + unit).c_str(),
+            values[g],
+            (help + (unit == "speed" ? "speed^2 times duration" : unit) + "; none: estimated")
+                .c_str(),
+            Between{0.0});
     }
   };
-  by_growth("noise.t", o.noise[0], 0u);  // [m^2/unit]
-  by_growth("noise.r", o.noise[1], 0u);  // [rad^2/unit]
-  by_growth("drift.t", o.drift[0], 1u);  // [m/unit]
-  by_growth("drift.r", o.drift[1], 1u);  // [rad/unit]
-  visit("closures.t", o.closures[0], none, Above{0.0});
-  visit("closures.r", o.closures[1], none, Above{0.0});
+  by_growth("noise.t", "translation noise variance on each axis [m^2] per ", o.noise[0], 0u);
+  by_growth("noise.r", "rotation noise variance on each axis [rad^2] per ", o.noise[1], 0u);
+  by_growth("drift.t", "standard deviation of steady translation drift [m] per ", o.drift[0], 1u);
+  by_growth("drift.r", "standard deviation of steady rotation drift [rad] per ", o.drift[1], 1u);
+  visit("closures.t",
+        o.closures[0],
+        "factor on the stated translation covariance of the closures [-]; none: estimated",
+        Above{0.0});
+  visit("closures.r",
+        o.closures[1],
+        "factor on the stated rotation covariance of the closures [-]; none: estimated",
+        Above{0.0});
 }
 
 }  // namespace loopbench

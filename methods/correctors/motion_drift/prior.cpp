@@ -9,17 +9,18 @@
 namespace loopbench {
 namespace {
 
-/// Gaps are rarely five times smaller than the deviations that the closures state. [-]
-constexpr double kHonest = 25.0;
+/// The stated closure covariance is kept if stated variance / squared gap is at most this (a factor
+/// of 5 in deviation). [-]
+constexpr double kPlausibleRatio = 25.0;
 
-/// The least part of a stated variance that is used: without any gap nothing else sets a scale.
-constexpr double kLeastPart = 1e-12;
+/// Minimum fraction of a stated variance that is used. It sets a scale when all gaps are zero.
+constexpr double kMinFraction = 1e-12;
 
-/// The variance of the closures that the gaps allow: sigmas stated in other units can exceed the
-/// gaps by orders of magnitude, and would take the variances of the odometry with them.
+/// Stated closure variance, bounded by the gaps: deviations stated in other units can exceed the
+/// gaps by orders of magnitude, which would inflate the odometry variances as well.
 double plausible(const LoopAverages& loops, Half half) {
   const double stated = loops.stated(half);
-  return std::min(stated, std::max(kHonest * loops.gap(half), kLeastPart * stated));
+  return std::min(stated, std::max(kPlausibleRatio * loops.gap(half), kMinFraction * stated));
 }
 
 bool is_guessed(const Term& term, Cause cause) { return term.cause == cause && !term.given; }
@@ -30,13 +31,14 @@ void guess_odometry(MotionModel& model, const MotionPriorOptions& by, const Loop
       std::ranges::any_of(model, [](const Term& t) { return is_guessed(t, Cause::drift); });
   const bool states =
       std::ranges::any_of(model, [](const Term& t) { return t.cause == Cause::stated; });
-  // A gap in position comes from rotation, too: a loop that happens to close in attitude is no
-  // proof.
-  const double turn = plausible(loops, Half::rotation) + loops.gap(Half::rotation) +
-                      (squared_path > 0.0 ? loops.gap(Half::translation) / squared_path : 0.0);
+  // A position gap is also evidence of a rotation error, so a small rotation gap alone does not
+  // imply a small rotation noise.
+  const double variance_r =
+      plausible(loops, Half::rotation) + loops.gap(Half::rotation) +
+      (squared_path > 0.0 ? loops.gap(Half::translation) / squared_path : 0.0);
   const double steady =
       drifts ? loops.motion(Half::rotation, Growth::time, false) / by.steady_after : 0.0;
-  const double noise_r = turn / (1.0 + steady);
+  const double noise_r = variance_r / (1.0 + steady);
   const double noise_t =
       by.noise_part * by.noise_part * squared_path + plausible(loops, Half::translation);
 
@@ -60,7 +62,7 @@ void guess_odometry(MotionModel& model, const MotionPriorOptions& by, const Loop
 }
 
 void guess_closures(MotionModel& model, const LoopAverages& loops) {
-  double noise[2] = {0.0, 0.0};  // the variance that the model's noise accumulates along a loop
+  double noise[2] = {0.0, 0.0};  // modelled noise variance accumulated along a loop
   for (const Term& term : model) {
     if (term.cause != Cause::noise) continue;
     noise[static_cast<int>(term.half)] += term.value * loops.motion(term.half, term.growth, false);
@@ -69,14 +71,14 @@ void guess_closures(MotionModel& model, const LoopAverages& loops) {
     if (!is_guessed(term, Cause::closures)) continue;
     term.value = 1.0;
     const double stated = loops.stated(term.half), gap = loops.gap(term.half);
-    if (stated <= kHonest * gap) continue;
+    if (stated <= kPlausibleRatio * gap) continue;
     const double by_odometry =
         noise[static_cast<int>(term.half)] / loops.stated_odometry(term.half);
     term.value = std::min(1.0, std::max(by_odometry, 0.01 * gap / stated));
   }
 }
 
-/// What every hypothesis knows u by; a term's own follow.
+/// Indices of the unknowns that all hypotheses share; those of individual terms follow.
 enum : Eigen::Index {
   kChoice,
   kTranslation,
@@ -95,13 +97,13 @@ std::vector<std::vector<MotionPrior::Hang>> hangs_of(const MotionModel& medians,
   for (const Term& term : medians) {
     std::vector<MotionPrior::Hang> hangs;
     if (term.cause != Cause::closures) {
-      const bool moves = term.cause != Cause::stated && term.half == Half::translation;
-      hangs.push_back({moves ? kTranslation : kRotation, options.scale_spread});
+      const bool is_translation = term.cause != Cause::stated && term.half == Half::translation;
+      hangs.push_back({is_translation ? kTranslation : kRotation, options.scale_spread});
     }
     if (term.cause == Cause::drift) {
       hangs.push_back({kSteady, options.steady_spread});
       if (term.axis >= 0) {
-        // In the plane there is one axis to turn about and nothing to compare it with.
+        // A planar problem has only one rotation axis.
         if (!planar) hangs.push_back({kAxis + term.axis, options.axis_spread});
         hangs.push_back({kGrowth + static_cast<Eigen::Index>(term.growth), options.share_spread});
       }
@@ -117,16 +119,16 @@ std::vector<std::vector<MotionPrior::Hang>> hangs_of(const MotionModel& medians,
   return out;
 }
 
-bool guesses(const MotionModel& model, Cause cause) {
+bool has_guessed(const MotionModel& model, Cause cause) {
   return std::ranges::any_of(model, [&](const Term& term) { return is_guessed(term, cause); });
 }
 
-/// Turns the free hypothesis into one of the simple ones.
+/// Converts the free hypothesis into one of the simple ones.
 void simplify(MotionPrior::Hypothesis& to, Covariance covariance, const MotionPriorOptions& by) {
   to.covariance = covariance;
   double stated = 0.0;
   for (Term& term : to.medians) {
-    if (term.cause == Cause::stated) stated = term.value /= by.stated_part;  // all of the noise
+    if (term.cause == Cause::stated) stated = term.value /= by.stated_part;  // the whole noise
     if (is_guessed(term, Cause::noise)) term.value = 0.0;
   }
   for (std::size_t j = 0; j < to.medians.size(); ++j) {
@@ -154,7 +156,7 @@ MotionPrior prior_of(const MotionModel& model,
   out.unknowns = kOwn + static_cast<Eigen::Index>(medians.size());
   const MotionPrior::Hypothesis all{
       Covariance::free, true, 1.0, medians, hangs_of(medians, options, problem.planar)};
-  const bool drifts = guesses(medians, Cause::drift);
+  const bool drifts = has_guessed(medians, Cause::drift);
   const double chances[] = {options.as_stated_chance,
                             options.scaled_chance,
                             std::max(0.0, 1.0 - options.as_stated_chance - options.scaled_chance)};
@@ -164,7 +166,7 @@ MotionPrior prior_of(const MotionModel& model,
          {Covariance::as_stated, Covariance::scaled, Covariance::free}) {
       MotionPrior::Hypothesis one = all;
       if (covariance != Covariance::free) {
-        if (!guesses(medians, Cause::stated)) continue;
+        if (!has_guessed(medians, Cause::stated)) continue;
         simplify(one, covariance, options);
       }
       one.chance = chances[static_cast<std::size_t>(covariance)];

@@ -1,4 +1,4 @@
-/// What to believe of an error model before the loops are looked at closely.
+/// Prior of the error model.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,36 +7,37 @@
 
 namespace loopbench {
 
-/// How large errors are thought to be, for terms that are not given, and how far each may be from
-/// that. Spreads are standard deviations of logarithms of variances. Learnt on the development
-/// chains of results/methods: there steady drift outweighs noise after 4 s to 5 min.
+/// Prior medians of terms that are not given as options, and their uncertainty. A spread is the
+/// standard deviation of the log of a variance. Tuned on the development chains of results/methods,
+/// in which steady drift exceeds noise after 4 s to 5 min.
 struct MotionPriorOptions {
-  double noise_part = 0.002;   ///< of the way: translation noise gathered over a loop [-]
-  double stated_part = 0.33;   ///< of the noise: shaped as the odometry edges state [-]
-  double steady_after = 60.0;  ///< loops this long gather as much from drift as from noise [s]
-  double scale_spread = 2.3;   ///< of all errors of a half together
-  double steady_spread = 1.8;  ///< of steady drift against noise
-  double axis_spread = 1.5;    ///< of one body axis' drift against the others'
-  double share_spread = 0.7;   ///< of each term beside all that
-  double stated_spread = 1.5;  ///< of what the odometry edges state, beside the scale
-  double closures_spread = 0.7;
-  double as_stated_chance = 0.5;  ///< see Covariance; the rest is its last
+  double noise_part = 0.002;  ///< translation noise along a loop / path length of the loop [-]
+  double stated_part = 0.33;  ///< part of the rotation noise proportional to stated covariances [-]
+  double steady_after = 60.0;    ///< loop duration at which drift and noise have equal variance [s]
+  double scale_spread = 2.3;     ///< scale common to all errors of a component
+  double steady_spread = 1.8;    ///< ratio of steady drift to noise
+  double axis_spread = 1.5;      ///< drift of one body axis relative to the others
+  double share_spread = 0.7;     ///< a single term
+  double stated_spread = 1.5;    ///< the stated odometry covariance relative to the scale
+  double closures_spread = 0.7;  ///< factors on the closure covariances
+  double as_stated_chance = 0.5;  ///< probabilities of Covariance; `free` has the remainder
   double scaled_chance = 0.25;
-  double steady_chance = 0.7;  ///< that anything drifts steadily
-  double drift_reach = 2.0;    ///< of drift beyond the loops, of the motion they enclose [-]
+  double steady_chance = 0.7;  ///< probability of steady drift
+  double drift_reach = 2.0;    ///< extrapolation of drift / motion enclosed by loops [-]
 };
 
-/// What the noise may be like. As stated: every covariance of the problem times one factor, which
-/// no trajectory depends on (without drift: `dual`). Scaled: odometry times one factor, closures
-/// times others. Free: growing with the motion, besides.
+/// Hypotheses about the covariances. as_stated: all stated covariances times one common factor, on
+/// which no trajectory depends (without drift: `dual`). scaled: one factor for the odometry and
+/// separate ones for the closures. free: additional noise that grows with the motion.
 enum class Covariance { as_stated, scaled, free };
 
-/// Simple hypotheses beside the one that all are cases of: loops that say little leave them their
-/// chances, and so the answer near `dual`'s; what is more has to explain the gaps that much better.
+/// Model selection between the general model and simpler special cases. If the loops carry little
+/// information, the simple hypotheses keep their prior probabilities and the result stays near that
+/// of `dual`; a more complex hypothesis has to explain the gaps correspondingly better.
 ///
-/// Independent standard normal unknowns u. u[0] chooses the hypothesis: the one whose part of all
-/// chances the distribution function of u[0] falls into. There log(value of term j) = log(median) +
-/// sum spread * u.
+/// The unknowns u are independent standard normal. u[0] selects the hypothesis: its normal
+/// distribution function is compared with the cumulative probabilities of the hypotheses. Under
+/// that hypothesis, log(value of term j) = log(median_j) + sum spread * u.
 struct MotionPrior {
   struct Hang {
     Eigen::Index unknown;
@@ -44,37 +45,39 @@ struct MotionPrior {
   };
   struct Hypothesis {
     Covariance covariance = Covariance::free;
-    bool steady = true;  ///< drift
+    bool steady = true;  ///< has steady drift
     double chance = 1.0;
-    MotionModel medians;                   ///< the same terms in all; those it denies are zero
-    std::vector<std::vector<Hang>> hangs;  ///< one list a term
+    MotionModel medians;  ///< the same terms in all hypotheses; excluded terms are 0
+    std::vector<std::vector<Hang>> hangs;  ///< one list per term
   };
-  /// The last denies nothing.
+  /// The last hypothesis excludes no term.
   std::vector<Hypothesis> hypotheses;
   Eigen::Index unknowns = 1;
 };
 
-/// Translation errors are a part of the way, so that the unit of length, unknown to a monocular
-/// camera, does not matter; rotation errors are judged by the turning gaps, which odometry makes.
-/// Terms of one cause and half get equal parts; terms that nothing could feed are dropped.
+/// Derives the prior from the loops. Translation noise is a fraction of the path length, so the
+/// unknown scale of a monocular camera does not matter; rotation noise is set by the rotation gaps.
+/// Terms of the same kind and component share the variance equally; terms without any regressor are
+/// dropped.
 ///
-/// Closures keep their stated covariance unless they close gaps five times smaller than it: some
-/// files state units of their own. Then it shrinks as far as what odometry states shrinks, but not
-/// below a tenth of the gaps. Means over the loops are weighted (loop_averages.hpp): a closure that
-/// states nearly nothing changes nothing, and a loop at rest does not set an error per metre.
+/// Closures keep their stated covariance unless their gaps are more than five times smaller than
+/// the stated deviations (some files use other units). In that case the covariance shrinks by the
+/// same factor as that of the odometry, but not below a tenth of the gaps in standard deviation.
+/// Means over the loops are weighted (loop_averages.hpp): a closure with almost no information
+/// changes nothing, and a loop at rest does not determine an error per metre.
 ///
-/// `gap` holds the closures' gaps when no edge is corrected, six numbers a closure.
-/// O(edges terms + closures).
+/// `gap` holds the gaps of the uncorrected chain, six numbers per closure. O(edges terms +
+/// closures).
 MotionPrior prior_of(const MotionModel& model,
                      const MotionPriorOptions& options,
                      const Problem& problem,
                      const std::vector<EdgeMotion>& motions,
                      const Eigen::VectorXd& gap);
 
-/// The hypothesis that u chooses. O(hypotheses).
+/// Index of the hypothesis selected by u[0]. O(hypotheses).
 std::size_t hypothesis_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns);
 
-/// O(terms).
+/// Error model at the unknowns u. O(terms).
 MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns);
 
 }  // namespace loopbench

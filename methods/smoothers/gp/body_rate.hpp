@@ -1,4 +1,4 @@
-/// The inverse right Jacobian of SE(3) applied to a twist, and how that changes with its argument.
+/// Inverse right Jacobian of SE(3) applied to a twist, and its derivative.
 #pragma once
 
 #include <numbers>
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// adjoint of the Lie algebra: [a, b] = small_adjoint(a) b.
+/// Adjoint of the Lie algebra: [a, b] = small_adjoint(a) b.
 inline Matrix6 small_adjoint(const Twist& a) {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>() = hat(a.tail<3>());
@@ -16,12 +16,13 @@ inline Matrix6 small_adjoint(const Twist& a) {
   return out;
 }
 
-/// J_r^-1(xi) = I + ad / 2 + c2 ad^2 + c4 ad^4, ad = small_adjoint(xi): exact, since ad has the
-/// eigenvalues 0 and +-i phi only, each twice. c2 and c4 are functions of s = phi^2.
+/// J_r^-1(xi) = I + ad / 2 + c2 ad^2 + c4 ad^4 with ad = small_adjoint(xi). The series is exact,
+/// because ad has only the eigenvalues 0 and +-i phi, each with multiplicity two. c2 and c4 are
+/// functions of s = phi^2.
 struct BodyRateTerms {
   double c2, c4, c2_by_s, c4_by_s;
 
-  /// s below (2 pi)^2.
+  /// Requires s < (2 pi)^2.
   explicit BodyRateTerms(double s) {
     const double phi = std::sqrt(s);
     if (s < 2.0) {
@@ -63,13 +64,13 @@ struct BodyRateTerms {
   }
 };
 
-/// d / d xi of J_r^-1(xi) v, for v held.
+/// Derivative of J_r^-1(xi) v with respect to xi, for constant v.
 inline Matrix6 body_rate_by_step(const Twist& xi, const Twist& v) {
   const BodyRateTerms c(xi.tail<3>().squaredNorm());
   const Matrix6 ad = small_adjoint(xi);
   const Matrix6 ad2 = ad * ad;
   const Twist v1 = ad * v, v2 = ad * v1, v3 = ad * v2, v4 = ad * v3;
-  // ad(d) w = -ad(w) d for each factor ad in turn.
+  // ad(d) w = -ad(w) d, applied to each factor ad.
   const Matrix6 V = small_adjoint(v), V1 = small_adjoint(v1);
   const Matrix6 V2 = small_adjoint(v2), V3 = small_adjoint(v3);
   Matrix6 out = -0.5 * V - c.c2 * (V1 + ad * V) - c.c4 * (V3 + ad * V2 + ad2 * (V1 + ad * V));

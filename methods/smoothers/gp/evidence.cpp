@@ -7,31 +7,31 @@
 namespace loopbench {
 namespace {
 
-double on_lattice(double value) {
+double round_to_lattice(double value) {
   return std::pow(10.0, std::round(8.0 * std::log10(value)) / 8.0);
 }
 
-struct Scalar {
+struct ScalarNoise {
   double sigma, power;
 };
 
-/// Noise and power of one kind of axis, from the smoothing spline.
-Scalar first_of(const std::vector<double>& times,
-                const std::vector<Vector3>& y,
-                int P,
-                Criterion criterion) {
+/// Estimates noise and power of translation or rotation from the smoothing spline.
+ScalarNoise noise_from_spline(const std::vector<double>& times,
+                              const std::vector<Vector3>& y,
+                              int P,
+                              Criterion criterion) {
   double extent = 1e-3;
   for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
   const Reinsch reinsch(times);
-  // Beyond, the normal equations run out of digits.
+  // Above this bound the normal equations lose precision.
   const double lambda = std::min(chosen_lambda(reinsch, times, y, criterion), 1e6);
   const double energy = reinsch.fit(y, lambda).energy.sum();
   const double freedom = 3.0 * static_cast<double>(y.size() - 2);
-  const double sigma = on_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
+  const double sigma = round_to_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
   double power = sigma * sigma / lambda;
-  // A jerk that makes as much acceleration over the time that the spline smooths over.
+  // The jerk power that produces the same acceleration over the smoothing time of the spline.
   if (P == 3) power /= std::max(1.0, std::pow(lambda, 2.0 / 3.0));
-  return {sigma, on_lattice(power)};
+  return {sigma, round_to_lattice(power)};
 }
 
 }  // namespace
@@ -44,12 +44,13 @@ GpParameters first_parameters(const Trajectory& measured,
   const double first = times.front();
   const double interval = (times.back() - first) / static_cast<double>(times.size() - 1);
   for (double& time : times) time = (time - first) / interval;
-  const std::vector<Rotation> turned = attitudes(measured);
-  const Unrolled path(turned);
-  std::vector<Vector3> flat;
-  for (std::size_t i = 0; i < turned.size(); ++i) flat.push_back(path.flattened(i, turned[i]));
-  const Scalar t = first_of(times, places(measured), P, criterion);
-  const Scalar r = first_of(times, flat, P, criterion);
+  const std::vector<Rotation> rotations = attitudes(measured);
+  const Unrolled path(rotations);
+  std::vector<Vector3> unrolled;
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    unrolled.push_back(path.flattened(i, rotations[i]));
+  const ScalarNoise t = noise_from_spline(times, places(measured), P, criterion);
+  const ScalarNoise r = noise_from_spline(times, unrolled, P, criterion);
   return {given.sigma_t.value_or(t.sigma),
           given.sigma_r.value_or(r.sigma),
           given.power_t.value_or(t.power),
@@ -61,34 +62,36 @@ GpChosen chosen_parameters(const GpPosterior<P>& posterior,
                            const typename GpPosterior<P>::States& states,
                            const GpParameters& start,
                            const GpGiven& given) {
-  constexpr double kBetter = 1e-3;  // [nats]; less is rounding or does not matter
-  constexpr int kFarthest = 32;     // four decades from the start
+  constexpr double kMinDecrease = 1e-3;  // [nats]; a smaller difference may be rounding
+  constexpr int kFarthest = 32;          // lattice steps: four decades from the start
   GpChosen out{start, 1};
-  double least = posterior.negative_evidence(states, start);
-  struct Knob {
+  double lowest = posterior.negative_evidence(states, start);
+  struct Coordinate {
     double GpParameters::*value;
     bool fixed;
     int moved = 0;
   };
-  std::array<Knob, 4> knobs{Knob{&GpParameters::power_t, given.power_t.has_value()},
-                            Knob{&GpParameters::sigma_t, given.sigma_t.has_value()},
-                            Knob{&GpParameters::power_r, given.power_r.has_value()},
-                            Knob{&GpParameters::sigma_r, given.sigma_r.has_value()}};
+  std::array<Coordinate, 4> coordinates{
+      Coordinate{&GpParameters::power_t, given.power_t.has_value()},
+      Coordinate{&GpParameters::sigma_t, given.sigma_t.has_value()},
+      Coordinate{&GpParameters::power_r, given.power_r.has_value()},
+      Coordinate{&GpParameters::sigma_r, given.sigma_r.has_value()}};
   for (int step = 4; step >= 1; step /= 2) {
     for (bool improved = true; improved;) {
       improved = false;
-      for (Knob& knob : knobs) {
-        if (knob.fixed) continue;
-        for (const int way : {step, -step}) {
-          if (std::abs(knob.moved + way) > kFarthest) continue;
+      for (Coordinate& coordinate : coordinates) {
+        if (coordinate.fixed) continue;
+        for (const int change : {step, -step}) {
+          if (std::abs(coordinate.moved + change) > kFarthest) continue;
           GpParameters trial = out.parameters;
-          trial.*knob.value = start.*knob.value * std::pow(10.0, (knob.moved + way) / 8.0);
+          trial.*coordinate.value =
+              start.*coordinate.value * std::pow(10.0, (coordinate.moved + change) / 8.0);
           const double value = posterior.negative_evidence(states, trial);
           ++out.evaluations;
-          if (!(value < least - kBetter)) continue;
-          least = value;
+          if (!(value < lowest - kMinDecrease)) continue;
+          lowest = value;
           out.parameters = trial;
-          knob.moved += way;
+          coordinate.moved += change;
           improved = true;
           break;
         }

@@ -1,4 +1,4 @@
-/// Hyper-parameters of the Gaussian process by marginal likelihood.
+/// Estimates the hyperparameters of the Gaussian process by maximum marginal likelihood.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,22 @@
 
 namespace loopbench {
 
-/// Empty where the data shall decide; powers are per mean interval.
+/// Hyperparameters fixed by the user; empty values are estimated. Powers are per mean interval.
 struct GpGiven {
   std::optional<double> sigma_t, sigma_r, power_t, power_r;
 };
 
-/// Steps down -log evidence on a lattice of exponents (10^(k / 8)), one parameter at a time, half a
-/// decade first, then finer. `states` are where the problem is linearised. Some 50 eliminations of
-/// O(n).
+/// Result of chosen_parameters(): coordinate descent of -log evidence on a lattice of exponents
+/// (10^(k / 8)), with steps of half a decade at first and then halved steps. `states` is the
+/// linearisation point. About 50 eliminations of O(n).
 struct GpChosen {
   GpParameters parameters;
   int evaluations = 0;
 };
 
-/// From the scalar form of the same model for P = 2, which is the smoothing spline (reinsch.hpp)
-/// with restricted likelihood; GCV gives another start. Valleys of the evidence are several where
-/// keyframes are sparse, so both are worth trying.
+/// Returns initial hyperparameters from the scalar form of the model for P = 2, the smoothing
+/// spline (reinsch.hpp), with the restricted likelihood or GCV. For sparse keyframes the evidence
+/// has several local maxima, so both criteria should be tried.
 GpParameters first_parameters(const Trajectory& measured,
                               int P,
                               Criterion criterion,

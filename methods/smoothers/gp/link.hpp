@@ -1,4 +1,4 @@
-/// What the prior says about two neighbouring states, and its Jacobians.
+/// Prior residual between two neighbouring states, and its Jacobians.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace loopbench {
 
-/// Pose, body twist per unit of time, and for P = 3 its derivative. Perturbed by pose Exp(d).
+/// Pose, body twist per unit of time, and for P = 3 its derivative. The pose is perturbed by Exp(d)
+/// on the right.
 template <int P>
 struct GpState {
   Pose pose;
@@ -20,12 +21,12 @@ using GpVector = Eigen::Matrix<double, 6 * P, 1>;
 template <int P>
 using GpMatrix = Eigen::Matrix<double, 6 * P, 6 * P>;
 
-/// Seen from state i, xi(t) = Log(T_i^-1 T(t)) and its derivatives at state j:
-/// xi, J_r^-1(xi) w_j, and for P = 3 also ad(J_r^-1 w_j) w_j / 2 + J_r^-1(xi) a_j (Tang 2019, up to
-/// terms of order xi). At state i they are 0, w_i, a_i.
+/// Local coordinates of state j relative to state i: xi(t) = Log(T_i^-1 T(t)) and its derivatives
+/// at j. They are xi, J_r^-1(xi) w_j, and for P = 3 also ad(J_r^-1 w_j) w_j / 2 + J_r^-1(xi) a_j
+/// (Tang 2019, up to terms of order xi). At state i they are 0, w_i, a_i.
 template <int P>
 struct LocalState {
-  std::array<Twist, P> value;  ///< of j
+  std::array<Twist, P> value;  ///< local coordinates of j
   GpMatrix<P> by_from = GpMatrix<P>::Zero();
   GpMatrix<P> by_to = GpMatrix<P>::Zero();
 };
@@ -59,9 +60,9 @@ LocalState<P> local_state(const GpState<P>& from, const GpState<P>& to) {
   return out;
 }
 
-/// error = W (local state of `to` - Phi(h) local state of `from`), W' W the inverse covariance for
-/// unit power: white but for the power of the noise, which differs between rows 0..2 and 3..5 of
-/// each six.
+/// error = W (local state of `to` - Phi(h) local state of `from`), where W' W is the inverse
+/// covariance for unit power. The error is white up to the power of the noise, which differs
+/// between rows 0..2 and 3..5 of each six.
 template <int P>
 struct Link {
   GpVector<P> error;

@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-/// 1 / sqrt of what each row of six is worth: of translation and of rotation.
+/// 1 / standard deviation of each row, where each six rows are translation and then rotation.
 template <int Rows>
 Eigen::Matrix<double, Rows, 1> row_weights(double variance_t, double variance_r) {
   Eigen::Matrix<double, Rows, 1> out;
@@ -23,7 +23,7 @@ GpPosterior<P>::GpPosterior(const Trajectory& measured)
                 static_cast<double>(measured.size() - 1)) {
   for (std::size_t i = 0; i < measured.size(); ++i) {
     measured_.push_back(measured[i].world_from_body);
-    if (i > 0) gaps_.push_back((measured[i].stamp - measured[i - 1].stamp) / interval_);
+    if (i > 0) intervals_.push_back((measured[i].stamp - measured[i - 1].stamp) / interval_);
     const Vector3 from_start = measured_[i].translation - measured_[0].translation;
     extent_ = std::max(extent_, from_start.norm());
   }
@@ -36,7 +36,7 @@ typename GpPosterior<P>::States GpPosterior<P>::first_guess() const {
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, n - 1);
     double time = 0.0;
-    for (std::size_t k = before; k < after; ++k) time += gaps_[k];
+    for (std::size_t k = before; k < after; ++k) time += intervals_[k];
     out[i].pose = measured_[i];
     for (Twist& rate : out[i].rates) rate.setZero();
     out[i].rates[0] = log_se3(measured_[before].inverse() * measured_[after]) / time;
@@ -51,10 +51,10 @@ double GpPosterior<P>::cost(const States& states, const GpParameters& parameters
   const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
   double sum = 0.0;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Twist miss = log_se3(measured_[i].inverse() * states[i].pose);
-    sum += pose_weights.cwiseProduct(miss).squaredNorm();
+    const Twist residual = log_se3(measured_[i].inverse() * states[i].pose);
+    sum += pose_weights.cwiseProduct(residual).squaredNorm();
     if (i == 0) continue;
-    const GpVector<P> error = link<P>(states[i - 1], states[i], gaps_[i - 1]).error;
+    const GpVector<P> error = link<P>(states[i - 1], states[i], intervals_[i - 1]).error;
     sum += link_weights.cwiseProduct(error).squaredNorm();
   }
   return 0.5 * sum;
@@ -68,21 +68,21 @@ typename GpPosterior<P>::Elimination GpPosterior<P>::eliminate(const States& sta
                                            parameters.sigma_r * parameters.sigma_r);
   const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
   Elimination out{0.0, 0.0, 0.0};
-  GpMatrix<P> block = GpMatrix<P>::Zero();  // what earlier states leave on the diagonal
+  GpMatrix<P> block = GpMatrix<P>::Zero();  // Schur complement of the earlier states
   GpVector<P> gradient = GpVector<P>::Zero();
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Twist miss = log_se3(measured_[i].inverse() * states[i].pose);
-    const Matrix6 J = pose_weights.asDiagonal() * inverse_right_jacobian_se3(miss);
-    const Twist white = pose_weights.cwiseProduct(miss);
+    const Twist residual = log_se3(measured_[i].inverse() * states[i].pose);
+    const Matrix6 J = pose_weights.asDiagonal() * inverse_right_jacobian_se3(residual);
+    const Twist whitened = pose_weights.cwiseProduct(residual);
     block.template topLeftCorner<6, 6>() += J.transpose() * J;
-    gradient.template head<6>() += J.transpose() * white;
-    out.cost += 0.5 * white.squaredNorm();
+    gradient.template head<6>() += J.transpose() * whitened;
+    out.cost += 0.5 * whitened.squaredNorm();
 
     const bool is_last = i + 1 == states.size();
     Link<P> next;
     GpMatrix<P> coupling = GpMatrix<P>::Zero();
     if (!is_last) {
-      next = link<P>(states[i], states[i + 1], gaps_[i]);
+      next = link<P>(states[i], states[i + 1], intervals_[i]);
       next.error = link_weights.cwiseProduct(next.error).eval();
       next.by_from = (link_weights.asDiagonal() * next.by_from).eval();
       next.by_to = (link_weights.asDiagonal() * next.by_to).eval();
@@ -93,7 +93,7 @@ typename GpPosterior<P>::Elimination GpPosterior<P>::eliminate(const States& sta
     }
     const Eigen::LLT<GpMatrix<P>> factor(block);
     if (factor.info() != Eigen::Success) {
-      throw std::runtime_error("gp: normal equations are not positive definite at keyframe " +
+      throw std::runtime_error("gp: the normal equations are not positive definite at keyframe " +
                                std::to_string(i));
     }
     out.log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
@@ -113,10 +113,10 @@ template <int P>
 int GpPosterior<P>::solve(States& states, const GpParameters& parameters) const {
   constexpr int kMostSteps = 30;
   constexpr int kMostHalvings = 10;
-  constexpr double kStill = 1e-12;    // of the extent, and [rad]
-  constexpr double kRounding = 1e-9;  // steps so small are taken unasked
+  constexpr double kConverged = 1e-12;  // relative to the extent, and [rad]
+  constexpr double kRounding = 1e-9;    // smaller steps are accepted without a decrease of the cost
   std::vector<Step> steps(states.size());
-  double now = cost(states, parameters);
+  double current_cost = cost(states, parameters);
   for (int iteration = 1; iteration <= kMostSteps; ++iteration) {
     eliminate(states, parameters, &steps);
     std::vector<GpVector<P>> step(states.size());
@@ -139,13 +139,13 @@ int GpPosterior<P>::solve(States& states, const GpParameters& parameters) const 
           trial[i].rates[static_cast<std::size_t>(a - 1)] += part.template segment<6>(6 * a);
         }
       }
-      const double then = cost(trial, parameters);
-      better = then < now || largest < kRounding;
+      const double trial_cost = cost(trial, parameters);
+      better = trial_cost < current_cost || largest < kRounding;
       if (!better) continue;
-      now = then;
+      current_cost = trial_cost;
       states = std::move(trial);
     }
-    if (largest < kStill || !better) return iteration;
+    if (largest < kConverged || !better) return iteration;
   }
   return kMostSteps;
 }

@@ -1,4 +1,4 @@
-/// The most probable states of a Gaussian process on SE(3) that noisy poses were drawn from.
+/// Most probable states of a Gaussian process on SE(3), given noisy poses.
 #pragma once
 
 #include <vector>
@@ -8,37 +8,38 @@
 
 namespace loopbench {
 
-/// Time runs in mean intervals between the poses.
+/// Hyperparameters. The unit of time is the mean interval between the poses.
 struct GpParameters {
-  double sigma_t, sigma_r;  ///< of a measured pose [m], [rad]
-  double power_t, power_r;  ///< of the driving noise [m^2], [rad^2] per interval
+  double sigma_t, sigma_r;  ///< standard deviation of a measured pose [m], [rad]
+  double power_t, power_r;  ///< power of the driving noise [m^2], [rad^2] per interval
 };
 
 /// Minimises, by Gauss-Newton on the block tridiagonal normal equations,
 ///
 ///     1/2 sum_i |Log(M_i^-1 T_i)|^2_R + 1/2 sum_i |link(state_i, state_{i+1})|^2_Q,
 ///
-/// O(n) an iteration, blocks of 6 P. Source: Anderson & Barfoot 2015; Barfoot, ch. 11.
+/// with blocks of size 6 P. O(n) per iteration. Source: Anderson & Barfoot 2015; Barfoot, ch. 11.
 template <int P>
 class GpPosterior {
  public:
   using States = std::vector<GpState<P>>;
 
-  /// P + 1 poses or more.
+  /// Requires at least P + 1 poses.
   explicit GpPosterior(const Trajectory& measured);
 
-  double interval() const { return interval_; }                 ///< mean [s]
-  double interval_of(std::size_t i) const { return gaps_[i]; }  ///< [mean intervals]
+  double interval() const { return interval_; }                      ///< mean [s]
+  double interval_of(std::size_t i) const { return intervals_[i]; }  ///< [mean intervals]
 
-  /// Measured poses, rates from differences.
+  /// Initial states: the measured poses, and rates from finite differences.
   States first_guess() const;
 
-  /// Iterates from `states`; the number of steps. Deterministic; throws std::runtime_error when the
-  /// normal equations are not positive definite.
+  /// Minimises the cost starting from `states`; returns the number of iterations. Deterministic.
+  /// Throws std::runtime_error when the normal equations are not positive definite.
   int solve(States& states, const GpParameters& parameters) const;
 
-  /// -log p(measured | parameters) up to a constant, by Laplace at `states`: half the cost at its
-  /// linear minimum + half log det of the normal matrix, of Q and of R. One elimination, O(n).
+  /// Returns -log p(measured | parameters) up to a constant by the Laplace approximation at
+  /// `states`: the cost at its linearised minimum + half the log determinants of the normal matrix,
+  /// of Q and of R. One elimination, O(n).
   double negative_evidence(const States& states, const GpParameters& parameters) const;
 
  private:
@@ -55,9 +56,9 @@ class GpPosterior {
   double cost(const States& states, const GpParameters& parameters) const;
 
   std::vector<Pose> measured_;
-  std::vector<double> gaps_;
+  std::vector<double> intervals_;  ///< between the poses [mean intervals]
   double interval_;
-  double extent_ = 1.0;  ///< [m], at least 1: what convergence is relative to
+  double extent_ = 1.0;  ///< scale of the convergence threshold, at least 1 [m]
 };
 
 extern template class GpPosterior<2>;

@@ -1,4 +1,5 @@
-/// White noise driving the P-th derivative: P = 2 constant velocity, P = 3 constant acceleration.
+/// Motion prior with white noise on the P-th derivative: P = 2 constant velocity, P = 3 constant
+/// acceleration.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -7,10 +8,9 @@
 
 namespace loopbench {
 
-/// One scalar axis with state (x, x', ..), over an interval taken as the unit of time; over h
-/// seconds, derivative a scales by h^-a and the covariance by h^(2P-1). Source: Barfoot, State
-/// Estimation for Robotics, 3.4; Anderson & Barfoot 2015 (P = 2), Tang, Yoon & Barfoot 2019 (P =
-/// 3).
+/// One scalar axis with state (x, x', ..) over a unit interval. Over h seconds, derivative a scales
+/// by h^-a and the covariance by h^(2P-1). Source: Barfoot, State Estimation for Robotics, 3.4;
+/// Anderson & Barfoot 2015 (P = 2), Tang, Yoon & Barfoot 2019 (P = 3).
 template <int P>
 struct Prior {
   using Small = Eigen::Matrix<double, P, P>;
@@ -25,7 +25,7 @@ struct Prior {
     return out;
   }
 
-  /// int_0^s Phi(s - r) e e' Phi(s - r)' dr with e the last unit vector.
+  /// int_0^s Phi(s - r) e e' Phi(s - r)' dr, where e is the last unit vector.
   static Small covariance(double s) {
     Small out;
     for (int a = 0; a < P; ++a) {
@@ -38,13 +38,13 @@ struct Prior {
     return out;
   }
 
-  /// W with W' W = covariance(1)^-1.
+  /// Returns the W with W' W = covariance(1)^-1.
   static Small root() {
     const Small lower = covariance(1.0).llt().matrixL();
     return lower.template triangularView<Eigen::Lower>().solve(Small::Identity());
   }
 
-  /// What the states at 0 and 1 give to the value x(s) in between, by the posterior mean.
+  /// Weights of the states at 0 and 1 in the posterior mean of x(s).
   struct Weights {
     Eigen::Matrix<double, 1, P> from, to;
   };

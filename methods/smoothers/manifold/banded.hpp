@@ -1,4 +1,4 @@
-/// Systems with `band` diagonals on each side of the main one, solved in O(n band^2).
+/// Linear systems with `band` diagonals on each side of the main one, solved in O(n band^2).
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace loopbench::manifold {
 
 constexpr std::size_t kMostBand = 5;
 
-/// Elimination without pivoting: stable for the totally positive matrices of B-spline
-/// interpolation (de Boor & Pinkus 1977) and for positive definite ones, its two uses here.
+/// Elimination without pivoting. It is stable for both uses here: the totally positive matrices of
+/// B-spline interpolation (de Boor & Pinkus 1977) and positive definite matrices.
 template <class Value>
 class Banded {
  public:
@@ -22,7 +22,7 @@ class Banded {
   Value& right(std::size_t row) { return right_[row]; }
   std::size_t size() const { return rows_.size(); }
 
-  /// Destroys the matrix.
+  /// Solves the system and overwrites the matrix.
   std::vector<Value> solve() {
     for (std::size_t i = 0; i < size(); ++i) {
       for (std::size_t j = i + 1; j <= std::min(i + band_, size() - 1); ++j) {
@@ -45,7 +45,7 @@ class Banded {
 
  private:
   std::size_t band_;
-  std::vector<std::array<double, 2 * kMostBand + 1>> rows_;  ///< zero when made
+  std::vector<std::array<double, 2 * kMostBand + 1>> rows_;  ///< initially zero
   std::vector<Value> right_;
 };
 

@@ -1,4 +1,4 @@
-/// The quintic between two pieces, and the ramp that moves a piece to where it should end.
+/// Quintic bridge between two pieces, and the ramp that shifts the ends of a piece.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace loopbench::manifold {
 
-/// Asked at a time of type T, a Value or its Jet.
+/// Result type of a function of time: Value for a double, Jet<Value> for a Jet.
 template <class T, class Value>
 using Asked = std::conditional_t<std::is_same_v<T, double>, Value, Jet<Value>>;
 
-/// Quintic Hermite: value and two derivatives at both ends. Empty while begin == end.
+/// Quintic Hermite polynomial: value and two derivatives at both ends. Empty if begin == end.
 template <class Value>
 struct Bridge {
   double begin = 0.0;  ///< [s]
@@ -41,7 +41,8 @@ struct Bridge {
   }
 };
 
-/// What is added to a piece so that it meets its neighbours: linear over the time it owns.
+/// Offset that is added to a piece so that it meets its neighbours; linear over the piece's own
+/// time span.
 template <class Value>
 struct Ramp {
   double from = 0.0, to = 1.0;  ///< [s]

@@ -27,7 +27,7 @@ BSpline BSpline::through(std::span<const double> sites,
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t span = out.span(sites[i]);
     const auto N = basis(out.knots_, k, span, sites[i]);
-    // A site on a knot has a vanishing last or first function, which may lie outside the band.
+    // At a site on a knot the last or first function is zero and may lie outside the band.
     for (std::size_t j = 0; j < k; ++j) {
       if (N[j] != 0.0) system.at(i, span + 1 - k + j) = N[j];
     }
@@ -41,7 +41,7 @@ BSpline BSpline::near(std::span<const double> sites,
                       std::span<const Value> values,
                       std::span<const double> inner_knots,
                       std::size_t order) {
-  constexpr double tie = 1e-9;
+  constexpr double penalty = 1e-9;
   BSpline out;
   const std::size_t k = order;
   out.order_ = k;
@@ -59,7 +59,8 @@ BSpline BSpline::near(std::span<const double> sites,
       normal.right(row) += N[a] * values[i];
     }
   }
-  // Bend over Greville abscissae, where the controls of a straight line lie: it stays straight.
+  // Differences over the Greville abscissae, where the controls of a straight line lie, so that a
+  // straight line has no penalty.
   std::vector<double> greville(normal.size(), 0.0);
   for (std::size_t j = 0; j < greville.size(); ++j) {
     for (std::size_t i = 1; i < k; ++i)
@@ -72,7 +73,7 @@ BSpline BSpline::near(std::span<const double> sites,
     const std::array difference{mean / before, -mean / before - mean / after, mean / after};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
-        normal.at(row + a, row + b) += tie * difference[a] * difference[b];
+        normal.at(row + a, row + b) += penalty * difference[a] * difference[b];
       }
     }
   }

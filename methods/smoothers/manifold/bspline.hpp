@@ -1,7 +1,7 @@
-/// B-splines of order k: the article's equations (11) and (12), the latter repaired.
+/// B-splines of order k: the article's equations (11) and (12), with (12) corrected.
 ///
-/// Printed, the second numerator of (12) is m_{t+k}; it must be m_{t+k} - u, else the basis is no
-/// partition of unity. Order k is degree k - 1: a cubic has k = 4.
+/// The second numerator of (12) is printed as m_{t+k}; it must be m_{t+k} - u, otherwise the basis
+/// is no partition of unity. Order k is degree k - 1: a cubic has k = 4.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ namespace loopbench::manifold {
 
 constexpr std::size_t kMostOrder = 6;
 
-/// N_{t,k}(u) for the k basis functions t = span - k + 1 .. span that are not zero between
-/// knots[span] and knots[span + 1]: the recursion (12) from order 1 up. O(k^2).
+/// Returns N_{t,k}(u) for the k basis functions t = span - k + 1 .. span that are nonzero between
+/// knots[span] and knots[span + 1], by the recursion (12) from order 1. O(k^2).
 template <class T>
 std::array<T, kMostOrder> basis(std::span<const double> knots,
                                 std::size_t k,
@@ -40,16 +40,17 @@ class BSpline {
  public:
   using Value = Eigen::Vector4d;
 
-  /// Through values[i] at sites[i] (strictly increasing, two or more). Knots k-fold at both ends,
-  /// inside the mean of k - 1 sites, which puts a site under every basis function (Schoenberg and
-  /// Whitney; de Boor ch. XIII). Order 2..6, lowered to the number of sites. O(n k^2).
+  /// Interpolates values[i] at sites[i] (at least two, strictly increasing). End knots are repeated
+  /// k times; inner knots are means of k - 1 sites, so the Schoenberg-Whitney conditions hold (de
+  /// Boor ch. XIII). Order 2..6, reduced to the number of sites. O(n k^2).
   static BSpline through(std::span<const double> sites,
                          std::span<const Value> values,
                          std::size_t order);
 
-  /// Least squares with the given inner knots (strictly inside, increasing): the C2 piecewise
-  /// cubic for order 4. A penalty of 1e-9 on the bending of the control polygon decides what no
-  /// site does. Sites non-decreasing, first below last. O(n k^2).
+  /// Least-squares fit with the given inner knots (increasing, strictly inside); for order 4 the C2
+  /// piecewise cubic. A penalty of 1e-9 on the second differences of the control polygon makes
+  /// controls without data unique. Sites must be non-decreasing, the first below the last. O(n
+  /// k^2).
   static BSpline near(std::span<const double> sites,
                       std::span<const Value> values,
                       std::span<const double> inner_knots,
@@ -59,7 +60,7 @@ class BSpline {
   const std::vector<double>& knots() const { return knots_; }
   const std::vector<Value>& controls() const { return controls_; }
 
-  /// The span u lies in; the last one is closed on the right. O(log n).
+  /// Returns the index of the span that contains u; the last span is closed on the right. O(log n).
   std::size_t span(double u) const;
 
   Value at(double u) const;

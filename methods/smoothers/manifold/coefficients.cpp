@@ -46,7 +46,7 @@ std::string described(const Shape& piece) {
 }  // namespace
 
 std::vector<Coefficient> coefficients(const Polynomial& curve, int degree) {
-  // Horner in u = (x - m) / s, multiplied out from the inside.
+  // Expands Horner's scheme in u = (x - m) / s into powers of x, from the inside.
   const double slope = 1.0 / curve.scale;
   const double offset = -curve.centre / curve.scale;
   Eigen::Vector4d powers = Eigen::Vector4d::Zero();
@@ -84,7 +84,7 @@ std::vector<Coefficient> coefficients(const Hyperbola& curve) {
 }
 
 std::vector<Coefficient> coefficients(const Implicit& curve) {
-  // Each (x - mx)^i (y - my)^j / s^(i+j) multiplied out into powers of x and y.
+  // Expands each (x - mx)^i (y - my)^j / s^(i+j) into powers of x and y.
   constexpr std::array<std::array<double, 4>, 4> choose{
       {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}}};
   std::array<std::array<double, 4>, 4> sums{};

@@ -1,11 +1,12 @@
-/// How smoothly the pieces meet, measured and not assumed.
+/// Measures the continuity of a curve where its pieces meet.
 #pragma once
 
 #include "methods/smoothers/manifold/curve.hpp"
 
 namespace loopbench::manifold {
 
-/// Largest jumps over all inner nodes; a B-spline of order 3 has those of its acceleration between.
+/// Largest jumps over all inner nodes. A B-spline of order 3 has its acceleration jumps between
+/// nodes.
 struct Continuity {
   double position = 0.0;      ///< C0 [m]
   double velocity = 0.0;      ///< C1 [m/s]
@@ -14,8 +15,8 @@ struct Continuity {
   double curvature = 0.0;     ///< G2: between the curvature vectors [1/m]
 };
 
-/// Slope and curvature are left out where the curve is slower than 1/1000 of its mean speed on
-/// either side: it has no direction there. O(nodes).
+/// Measures the jumps. Nodes where the speed on either side is below 1/1000 of the mean speed are
+/// ignored for slope and curvature, because the direction is undefined there. O(nodes).
 Continuity continuity(const ManifoldCurve& curve);
 
 }  // namespace loopbench::manifold

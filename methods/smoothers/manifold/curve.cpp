@@ -6,11 +6,11 @@ namespace loopbench::manifold {
 
 ManifoldCurve::ManifoldCurve(const Trajectory& nodes, Parts parts)
     : stamps_(loopbench::stamps(nodes)), parts_(std::move(parts)) {
-  arms_.reserve(nodes.size());
+  rotation_steps_.reserve(nodes.size());
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const Rotation& here = nodes[i].world_from_body.rotation;
+    const Rotation& current = nodes[i].world_from_body.rotation;
     const Rotation& next = nodes[i + 1].world_from_body.rotation;
-    arms_.push_back({here, log_so3(here.conjugate() * next)});
+    rotation_steps_.push_back({current, log_so3(current.conjugate() * next)});
   }
 }
 
@@ -20,7 +20,7 @@ Moving ManifoldCurve::motion(std::size_t edge, double time) const {
 
 Rotation ManifoldCurve::rotation(std::size_t edge, double time) const {
   const double u = (time - stamps_[edge]) / (stamps_[edge + 1] - stamps_[edge]);
-  return arms_[edge].start * exp_so3(u * arms_[edge].turn);
+  return rotation_steps_[edge].start * exp_so3(u * rotation_steps_[edge].turn);
 }
 
 void ManifoldCurve::sample(std::span<const double> times, std::span<Pose> poses) const {

@@ -1,4 +1,4 @@
-/// What the manifold smoother hands back: spline, planar pieces and heights, asked by time.
+/// Result of the manifold smoother: spline, planar pieces and heights as a function of time.
 #pragma once
 
 #include "datasets/core/curve.hpp"
@@ -12,10 +12,11 @@ struct Parts {
   Vector3 base;  ///< position of the first node [m]
   Vector3 up;
   NodeSpline spline;
-  std::optional<Strip<PlanarPiece, Vector3>> planar;  ///< none: y' is the spline's
-  std::optional<Strip<Height, double>> spatial;       ///< none: z' is the spline's
+  std::optional<Strip<PlanarPiece, Vector3>> planar;  ///< none: y' of the spline
+  std::optional<Strip<Height, double>> spatial;       ///< none: z' of the spline
 
-  /// The spline with y' replaced, relative to `base`; `time` a double or its Jet.
+  /// Spline point with y' replaced by the planar piece, relative to `base`; `time` is a double or a
+  /// Jet.
   template <class T>
   VectorOf<T> planar_point(std::size_t edge, const T& time) const {
     const PlaceOf<T> place = spline.at(edge, time);
@@ -23,7 +24,7 @@ struct Parts {
     return planar->at(edge, time, [&](const PlanarPiece& piece) { return asked(piece, place); });
   }
 
-  /// Both replaced.
+  /// Point with y' and z' replaced.
   template <class T>
   VectorOf<T> point(std::size_t edge, const T& time) const {
     const VectorOf<T> out = planar_point(edge, time);
@@ -37,7 +38,7 @@ struct Parts {
 
 class ManifoldCurve final : public Curve {
  public:
-  /// Two nodes or more. Orientation is theirs, on the great arc between them.
+  /// Requires at least two nodes. Orientation is the slerp of theirs.
   ManifoldCurve(const Trajectory& nodes, Parts parts);
 
   double start() const override { return stamps_.front(); }
@@ -49,19 +50,19 @@ class ManifoldCurve final : public Curve {
   const std::vector<double>& stamps() const { return stamps_; }
   const Parts& parts() const { return parts_; }
 
-  /// Position [m], velocity and acceleration, analytically, with the pieces of `edge` even at its
-  /// ends: asked of both edges of a node, the jump there.
+  /// Position [m], velocity and acceleration (analytic), evaluated with the pieces of `edge` even
+  /// at its end points. Evaluating both edges of a node gives the jump there.
   Moving motion(std::size_t edge, double time) const;
 
  private:
   Rotation rotation(std::size_t edge, double time) const;
 
-  struct Arm {
+  struct RotationStep {
     Rotation start;
-    Vector3 turn;  ///< tangent from `start` to the next node [rad]
+    Vector3 turn;  ///< rotation vector from `start` to the next node [rad]
   };
   std::vector<double> stamps_;
-  std::vector<Arm> arms_;  ///< one for each edge: the logarithm is taken once
+  std::vector<RotationStep> rotation_steps_;  ///< one per edge, so each logarithm is computed once
   Parts parts_;
 };
 

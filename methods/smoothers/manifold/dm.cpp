@@ -7,11 +7,11 @@
 
 namespace loopbench {
 
-using namespace manifold;  // NOLINT: the steps below are this file's vocabulary
+using namespace manifold;  // NOLINT: most names in this file are from manifold
 
 namespace {
 
-std::size_t whole_segment(const DmOptions& o) {
+std::size_t min_segment_nodes(const DmOptions& o) {
   const int nodes = o.min_nodes > 0 ? o.min_nodes : o.planar > 0 ? o.planar : o.spatial;
   return static_cast<std::size_t>(nodes);
 }
@@ -26,7 +26,7 @@ PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const P
           .selection = o.selection,
           .judge = judge,
           .fallback = o.fallback,
-          .chords_below = o.short_policy == Short::polyline ? whole_segment(o) : 0};
+          .chords_below = o.short_policy == Short::polyline ? min_segment_nodes(o) : 0};
 }
 
 SpatialRule spatial_rule(const DmOptions& o) {
@@ -35,7 +35,7 @@ SpatialRule spatial_rule(const DmOptions& o) {
           .guarded = o.height_guard,
           .scheme = o.scheme,
           .cut = o.quadric_cut,
-          .plain_below = o.short_policy == Short::polyline ? whole_segment(o) : 0};
+          .plain_below = o.short_policy == Short::polyline ? min_segment_nodes(o) : 0};
 }
 
 NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const DmOptions& o) {
@@ -57,20 +57,22 @@ Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
 
 Dm::Dm(const Options& options) : options_(options), families_(read_families(options.families)) {
   const bool parametric = options.frame == Axes::parametric;
-  const auto refuse = [](const char* name, const char* why) {
+  const auto reject = [](const char* name, const char* why) {
     throw OptionError(name, std::string(name) + ": " + why);
   };
   if (options.joint.meet == Meet::constrained_ls && !parametric) {
-    refuse("joint", "constrained_ls needs frame = parametric: axes differ from window to window");
+    reject("joint",
+           "constrained_ls requires frame = parametric, because the axes of the other frames "
+           "differ between windows");
   }
   for (const Family family : families_) {
     if (parametric && !is_polynomial(family)) {
-      refuse("families", "frame = parametric fits polynomials only");
+      reject("families", "frame = parametric supports polynomials only (by_n, line, poly2, poly3)");
     }
   }
   if (options.psi != PsiUse::none &&
       (options.abscissa != Abscissa::spline || options.spline_order != 4)) {
-    refuse("psi", "boundary_tangent needs abscissa = spline of spline_order = 4");
+    reject("psi", "boundary_tangent requires abscissa = spline and spline_order = 4");
   }
 }
 
@@ -84,16 +86,17 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
   if (dense.nodes.size() < 2 || !options_.chord_above)
     return smooth(problem, std::move(dense), report);
   const double longest = *options_.chord_above * median_interval(problem.keyframes);
-  const auto apart = stretches(dense.nodes.size(), [&](std::size_t i) {
+  const auto separate = stretches(dense.nodes.size(), [&](std::size_t i) {
     return dense.nodes[i + 1].stamp - dense.nodes[i].stamp > longest;
   });
-  if (apart.size() == 1) return smooth(problem, std::move(dense), report);
-  return smoothed_apart(
-      dense.nodes,
-      apart,
-      "intervals above chord_above without a tracked frame",
-      report,
-      [&](Trajectory part, Report& own) { return smooth(problem, {std::move(part)}, own); });
+  if (separate.size() == 1) return smooth(problem, std::move(dense), report);
+  return smoothed_apart(dense.nodes,
+                        separate,
+                        "intervals above chord_above without a tracked frame",
+                        report,
+                        [&](Trajectory part, Report& part_report) {
+                          return smooth(problem, {std::move(part)}, part_report);
+                        });
 }
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
@@ -102,7 +105,7 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
   if (dense.nodes.size() < 3) {
     describe(dense, report);
     count(report, "fallbacks", 1);
-    report.notes.push_back("fewer than three nodes: polyline");
+    report.notes.push_back("fewer than three nodes: polyline used");
     return std::make_unique<Polyline>(std::move(dense.nodes));
   }
   return fit(problem, std::move(dense), report, {});
@@ -126,9 +129,9 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   std::vector<NodeRange> runs =
       segments(nodes, rule, kappas(nodes, dense.nodes, rule.kappa, rule.plane, up));
   if (options_.short_policy == Short::merge) {
-    runs = merged(nodes, std::move(runs), whole_segment(options_));
+    runs = merged(nodes, std::move(runs), min_segment_nodes(options_));
   } else if (options_.short_policy == Short::quasi_keyframes) {
-    Filled more = filled(dense.nodes, runs, problem.frames, whole_segment(options_));
+    Filled more = filled(dense.nodes, runs, problem.frames, min_segment_nodes(options_));
     dense.nodes = std::move(more.nodes);
     dense.inserted += more.inserted;
     runs = std::move(more.runs);
@@ -141,7 +144,8 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
 
   Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
   Laying laying{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
-  // One regression spline has no joints; the heights above it, and a way without length, still do.
+  // A single regression spline has no joints, but the heights, and a path of zero length, still
+  // need them.
   if (laying.rule.meet == Meet::constrained_ls) laying.rule.meet = Meet::overlap_blend;
   if (options_.planar > 0) {
     std::optional<PlanarFit> fit;

@@ -1,10 +1,11 @@
-/// The paper's smoother, "Loop Closure Detection Based on Differentiable Manifold".
+/// The article's smoother, "Loop Closure Detection Based on Differentiable Manifold".
 ///
-/// Despite that title it detects no loops: it takes a keyframe trajectory as it is, cuts it where
-/// speed or direction change, and between N (planar) or M (spatial) nodes at a time replaces y'
-/// by a curve f(x') and z' by a surface q(x', y'). Orientation passes through. The defaults are
-/// its robust reading; the article's letter is a set of options (methods.cpp, paper_literal_*).
-/// The abscissa is always the estimate's: a method never sees the reference.
+/// Despite its title it does not detect loops. It splits a keyframe trajectory where speed or
+/// direction changes. On windows of N (planar) or M (spatial) nodes it replaces y' by a curve f(x')
+/// and z' by a surface q(x', y'). Orientation is not changed. The defaults are a robust
+/// interpretation of the article; the literal interpretation is a set of options (methods.cpp,
+/// paper_literal_*). The abscissa is always that of the estimate, because a method has no access to
+/// the reference.
 #pragma once
 
 #include "methods/method.hpp"
@@ -17,20 +18,21 @@ class Dm final : public Smoother {
  public:
   using Options = DmOptions;
 
-  /// Throws OptionError for options that contradict each other or an unknown family.
+  /// Throws OptionError for contradictory options or an unknown family.
   explicit Dm(const Options& options);
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// O(keyframes log frames). Counts nodes, quasi_keyframes, gaps_left, segments and, when the
-  /// stage is on, windows, split_windows, fallbacks, refused_families, mean_window_nodes,
-  /// spatial_windows, spatial_truncated, spatial_fallbacks; then the largest jumps at nodes (see
-  /// Continuity). Fewer than three nodes give the polyline. Stretches between intervals above
-  /// `chord_above` are smoothed apart and joined by chords: smoothed_apart().
+  /// Smooths the keyframes. O(keyframes log frames). Counts: nodes, quasi_keyframes, gaps_left,
+  /// segments and, if the stage is enabled, windows, split_windows, fallbacks, refused_families,
+  /// mean_window_nodes, spatial_windows, spatial_truncated, spatial_fallbacks; and the largest
+  /// jumps at nodes (see Continuity). Fewer than three nodes give the polyline. Segments separated
+  /// by intervals above `chord_above` are smoothed separately and joined by chords
+  /// (smoothed_apart()).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
-  /// The same as its pieces, or null for fewer than three nodes. `judge`, when there is one,
-  /// chooses between the families in the place of `selection`.
+  /// Returns the same curve as pieces, or null for fewer than three nodes. `judge`, if set, selects
+  /// the family instead of `selection`.
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      Report& report,
                                                      const manifold::PieceJudge& judge) const;

@@ -1,4 +1,4 @@
-/// Every switch of the manifold smoother: the design's readings where the article is silent.
+/// Options of the manifold smoother, including the interpretations where the article is ambiguous.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace loopbench {
 
-/// A rule: 0 for off, or low to high.
+/// Rule: value is 0 (off) or in low..high.
 struct ZeroOr {
   int low, high;
 
@@ -26,15 +26,16 @@ struct ZeroOr {
 };
 
 struct DmOptions {
-  int planar = 4;   ///< N, nodes of a planar window; 0: y' stays the spline's
-  int spatial = 0;  ///< M, nodes of a spatial window; 0: z' stays the spline's
+  int planar = 4;   ///< N, nodes of a planar window; 0: keep y' of the spline
+  int spatial = 0;  ///< M, nodes of a spatial window; 0: keep z' of the spline
   manifold::SegmentRule segment = {};
   manifold::GapRule gap = {};
-  /// [medians]; a pause of a few dozen is no gap: KITTI 07 stands for 37 of its keyframe intervals.
+  /// [median intervals]; above the pauses in real data: KITTI 07 is at rest for 37 keyframe
+  /// intervals.
   std::optional<double> chord_above = 50.0;
   manifold::Up up = manifold::Up::pca;
   manifold::Fallback fallback = manifold::Fallback::arc;
-  bool height_guard = true;  ///< surfaces that run away between nodes are not used
+  bool height_guard = true;  ///< reject surfaces that leave the spline between nodes
 
   manifold::Axes frame = manifold::Axes::chord;
   bool guard = true;
@@ -57,63 +58,102 @@ struct DmOptions {
 
 template <class Visit>
 void fields(DmOptions& o, Visit visit) {
-  visit("planar", o.planar, "N, nodes of a planar window (the article: 3 4 5)", ZeroOr{3, 12});
-  visit("spatial", o.spatial, "M, nodes of a spatial window (the article: 6 7 8)", ZeroOr{6, 12});
+  visit("planar",
+        o.planar,
+        "N, number of nodes of a planar window (article: 3, 4, 5); 0: keep y' of the spline",
+        ZeroOr{3, 12});
+  visit("spatial",
+        o.spatial,
+        "M, number of nodes of a spatial window (article: 6, 7, 8); 0: keep z' of the spline",
+        ZeroOr{6, 12});
   visit("gap_max",
         o.gap.time_max,
-        "longer gaps take tracked frames as quasi-keyframes [s]; none: never",
+        "maximum time between keyframes without inserting tracked frames as nodes [s]; none: no "
+        "limit",
         Above{0.0});
   visit("gap_rotation_max",
         o.gap.rotation_max,
-        "so do gaps with more rotation, where no view is shared [rad]; none: never",
+        "maximum rotation between keyframes without inserting tracked frames as nodes [rad]; none: "
+        "no limit",
         Above{0.0});
   visit("gap_common_min",
         o.gap.common_min,
-        "so do keyframes with fewer landmarks in common, where that is known; none: never",
+        "minimum number of common landmarks of two keyframes without inserting tracked frames as "
+        "nodes, if known; none: no limit",
         Above{0.0});
   visit("chord_above",
         o.chord_above,
-        "longer intervals without tracked frames are chords [median keyframe intervals]; none: "
-        "never",
+        "maximum interval between nodes, above which a straight chord bridges it [median keyframe "
+        "intervals]; none: no limit",
         Above{0.0});
-  visit("speed_rule", o.segment.speed, "when a speed fits a segment");
+  visit("speed_rule", o.segment.speed, "criterion for a node's speed to belong to a segment");
   visit("speed_band",
         o.segment.speed_band,
-        "what the rule compares with [m/s]; none: the mean speed",
+        "speed threshold of speed_rule [m/s]; none: the mean speed",
         Above{0.0});
-  visit("kappa", o.segment.kappa, "what turning is measured by: rad, 1/m or rad/s");
-  visit("kappa_plane", o.segment.plane, "of the path in space, or seen from above");
-  visit("turn_max", o.segment.turn_max, "more kappa ends a segment [as kappa has it]", Above{0.0});
-  visit("short_policy", o.short_policy, "what becomes of segments with fewer than min_nodes");
-  visit("min_nodes", o.min_nodes, "nodes of a whole segment; 0: N, or M without N", ZeroOr{2, 100});
-  visit("scheme", o.scheme, "how windows lie in a segment");
-  visit("psi", o.psi, "where the optimal tangent is used: nowhere, or at segment ends (then C1)");
-  visit("psi_mean", o.psi_mean, "best candidate, or mean direction on the sphere");
-  visit("psi_half_window", o.psi_half_window, "steps looked at on each side", Between{1, 10});
-  visit("abscissa", o.abscissa, "whose x' is used to find y'");
+  visit("kappa",
+        o.segment.kappa,
+        "measure of turning: per keyframe [rad], curvature [1/m] or rate [rad/s]");
+  visit("kappa_plane",
+        o.segment.plane,
+        "path used for kappa: in space (3d) or projected along the up axis (xy)");
   visit(
-      "spline_order", o.spline_order, "order k of that B-spline; 4: natural cubic", Between{2, 6});
-  visit("frame", o.frame, "axes of a window; parametric: r(s) instead of y' = f(x')");
-  visit("up", o.up, "z' of the fitting frames: axis of least variance, or the world's z");
-  visit("guard", o.guard, "split windows that are no graph y' = f(x')");
-  visit("families", o.families, "curve families in order of preference");
-  visit("selection", o.selection, "the first that can be fitted, or the best on the keyframes");
-  visit("implicit_order", o.family.implicit_order, "n of F(x, y) = 0", Between{1, 3});
-  visit("level", o.family.level, "sin1 and rat02 get a constant of their own");
-  visit("fallback", o.fallback, "where nodes are no graph: parabola in arc length, or the spline");
+      "turn_max", o.segment.turn_max, "maximum kappa within a segment [unit of kappa]", Above{0.0});
+  visit("short_policy", o.short_policy, "treatment of segments with fewer than min_nodes nodes");
+  visit("min_nodes",
+        o.min_nodes,
+        "minimum number of nodes of a full segment; 0: N, or M if N is 0",
+        ZeroOr{2, 100});
+  visit("scheme", o.scheme, "placement of windows in a segment");
+  visit("psi",
+        o.psi,
+        "use of the optimal tangent: none, or at segment ends (the curve is then C1 there)");
+  visit("psi_mean",
+        o.psi_mean,
+        "optimal tangent: best candidate (discrete) or mean direction on the sphere (frechet)");
+  visit("psi_half_window",
+        o.psi_half_window,
+        "steps on each side that determine the optimal tangent",
+        Between{1, 10});
+  visit("abscissa", o.abscissa, "curve that provides the x' at which y' is evaluated");
+  visit("spline_order",
+        o.spline_order,
+        "order k of the spline through the nodes; 4: natural cubic",
+        Between{2, 6});
+  visit("frame", o.frame, "axes of a window; parametric: fit r(s) instead of y' = f(x')");
+  visit("up",
+        o.up,
+        "z' axis of the fitting frames: axis of least variance (pca) or z axis of the world");
+  visit("guard", o.guard, "split windows whose nodes are not a graph y' = f(x')");
+  visit("families",
+        o.families,
+        "curve families in order of preference, separated by spaces or commas");
+  visit("selection",
+        o.selection,
+        "choice of the family: the first that fits (fixed), or the best by aicc or loocv");
+  visit("implicit_order",
+        o.family.implicit_order,
+        "order n of the implicit curve F(x, y) = 0",
+        Between{1, 3});
+  visit("level", o.family.level, "add a constant term to sin1 and rat02");
+  visit("fallback",
+        o.fallback,
+        "curve for nodes that are not a graph: parabola in arc length, or the spline");
   visit("height_guard",
         o.height_guard,
-        "drop a surface that leaves the spline by more than its nodes' range of heights");
+        "reject a surface that leaves the spline by more than the height range of its nodes");
   visit("quadric_cut",
         o.quadric_cut,
-        "weaker directions of a quadric are dropped [of the strongest]",
+        "relative singular value below which directions of a quadric are dropped [-]",
         Between{0.0, 1.0});
-  visit("joint", o.joint.meet, "how neighbouring pieces meet");
+  visit("joint", o.joint.meet, "joint between neighbouring pieces");
   visit("low_speed_c0_below",
         o.joint.c0_below,
-        "slower joints only meet in position [m/s]; none: no such",
+        "speed below which pieces are joined in position only [m/s]; none: never",
         Above{0.0});
-  visit("report_coefficients", o.report_coefficients, "a note for every window's coefficients");
+  visit("report_coefficients",
+        o.report_coefficients,
+        "add a note with the coefficients of every window");
   visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
 }
 

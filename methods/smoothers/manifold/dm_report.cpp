@@ -32,7 +32,9 @@ void describe(const Densified& dense, Report& report) {
   count(report, "nodes", dense.nodes.size());
   count(report, "quasi_keyframes", dense.inserted);
   count(report, "gaps_left", dense.gaps_left);
-  if (dense.gaps_left > 0) report.notes.push_back("some gaps hold no tracked frame: left open");
+  if (dense.gaps_left > 0)
+    report.notes.push_back("no tracked frame to insert in " + std::to_string(dense.gaps_left) +
+                           " gaps between keyframes");
 }
 
 void describe(const PlanarFit& fit, Report& report) {

@@ -1,4 +1,4 @@
-/// What the manifold smoother tells of its steps.
+/// Adds the results of the manifold smoother's steps to a report.
 #pragma once
 
 #include "methods/report.hpp"
@@ -14,7 +14,7 @@ void count(Report& report, const char* name, std::size_t value);
 void describe(const Densified& dense, Report& report);
 void describe(const PlanarFit& fit, Report& report);
 void describe(const SpatialFit& fit, Report& report);
-/// Sections: the segments, the windows with their families, the surfaces of the windows in space.
+/// Adds sections: the segments, the planar windows with their families, the spatial windows.
 void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report);
 void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
@@ -22,7 +22,7 @@ void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
 void describe(const Continuity& jumps, Report& report);
 void describe(const MovingFrames& frames, Report& report);
 
-/// A note a window: its nodes, its family and the coefficients.
+/// Adds one note per window with its nodes, its family and its coefficients.
 void note_coefficients(const PlanarFit& fit, Report& report);
 void note_coefficients(const SpatialFit& fit, double base_height, Report& report);
 

@@ -14,8 +14,8 @@ int degree(Family family, std::size_t nodes) {
   return family == Family::poly2 ? 2 : 3;
 }
 
-// Unpivoted QR on equal x divides by nothing: such a fit is none.
-bool is_sound(const Polynomial& curve) {
+// Unpivoted QR divides by zero for equal x: such a fit is invalid.
+bool is_valid(const Polynomial& curve) {
   return curve.scale > 0.0 && curve.coefficients.allFinite();
 }
 
@@ -35,12 +35,14 @@ std::vector<Family> read_families(const std::string& names) {
   for (std::string word; in >> word;) {
     const auto family = from_text<Family>(word);
     if (!family) {
-      throw OptionError(
-          "families", "families = " + names + ": " + word + " is none of " + choice_list<Family>());
+      throw OptionError("families",
+                        "families = " + names + ": unknown family " + word + ", expected " +
+                            choice_list<Family>());
     }
     out.push_back(*family);
   }
-  if (out.empty()) throw OptionError("families", "families: expected one name or more");
+  if (out.empty())
+    throw OptionError("families", "families: expected at least one of " + choice_list<Family>());
   return out;
 }
 
@@ -75,15 +77,15 @@ std::optional<PlanarPiece> fit_family(Family family,
     }
     default: {
       const Polynomial curve = fit_polynomial(points, degree(family, points.size()));
-      return is_sound(curve) ? graph(frame, std::optional(curve)) : std::nullopt;
+      return is_valid(curve) ? graph(frame, std::optional(curve)) : std::nullopt;
     }
   }
 }
 
 std::optional<PlanarPiece> fit_along(Family family,
                                      std::span<const Vector3> points,
-                                     std::span<const double> ways) {
-  const auto curve = fit_arc_polynomial(points, ways, degree(family, points.size()));
+                                     std::span<const double> arc_lengths) {
+  const auto curve = fit_arc_polynomial(points, arc_lengths, degree(family, points.size()));
   return curve ? std::optional<PlanarPiece>(AsArcPolynomial{*curve}) : std::nullopt;
 }
 

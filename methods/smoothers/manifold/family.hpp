@@ -1,4 +1,4 @@
-/// The names of the curve families, and one of them fitted to given nodes.
+/// Curve families and their fit to given nodes.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace loopbench::manifold {
 
-/// by_n: parabola on 3 nodes, cubic on more. The rest as the article lists them.
+/// by_n: parabola for 3 nodes, cubic for more. The others are named in the article.
 enum class Family { by_n, line, poly2, poly3, sin1, rat02, hyperbola, implicit };
 inline auto choices(Family) {
   return std::array{std::pair{"by_n", Family::by_n},
@@ -21,29 +21,30 @@ inline auto choices(Family) {
                     std::pair{"implicit", Family::implicit}};
 }
 
-/// "poly2 sin1" or "poly2, sin1" as families. Throws OptionError for an unknown or no name.
+/// Parses a list such as "poly2 sin1" or "poly2, sin1". Throws OptionError for an unknown family or
+/// an empty list.
 std::vector<Family> read_families(const std::string& names);
 
 struct FamilyRule {
   int implicit_order = 2;  ///< n of F(x, y)
-  bool level = false;      ///< sin1 and rat02 get a constant; the article has none
+  bool level = false;      ///< sin1 and rat02 have a constant term; the article has none
 };
 
-/// Parameters of the family on so many nodes: what the choice between families pays for.
+/// Returns the number of parameters of the family for this number of nodes, as used by `selection`.
 std::size_t unknowns(Family family, std::size_t nodes, const FamilyRule& rule);
 
 bool is_polynomial(Family family);
 
-/// Fitted to points of the frame. Nothing when they are too few or the family refuses them: a
-/// pole, an alias, no extent.
+/// Fits the family to points in the frame. Returns nullopt for too few points or an invalid fit (a
+/// pole, an alias, no extent).
 std::optional<PlanarPiece> fit_family(Family family,
                                       const Frame& frame,
                                       std::span<const Vector2> points,
                                       const FamilyRule& rule);
 
-/// The polynomial families as r(s): nothing when two nodes coincide.
+/// Fits a polynomial family as r(s). Returns nullopt when two nodes coincide.
 std::optional<PlanarPiece> fit_along(Family family,
                                      std::span<const Vector3> points,
-                                     std::span<const double> ways);
+                                     std::span<const double> arc_lengths);
 
 }  // namespace loopbench::manifold

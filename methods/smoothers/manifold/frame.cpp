@@ -5,8 +5,9 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr double kLeastChord = 1e-6;   // [of the way along the nodes] below it, rounding points
-constexpr double kLeastAdvance = 0.1;  // [of the mean step]
+// Minimum chord as a fraction of the path length; below it, rounding determines the direction.
+constexpr double kLeastChord = 1e-6;
+constexpr double kLeastAdvance = 0.1;                    // fraction of the mean step
 constexpr double kMostTurning = std::numbers::pi / 2.0;  // [rad]
 
 }  // namespace
@@ -22,7 +23,7 @@ std::optional<Frame> chord_frame(const Nodes& nodes, NodeRange range, const Vect
 }
 
 std::optional<Frame> pca_frame(const Nodes& nodes, NodeRange range, const Vector3& up) {
-  constexpr double alike = 1e-6;  // [of the spread] an axis turned by rounding is none
+  constexpr double alike = 1e-6;  // relative variance difference of an undetermined axis
   const auto chord = chord_frame(nodes, range, up);
   if (!chord) return std::nullopt;
   const std::vector<Vector2> points = local(nodes, range, *chord);
@@ -38,7 +39,7 @@ std::optional<Frame> pca_frame(const Nodes& nodes, NodeRange range, const Vector
   if (std::hypot(xx - yy, 2.0 * xy) < alike * (xx + yy)) return std::nullopt;
   const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
   Vector2 axis(std::cos(angle), std::sin(angle));
-  if (std::abs(axis.x()) < alike) return std::nullopt;  // across the chord: no way to travel
+  if (std::abs(axis.x()) < alike) return std::nullopt;  // perpendicular to the chord
   if (axis.x() < 0.0) axis = -axis;
   const Vector3 x = axis.x() * chord->x + axis.y() * chord->y;
   return Frame{chord->origin, x, up.cross(x)};

@@ -1,4 +1,4 @@
-/// The frame a window is fitted in, and whether its nodes are a graph y' = f(x') there.
+/// Fitting frame of a window, and the test whether its nodes are a graph y' = f(x').
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace loopbench::manifold {
 
 using Vector2 = Eigen::Vector2d;
 
-/// chord: x' from first to last node. world: the axes of the world, as the article has it. pca: x'
-/// along the most spread of the nodes. parametric: no y' = f(x') at all, r(s) instead.
+/// chord: x' from the first to the last node. world: world axes, as in the article. pca: x' along
+/// the direction of largest variance of the nodes. parametric: r(s) instead of y' = f(x').
 enum class Axes { chord, world, pca, parametric };
 inline auto choices(Axes) {
   return std::array{std::pair{"chord", Axes::chord},
@@ -22,9 +22,9 @@ inline auto choices(Axes) {
 }
 
 struct Frame {
-  Vector3 origin;  ///< the first node, or the world's [m]
-  Vector3 x;       ///< unit, along the chord as seen from above
-  Vector3 y;       ///< unit, to the left; z' is up
+  Vector3 origin;  ///< the first node or the world origin [m]
+  Vector3 x;       ///< unit vector, along the chord projected along the up axis
+  Vector3 y;       ///< unit vector, to the left; z' is up
 
   Vector2 local(const Vector3& point) const {
     const Vector3 from_origin = point - origin;
@@ -32,25 +32,26 @@ struct Frame {
   }
 };
 
-/// x' from the first to the last node, levelled so that z' is exactly `up`. Nothing when the
-/// chord has no level part to speak of: standing still, a closed or a vertical window.
+/// Frame with x' from the first to the last node, projected so that z' is exactly `up`. Returns
+/// nullopt when the projected chord is too short: at rest, or for a closed or vertical window.
 std::optional<Frame> chord_frame(const Nodes& nodes, NodeRange range, const Vector3& up);
 
-/// x' along the direction in which the nodes, seen from above, spread most, pointing the way they
-/// travel. Nothing when they spread alike in all directions, or end where they begin.
+/// Frame with x' along the direction of largest variance of the projected nodes, oriented in the
+/// direction of travel. Returns nullopt when the variance is equal in all directions, or when the
+/// window ends where it begins.
 std::optional<Frame> pca_frame(const Nodes& nodes, NodeRange range, const Vector3& up);
 
-/// The frame of the window; for `parametric` and the spatial step, the chord's.
+/// Frame of a window for `axes`; the chord frame for `parametric`.
 std::optional<Frame> fitting_frame(Axes axes,
                                    const Nodes& nodes,
                                    NodeRange range,
                                    const Vector3& up);
 
-/// Nodes in the frame [m].
+/// Nodes in the coordinates of the frame [m].
 std::vector<Vector2> local(const Nodes& nodes, NodeRange range, const Frame& frame);
 
-/// The guard: every step advances by more than a tenth of the mean step, and all turning together
-/// stays below a right angle. Without it y = f(x) is many-valued on any loop.
+/// Guard: true if every step advances by more than a tenth of the mean step and the total rotation
+/// angle is below a right angle. Otherwise y = f(x) may be multivalued, as on any loop.
 bool is_graph(std::span<const Vector2> points);
 
 }  // namespace loopbench::manifold

@@ -3,9 +3,9 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr double kStraight = 1e-9;  // [rad] between S' and S'': rounding decides the plane
+constexpr double kStraight = 1e-9;  // [rad] between S' and S''; below it, the plane is undetermined
 
-// v mirrored in the plane across which `along` points.
+// v reflected in the plane perpendicular to `along`.
 Vector3 mirrored(const Vector3& v, const Vector3& along) {
   const double size = along.squaredNorm();
   return size > 0.0 ? Vector3(v - 2.0 * along.dot(v) / size * along) : v;
@@ -70,7 +70,7 @@ std::vector<Triad> rotation_minimising(std::span<const Vector3> points,
     const Vector3 N = mirrored(out[i].N, across);
     const Vector3 T = mirrored(out[i].T, across);
     Triad next{tangents[i + 1], mirrored(N, tangents[i + 1] - T), {}};
-    // Rounding adds up over a long curve.
+    // Removes the rounding error that accumulates over a long curve.
     next.N = (next.N - next.T.dot(next.N) * next.T).normalized();
     next.B = next.T.cross(next.N);
     out.push_back(next);

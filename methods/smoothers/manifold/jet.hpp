@@ -1,4 +1,5 @@
-/// A value with its first two derivatives by time: joints and curvature without finite differences.
+/// A value with its first two time derivatives, for joints and curvature without finite
+/// differences.
 #pragma once
 
 #include <cmath>
@@ -17,11 +18,11 @@ struct Jet {
 
 using Moving = Jet<Vector3>;  ///< position, velocity, acceleration
 
-/// A place asked at a time of type T: Vector3 for a double, Moving for a Jet.
+/// Result type of a point at a time of type T: Vector3 for a double, Moving for a Jet.
 template <class T>
 using VectorOf = std::conditional_t<std::is_same_v<T, double>, Vector3, Moving>;
 
-/// The time itself.
+/// The time as a Jet.
 inline Jet<double> moving_time(double time) { return {time, 1.0, 0.0}; }
 
 inline double value_of(double x) { return x; }
@@ -64,14 +65,14 @@ Jet<T> operator*(double s, const Jet<T>& a) {
 inline Jet<double> operator*(const Jet<double>& a, double s) { return s * a; }
 inline Jet<double> operator/(const Jet<double>& a, double s) { return (1.0 / s) * a; }
 
-/// A moving length along a fixed direction.
+/// A scalar Jet times a fixed direction.
 template <class Derived>
 Jet<typename Derived::PlainObject> operator*(const Jet<double>& s,
                                              const Eigen::MatrixBase<Derived>& fixed) {
   return {s.value * fixed, s.first * fixed, s.second * fixed};
 }
 
-/// g(x(t)) from g and its derivatives at x.
+/// Chain rule: g(x(t)) from g and its first two derivatives at x.
 inline Jet<double> chained(const Jet<double>& x, double g, double slope, double bend) {
   return {g, slope * x.first, bend * x.first * x.first + slope * x.second};
 }

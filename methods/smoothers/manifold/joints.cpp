@@ -15,11 +15,15 @@ Joint joint_between(const Nodes& nodes, const Window& before, const Window& afte
   const std::size_t node = after.owned.first;
   const double step_before = nodes.step(node - 1).norm();
   const double step_after = nodes.step(node).norm();
-  const auto reach = [](double own, double next) { return next > own ? own / next : 1.0; };
-  const double back = after.fitted.first < node ? 1.0 : reach(step_after, step_before);
-  const double forth = before.fitted.last > node ? 1.0 : reach(step_before, step_after);
-  return {nodes.stamps[node] - back * nodes.duration(node - 1),
-          nodes.stamps[node] + forth * nodes.duration(node)};
+  const auto extension = [](double own_step, double next_step) {
+    return next_step > own_step ? own_step / next_step : 1.0;
+  };
+  const double extension_back =
+      after.fitted.first < node ? 1.0 : extension(step_after, step_before);
+  const double extension_forward =
+      before.fitted.last > node ? 1.0 : extension(step_before, step_after);
+  return {nodes.stamps[node] - extension_back * nodes.duration(node - 1),
+          nodes.stamps[node] + extension_forward * nodes.duration(node)};
 }
 
 Joint sliding_joint(const Nodes& nodes,

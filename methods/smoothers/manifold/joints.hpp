@@ -1,4 +1,4 @@
-/// Step 10: how neighbouring pieces meet.
+/// Step 10: joints between neighbouring pieces.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 
 namespace loopbench::manifold {
 
-/// overlap_blend: pieces reach into each other and blend, C2. quintic_bridge: half a step around
-/// the joint is replaced by a quintic, C2. constrained_ls: all pieces are one cubic regression
-/// spline, C2 (regression.hpp). c0: each piece is moved to meet its neighbour half way. none.
+/// overlap_blend: neighbouring pieces overlap and are blended, C2. quintic_bridge: half a step on
+/// each side of the joint is replaced by a quintic, C2. constrained_ls: all pieces are one cubic
+/// regression spline, C2 (regression.hpp). c0: both pieces are shifted by half of their gap. none:
+/// pieces are not joined.
 enum class Meet { overlap_blend, quintic_bridge, constrained_ls, c0, none };
 inline auto choices(Meet) {
   return std::array{std::pair{"overlap_blend", Meet::overlap_blend},
@@ -24,19 +25,19 @@ inline auto choices(Meet) {
 
 struct JointRule {
   Meet meet = Meet::overlap_blend;
-  std::optional<double> c0_below =
-      std::nullopt;  ///< slower joints only meet in position [m/s]; none: no such
+  std::optional<double> c0_below = std::nullopt;  ///< speed below which joints are C0 [m/s]
 
-  /// How the pieces before and after `node` meet, by the speed over its two steps.
+  /// Joint type at `node`, depending on the mean speed over its two steps.
   Meet at(const Nodes& nodes, std::size_t node) const;
 };
 
-/// Where one piece hands over to the next: around their shared node, never beyond its two edges.
+/// Transition from one piece to the next around their shared node, within its two edges.
 struct Joint {
   double begin = 0.0;  ///< [s]
-  double end = 0.0;    ///< [s]; `begin` for a sharp joint
+  double end = 0.0;    ///< [s]; equal to `begin` for a sharp joint
 
-  /// Share of the later piece: 6 s^5 - 15 s^4 + 10 s^3, flat to second order at both ends.
+  /// Weight of the later piece: 6 s^5 - 15 s^4 + 10 s^3, with zero first and second derivatives at
+  /// both ends.
   template <class T>
   T weight(const T& time) const {
     const double at = value_of(time);
@@ -47,15 +48,14 @@ struct Joint {
   }
 };
 
-/// The joint between two neighbouring windows. Each piece reaches one node past its window, but
-/// where the next step is longer than its own last one only that far: a parabola over nodes that
-/// stand close says nothing about a far one. A window that has the neighbour's node among its own
-/// is not extended there at all.
+/// Joint between two neighbouring windows. Each piece extends one node past its window, but at most
+/// by the length of its own last step, because a parabola through close nodes extrapolates badly
+/// over a long step. A piece is not extended if its window already contains the neighbour's node.
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after);
 
-/// The joint between two windows of one edge each. Windows around nodes (`size` odd) blend over the
-/// whole earlier edge, from its one node to the other; windows around edges from middle to middle,
-/// and so does a straight line between two nodes, which says nothing about the edges beside it.
+/// Joint between two windows of one edge each. Windows around nodes (`size` odd) are blended over
+/// the whole earlier edge. Windows around edges are blended from edge middle to edge middle, as is
+/// a straight line between two nodes, which carries no information about the edges beside it.
 Joint sliding_joint(const Nodes& nodes,
                     const Window& before,
                     const Window& after,

@@ -5,7 +5,7 @@
 namespace loopbench::manifold {
 namespace {
 
-Nodes levelled(Nodes nodes, const Vector3& up) {
+Nodes projected(Nodes nodes, const Vector3& up) {
   for (Vector3& point : nodes.points) point -= up.dot(point) * up;
   return nodes;
 }
@@ -19,28 +19,28 @@ double rotation(const Trajectory& poses, std::size_t i) {
 
 std::vector<double> kappas(
     const Nodes& given, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up) {
-  const Nodes nodes = plane == Plane::plane ? levelled(given, up) : given;
+  const Nodes nodes = plane == Plane::plane ? projected(given, up) : given;
   std::vector<double> out(nodes.size(), 0.0);
   std::optional<NodeSpline> spline;
   if (definition == Kappa::analytic_spline) spline.emplace(nodes);
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     const Vector3 before = nodes.step(i - 1);
     const Vector3 after = nodes.step(i);
-    const double turn = turn_between(before, after);
+    const double angle = turn_between(before, after);
     switch (definition) {
       case Kappa::turn_per_kf:
-        out[i] = turn;
+        out[i] = angle;
         break;
       case Kappa::menger:
         out[i] = discrete_curvature(nodes.points[i - 1], nodes.points[i], nodes.points[i + 1]);
         break;
       case Kappa::dtheta_ds: {
-        const double way = 0.5 * (before.norm() + after.norm());
-        out[i] = way > 0.0 ? turn / way : 0.0;
+        const double mean_step = 0.5 * (before.norm() + after.norm());
+        out[i] = mean_step > 0.0 ? angle / mean_step : 0.0;
         break;
       }
       case Kappa::dtheta_dt:
-        out[i] = 2.0 * turn / (nodes.stamps[i + 1] - nodes.stamps[i - 1]);
+        out[i] = 2.0 * angle / (nodes.stamps[i + 1] - nodes.stamps[i - 1]);
         break;
       case Kappa::analytic_spline: {
         const Moving motion = spline->at(i, moving_time(nodes.stamps[i])).point;

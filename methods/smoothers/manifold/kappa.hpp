@@ -1,4 +1,4 @@
-/// The six readings of the article's kappa, whose unit it never gives.
+/// Six interpretations of the article's kappa, whose unit it does not state.
 #pragma once
 
 #include <array>
@@ -8,10 +8,11 @@
 
 namespace loopbench::manifold {
 
-/// turn_per_kf: angle between the steps [rad], the only one whose printed thresholds cut both runs
-/// usefully. menger: 1 / radius through three nodes. dtheta_ds, dtheta_dt: that angle over the mean
-/// step [1/m] or the mean time [rad/s]. analytic_spline: of the cubic spline [1/m].
-/// rotation_per_kf: of the camera over both steps, halved [rad].
+/// turn_per_kf: angle between consecutive steps [rad]; the only one whose printed thresholds
+/// segment both sequences usefully. menger: 1 / radius of the circle through three nodes [1/m].
+/// dtheta_ds, dtheta_dt: the angle over the mean step [1/m] or the mean duration [rad/s].
+/// analytic_spline: curvature of the cubic spline [1/m]. rotation_per_kf: half the camera rotation
+/// over both steps [rad].
 enum class Kappa { turn_per_kf, menger, dtheta_ds, dtheta_dt, analytic_spline, rotation_per_kf };
 inline auto choices(Kappa) {
   return std::array{std::pair{"turn_per_kf", Kappa::turn_per_kf},
@@ -22,14 +23,14 @@ inline auto choices(Kappa) {
                     std::pair{"rotation_per_kf", Kappa::rotation_per_kf}};
 }
 
-/// space: as it is. plane: of the path seen from above, the article's xoy.
+/// space: the path in space. plane: the path projected along the up axis, the article's xoy plane.
 enum class Plane { space, plane };
 inline auto choices(Plane) {
   return std::array{std::pair{"3d", Plane::space}, std::pair{"xy", Plane::plane}};
 }
 
-/// kappa at every node, 0 at the first and last. `poses` are the nodes with their attitude; only
-/// rotation_per_kf looks at that, and it does not know planes. O(n).
+/// Returns kappa at every node, 0 at the first and last. `poses` are the nodes with their rotation,
+/// used by rotation_per_kf only, which ignores `plane`. O(n).
 std::vector<double> kappas(
     const Nodes& nodes, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up);
 

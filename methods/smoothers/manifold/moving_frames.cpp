@@ -16,13 +16,13 @@ MovingFrames moving_frames(const ManifoldCurve& curve) {
       continue;
     }
     ++out.carried;
-    const bool stands = !(motion.first.norm() > 0.0);
+    const bool is_at_rest = !(motion.first.norm() > 0.0);
     if (i == 0) {
-      out.triads.push_back(any_triad(stands ? Vector3::UnitX() : motion.first.normalized()));
+      out.triads.push_back(any_triad(is_at_rest ? Vector3::UnitX() : motion.first.normalized()));
       continue;
     }
     const Triad& before = out.triads.back();
-    const Vector3 tangent = stands ? before.T : Vector3(motion.first.normalized());
+    const Vector3 tangent = is_at_rest ? before.T : Vector3(motion.first.normalized());
     const std::array two{points[i - 1], points[i]};
     out.triads.push_back(rotation_minimising(two, std::array{before.T, tangent}, before).back());
   }

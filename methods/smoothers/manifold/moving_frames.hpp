@@ -1,4 +1,4 @@
-/// {T, N, B} along the finished curve: Frenet's where there is one, carried on where there is none.
+/// Frames {T, N, B} along the curve: Frenet frames where defined, propagated frames elsewhere.
 #pragma once
 
 #include "methods/smoothers/manifold/curve.hpp"
@@ -9,13 +9,13 @@ namespace loopbench::manifold {
 struct MovingFrames {
   std::vector<Triad> triads;      ///< at every node
   std::vector<double> curvature;  ///< analytic [1/m]
-  std::size_t carried = 0;        ///< nodes where Frenet's frame is undefined
-  double torsion_max = 0.0;       ///< discrete, over four nodes at a time [1/m]
+  std::size_t carried = 0;        ///< number of nodes where the Frenet frame is undefined
+  double torsion_max = 0.0;       ///< largest discrete torsion over four consecutive nodes [1/m]
 };
 
-/// Where Frenet's frame is undefined the one before is carried on by double reflection (parallel
-/// transport); before the first defined one any triad around the tangent serves, and where the
-/// curve stands the tangent stays. O(nodes).
+/// Where the Frenet frame is undefined, the previous frame is propagated by double reflection
+/// (parallel transport). Before the first defined frame an arbitrary triad around the tangent is
+/// used. At rest the tangent is kept. O(nodes).
 MovingFrames moving_frames(const ManifoldCurve& curve);
 
 }  // namespace loopbench::manifold

@@ -1,4 +1,4 @@
-/// What the steps of the manifold smoother pass along: the nodes it fits, and runs of them.
+/// Nodes to which the manifold smoother fits curves, and ranges of nodes.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace loopbench::manifold {
 
-/// Nodes first..last, both included; neighbouring runs share their end node.
+/// Nodes first..last, both included; neighbouring ranges share their end node.
 struct NodeRange {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -17,11 +17,11 @@ struct NodeRange {
   bool operator==(const NodeRange&) const = default;
 };
 
-/// Keyframes and quasi-keyframes, positions relative to the first of them: far from the world's
-/// origin nothing is lost to rounding, and nothing can depend on where that origin is.
+/// Keyframes and quasi-keyframes with positions relative to the first one, which avoids rounding
+/// errors far from the world origin and any dependence on that origin.
 struct Nodes {
   std::vector<double> stamps;      ///< [s], strictly increasing
-  std::vector<Vector3> points;     ///< [m], from `base`
+  std::vector<Vector3> points;     ///< relative to `base` [m]
   Vector3 base = {0.0, 0.0, 0.0};  ///< position of the first node [m]
 
   explicit Nodes(const Trajectory& poses) : stamps(loopbench::stamps(poses)) {
@@ -37,8 +37,8 @@ struct Nodes {
   double duration(std::size_t edge) const { return stamps[edge + 1] - stamps[edge]; }
 };
 
-/// Angle between two directions, 0..pi [rad]; 0 when either has no length. atan2 because acos
-/// loses half its digits on nearly straight motion.
+/// Angle between two directions, 0..pi [rad]; 0 when either is zero. Uses atan2, because acos loses
+/// half the digits for nearly parallel directions.
 inline double turn_between(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

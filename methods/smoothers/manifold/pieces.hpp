@@ -1,5 +1,5 @@
-/// What may stand for a window of the planar step. Each is asked where the spline is, at a time or
-/// at a Jet of it, and answers with a place.
+/// Curve types for a window of the planar step. Each maps a spline point, at a time or a Jet of
+/// time, to a point of the fitted curve.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace loopbench::manifold {
 
-/// The spline with its y' replaced by the fitted curve at its x'.
+/// Spline point with y' replaced by the fitted curve at its x'.
 template <class Function>
 struct Graph {
   Frame frame;
@@ -31,8 +31,8 @@ struct Graph {
   }
 };
 
-/// The spline moved, as seen from above, to the nearest point of F(x', y') = 0: at one x' there may
-/// be several y'. Where no point is found the spline stays.
+/// Spline point moved in the plane to the nearest point of F(x', y') = 0, which may have several y'
+/// for one x'. The spline point is kept where no such point is found.
 struct AsImplicit {
   Frame frame;
   Implicit curve;
@@ -48,7 +48,7 @@ struct AsImplicit {
   }
 };
 
-/// A parametric curve at the spline's way.
+/// A parametric curve evaluated at the spline's arc length.
 template <class Function>
 struct Along {
   Function curve;
@@ -61,7 +61,7 @@ struct Along {
 using AsArc = Along<Arc>;
 using AsArcPolynomial = Along<ArcPolynomial>;
 
-/// One cubic regression spline r(s) for the whole trajectory.
+/// A cubic regression spline r(s) for the whole trajectory.
 struct AsRegression {
   std::shared_ptr<const BSpline> curve;
 
@@ -72,7 +72,7 @@ struct AsRegression {
   }
 };
 
-/// The straight line between two nodes.
+/// Straight line between two nodes.
 struct AsChord {
   double begin, end;  ///< [s]
   Vector3 from, to;   ///< [m]
@@ -84,7 +84,7 @@ struct AsChord {
   }
 };
 
-/// The spline itself.
+/// The spline unchanged.
 struct AsSpline {
   template <class T>
   VectorOf<T> operator()(const PlaceOf<T>& place) const {

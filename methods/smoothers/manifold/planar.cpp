@@ -5,18 +5,18 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr std::size_t kSmallest = 3;  // [nodes] a window is not split further: two make a line
+constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
 constexpr std::array kPolynomial{Family::by_n};
 
-PlanarPiece fallen_back(const Nodes& nodes,
-                        NodeRange range,
-                        const NodeSpline& spline,
-                        Fallback fallback) {
+PlanarPiece fallback_piece(const Nodes& nodes,
+                           NodeRange range,
+                           const NodeSpline& spline,
+                           Fallback fallback) {
   if (fallback == Fallback::spline || range.nodes() != 3) return AsSpline{};
   const std::size_t i = range.first;
   const std::array points{nodes.points[i], nodes.points[i + 1], nodes.points[i + 2]};
-  const std::array ways{spline.way(i), spline.way(i + 1), spline.way(i + 2)};
-  const auto arc = fit_arc(points, ways);
+  const std::array arc_lengths{spline.way(i), spline.way(i + 1), spline.way(i + 2)};
+  const auto arc = fit_arc(points, arc_lengths);
   return arc ? PlanarPiece(AsArc{*arc}) : PlanarPiece(AsSpline{});
 }
 
@@ -36,12 +36,13 @@ PlanarFit fit_planar(const Nodes& nodes,
                      const Vector3& up,
                      const PlanarRule& rule) {
   PlanarFit out;
-  // Growing moves every piece again and again, and each has more than its coefficients in it.
+  // Reserves memory, because reallocation would move every piece.
   const std::size_t steps = rule.scheme == Scheme::sliding_blend ? 1 : rule.size - 1;
   out.windows.reserve(nodes.size() / steps + segments.size());
   out.pieces.reserve(nodes.size() / steps + segments.size());
   const WindowFitter fitter{nodes, spline, up, rule};
-  // The families of the rule, a polynomial when they refuse, or nothing when the guard does.
+  // Fits the families of the rule, or a polynomial if they fail; returns nullopt if the guard
+  // rejects the window.
   const auto fit = [&](const Window& window) -> std::optional<PlanarPiece> {
     if (!fitter.admits(window)) return std::nullopt;
     if (auto piece = fitter.fit(window, rule.families)) return piece;
@@ -52,7 +53,7 @@ PlanarFit fit_planar(const Nodes& nodes,
   const auto fit_small = [&](const Window& window) {
     if (const auto piece = fit(window)) return out.keep(window, *piece);
     ++out.fallbacks;
-    out.keep(window, fallen_back(nodes, window.fitted, spline, rule.fallback));
+    out.keep(window, fallback_piece(nodes, window.fitted, spline, rule.fallback));
   };
   for (const NodeRange& segment : segments) {
     if (segment.nodes() < rule.chords_below) {

@@ -1,4 +1,4 @@
-/// Step 8 in the plane: y' = f(x') on windows of N nodes, with the guard and what follows it.
+/// Step 8 in the plane: y' = f(x') on windows of N nodes, with guard and fallback.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ inline auto choices(Fallback) {
   return std::array{std::pair{"arc", Fallback::arc}, std::pair{"spline", Fallback::spline}};
 }
 
-/// How badly a piece stands for a window, less is better; at `spline`'s places.
+/// Cost of a piece for a window, evaluated at the points of `spline`; lower is better.
 using PieceJudge = std::function<double(
     const PlanarPiece& piece, const Window& window, const Nodes& nodes, const NodeSpline& spline)>;
 
@@ -27,18 +27,18 @@ struct PlanarRule {
   std::vector<Family> families{Family::by_n};
   FamilyRule family = {};
   Selection selection = Selection::fixed;
-  PieceJudge judge = {};  ///< chooses in the place of `selection`; only an oracle has one
+  PieceJudge judge = {};  ///< selects the family instead of `selection`; used by an oracle only
   Fallback fallback = Fallback::arc;
-  std::size_t chords_below = 0;  ///< segments of fewer nodes become straight lines
+  std::size_t chords_below = 0;  ///< segments with fewer nodes become straight lines
 };
 
 struct PlanarFit {
   std::vector<Window> windows;
-  std::vector<PlanarPiece> pieces;  ///< one for each window
-  std::size_t split = 0;            ///< windows the guard sent back in parts of three nodes
-  std::size_t fallbacks = 0;        ///< pieces that are no curve of a family
-  std::size_t refused = 0;          ///< windows whose families all refused: a polynomial instead
-  std::size_t chords = 0;           ///< pieces that are straight lines by the short policy
+  std::vector<PlanarPiece> pieces;  ///< one per window
+  std::size_t split = 0;            ///< windows split into windows of three nodes by the guard
+  std::size_t fallbacks = 0;        ///< pieces that are not curves of a family
+  std::size_t refused = 0;          ///< windows where all families failed and a polynomial is used
+  std::size_t chords = 0;           ///< pieces that are straight lines due to the short policy
 
   void keep(const Window& window, const PlanarPiece& piece) {
     windows.push_back(window);
@@ -46,10 +46,11 @@ struct PlanarFit {
   }
 };
 
-/// A guarded window that is no graph is split into windows of three nodes; those that are none
-/// either take the fallback. Unguarded, whatever can be solved is taken and the rest is the
-/// spline. A family other than a polynomial that leaves the spline, on the edges it is asked for,
-/// by more than a quarter of its chord is refused when guarded. O(nodes).
+/// Fits the windows of all segments. With the guard, a window that is not a graph is split into
+/// windows of three nodes, and those that are still not a graph use the fallback; a curve of a
+/// family other than a polynomial is rejected if it leaves the spline, on the edges where it is
+/// evaluated, by more than a quarter of its chord. Without the guard, every solvable fit is used,
+/// and the spline elsewhere. O(nodes).
 PlanarFit fit_planar(const Nodes& nodes,
                      std::span<const NodeRange> segments,
                      const NodeSpline& spline,

@@ -6,7 +6,7 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr double kFades = 1.0;  // [s]
+constexpr double kDecayTime = 1.0;  // [s]
 
 void add(std::vector<Vector3>& out, const Vector3& direction, const Vector3& displacement) {
   if (!(direction.norm() > 0.0)) return;
@@ -14,11 +14,11 @@ void add(std::vector<Vector3>& out, const Vector3& direction, const Vector3& dis
   out.push_back(unit.dot(displacement) < 0.0 ? Vector3(-unit) : unit);
 }
 
-NodeRange around(const Nodes& nodes, std::size_t node, std::size_t half) {
+NodeRange neighbourhood(const Nodes& nodes, std::size_t node, std::size_t half) {
   return {node - std::min(node, half), std::min(node + half, nodes.size() - 1)};
 }
 
-Vector3 widest(const Nodes& nodes, NodeRange range) {
+Vector3 principal_axis(const Nodes& nodes, NodeRange range) {
   Vector3 mean = Vector3::Zero();
   for (std::size_t i = range.first; i <= range.last; ++i) mean += nodes.points[i];
   mean /= static_cast<double>(range.nodes());
@@ -52,15 +52,16 @@ Vector3 frechet_mean(std::span<const WeightedDirection> directions) {
   if (!(mean.norm() > 0.0)) return Vector3::Zero();
   mean.normalize();
   for (int step = 0; step < 5; ++step) {
-    Vector3 pull = Vector3::Zero();  // the mean of the logarithms, in the tangent plane
+    Vector3 update = Vector3::Zero();  // mean of the logarithms, in the tangent plane
     for (const auto& [direction, weight] : directions) {
-      const Vector3 off = direction - mean.dot(direction) * mean;
-      if (off.norm() > 0.0) pull += weight * turn_between(mean, direction) * off.normalized();
+      const Vector3 perpendicular = direction - mean.dot(direction) * mean;
+      if (perpendicular.norm() > 0.0)
+        update += weight * turn_between(mean, direction) * perpendicular.normalized();
     }
-    pull /= weights;
-    const double angle = pull.norm();
+    update /= weights;
+    const double angle = update.norm();
     if (!(angle > 0.0)) break;
-    mean = (std::cos(angle) * mean + std::sin(angle) / angle * pull).normalized();
+    mean = (std::cos(angle) * mean + std::sin(angle) / angle * update).normalized();
   }
   return mean;
 }
@@ -69,12 +70,13 @@ std::vector<WeightedDirection> chords_around(const Nodes& nodes,
                                              std::size_t node,
                                              std::size_t half) {
   std::vector<WeightedDirection> out;
-  const NodeRange range = around(nodes, node, half);
+  const NodeRange range = neighbourhood(nodes, node, half);
   for (std::size_t edge = range.first; edge < range.last; ++edge) {
     const double middle = 0.5 * (nodes.stamps[edge] + nodes.stamps[edge + 1]);
     const Vector3 step = nodes.step(edge);
     if (!(step.norm() > 0.0)) continue;
-    out.push_back({step.normalized(), std::exp(-std::abs(middle - nodes.stamps[node]) / kFades)});
+    out.push_back(
+        {step.normalized(), std::exp(-std::abs(middle - nodes.stamps[node]) / kDecayTime)});
   }
   return out;
 }
@@ -83,14 +85,14 @@ std::vector<Vector3> candidates(const Nodes& nodes,
                                 const NodeSpline& spline,
                                 std::size_t node,
                                 std::size_t half) {
-  const NodeRange near = around(nodes, node, 1);
-  const NodeRange wide = around(nodes, node, half);
+  const NodeRange near = neighbourhood(nodes, node, 1);
+  const NodeRange wide = neighbourhood(nodes, node, half);
   const Vector3 displacement = nodes.points[wide.last] - nodes.points[wide.first];
   std::vector<Vector3> out;
   add(out, nodes.points[node] - nodes.points[near.first], displacement);
   add(out, nodes.points[near.last] - nodes.points[node], displacement);
   add(out, nodes.points[near.last] - nodes.points[near.first], displacement);
-  add(out, widest(nodes, wide), displacement);
+  add(out, principal_axis(nodes, wide), displacement);
   const std::size_t edge = std::min(node, nodes.size() - 2);
   add(out, spline.at(edge, moving_time(nodes.stamps[node])).point.first, displacement);
   return out;
@@ -118,7 +120,7 @@ std::vector<Clamp> clamps(const Nodes& nodes,
                           PsiMean mean) {
   std::vector<Clamp> out;
   const auto clamp = [&](std::size_t node) {
-    const NodeRange near = around(nodes, node, 1);
+    const NodeRange near = neighbourhood(nodes, node, 1);
     double length = 0.0;
     for (std::size_t edge = near.first; edge < near.last; ++edge) length += nodes.step(edge).norm();
     const double speed = length / (nodes.stamps[near.last] - nodes.stamps[near.first]);

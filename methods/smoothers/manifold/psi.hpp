@@ -1,7 +1,7 @@
 /// Step 5: psi, the "optimal tangent vector" among candidates psi_1..psi_i.
 ///
-/// The article gives neither candidates, nor a cost, nor a use; design section 6 does. It may not
-/// alter orientations.
+/// The article defines neither the candidates, nor the cost, nor the use; design section 6 does.
+/// psi does not change orientations.
 #pragma once
 
 #include <array>
@@ -11,51 +11,54 @@
 
 namespace loopbench::manifold {
 
-/// none, or the spline's direction where a segment begins or ends.
+/// Use of psi: none, or as the spline's direction at the ends of segments.
 enum class PsiUse { none, boundary_tangent };
 inline auto choices(PsiUse) {
   return std::array{std::pair{"none", PsiUse::none},
                     std::pair{"boundary_tangent", PsiUse::boundary_tangent}};
 }
 
-/// discrete: the best of the candidates. frechet: the mean of the chords on the sphere.
+/// discrete: the best of the candidates. frechet: the Frechet mean of the chords on the sphere.
 enum class PsiMean { discrete, frechet };
 inline auto choices(PsiMean) {
   return std::array{std::pair{"discrete", PsiMean::discrete},
                     std::pair{"frechet", PsiMean::frechet}};
 }
 
-/// A unit direction and what it counts for.
+/// Unit direction and its weight.
 struct WeightedDirection {
   Vector3 direction;
   double weight;
 };
 
-/// Sum of weights times squared angles to the directions [rad^2].
+/// Weighted sum of squared angles to the directions [rad^2].
 double spread(const Vector3& psi, std::span<const WeightedDirection> chords);
 
-/// The unit vector that makes `spread` least: five Newton steps on the sphere (Karcher's, step 1)
-/// from the weighted sum. Directions within an open half sphere have just one.
+/// Returns the unit vector that minimises `spread`: five steps of gradient descent on the sphere
+/// (Karcher, step size 1) from the weighted sum. It is unique for directions within an open
+/// hemisphere.
 Vector3 frechet_mean(std::span<const WeightedDirection> directions);
 
-/// The chords around a node, up to `half` steps on each side, weighted exp(-|t| / 1 s) by the time
-/// from the node to the middle of the chord. Steps without length are left out.
+/// Chords around a node, up to `half` steps on each side, with the weight exp(-|t| / 1 s), where t
+/// is the time from the node to the middle of the chord. Steps of zero length are omitted.
 std::vector<WeightedDirection> chords_around(const Nodes& nodes,
                                              std::size_t node,
                                              std::size_t half);
 
-/// Backward, forward and central chord, the axis of most spread of the nodes around, and the
-/// spline's tangent; unit, along the displacement. Those without a direction are left out.
+/// Candidate directions: backward, forward and central chord, principal axis of the surrounding
+/// nodes, and tangent of the spline. Unit vectors, oriented along the displacement. Undefined
+/// directions are omitted.
 std::vector<Vector3> candidates(const Nodes& nodes,
                                 const NodeSpline& spline,
                                 std::size_t node,
                                 std::size_t half);
 
-/// psi at a node; the zero vector where all around stands still.
+/// psi at a node; the zero vector where all surrounding nodes are at rest.
 Vector3 optimal_tangent(
     const Nodes& nodes, const NodeSpline& spline, std::size_t node, std::size_t half, PsiMean mean);
 
-/// Where segments begin and end: psi times the mean speed over the steps on either side. O(nodes).
+/// Velocities at the ends of segments: psi times the mean speed over the two adjacent steps.
+/// O(nodes).
 std::vector<Clamp> clamps(const Nodes& nodes,
                           const NodeSpline& spline,
                           std::span<const NodeRange> segments,

@@ -6,10 +6,10 @@
 namespace loopbench::manifold {
 namespace {
 
-// A gap of one second as stamps write it may be longer by their rounding.
+// Tolerance for rounded stamps: a gap of nominally one second may be slightly longer.
 constexpr double kSlack = 1e-6;  // [parts]
 
-double parts_wanted(const StampedPose& a, const StampedPose& b, const GapRule& rule) {
+double required_parts(const StampedPose& a, const StampedPose& b, const GapRule& rule) {
   const auto parts = [](double size, std::optional<double> size_max) {
     return size_max ? std::ceil(size / *size_max - kSlack) : 1.0;
   };
@@ -22,7 +22,7 @@ bool shares_too_little(const Problem& problem, std::size_t i, const GapRule& rul
   return static_cast<double>(problem.common_view[i]) < *rule.common_min;
 }
 
-// The nearer of the two frames around `time`, among those in begin..end (not empty).
+// Returns the frame nearest to `time` in the nonempty range begin..end.
 Trajectory::const_iterator nearest(Trajectory::const_iterator begin,
                                    Trajectory::const_iterator end,
                                    double time) {
@@ -35,18 +35,18 @@ Trajectory::const_iterator nearest(Trajectory::const_iterator begin,
 
 }  // namespace
 
-std::size_t insert_frames(const StampedPose& here,
+std::size_t insert_frames(const StampedPose& current,
                           const StampedPose& next,
                           std::size_t parts,
                           const Trajectory& frames,
                           Trajectory& out) {
   const auto earlier = [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
-  auto begin = std::upper_bound(frames.begin(), frames.end(), here, earlier);
+  auto begin = std::upper_bound(frames.begin(), frames.end(), current, earlier);
   const auto end = std::lower_bound(begin, frames.end(), next, earlier);
   std::size_t inserted = 0;
   for (std::size_t part = 1; part < parts && begin != end; ++part) {
     const double share = static_cast<double>(part) / static_cast<double>(parts);
-    const auto frame = nearest(begin, end, std::lerp(here.stamp, next.stamp, share));
+    const auto frame = nearest(begin, end, std::lerp(current.stamp, next.stamp, share));
     out.push_back(*frame);
     ++inserted;
     begin = std::next(frame);
@@ -58,18 +58,19 @@ Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
   Densified out;
   out.nodes.reserve(problem.keyframes.size());
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
-    const StampedPose& here = problem.keyframes[i];
-    out.nodes.push_back(here);
+    const StampedPose& current = problem.keyframes[i];
+    out.nodes.push_back(current);
     if (i + 1 == problem.keyframes.size()) break;
     const StampedPose& next = problem.keyframes[i + 1];
-    double parts = parts_wanted(here, next, rule);
+    double parts = required_parts(current, next, rule);
     if (shares_too_little(problem, i, rule)) parts = std::max(parts, 2.0);
     if (parts < 2.0) continue;
-    // No gap holds more frames than there are: a rule near zero asks for no end of parts.
-    const auto wanted =
+    // Limits the number of parts, which is unbounded for a limit near zero, to the number of
+    // frames.
+    const auto requested =
         static_cast<std::size_t>(std::min(parts, static_cast<double>(problem.frames.size()) + 1.0));
-    const std::size_t inserted =
-        insert_frames(here, next, std::max<std::size_t>(wanted, 2), problem.frames, out.nodes);
+    const std::size_t inserted = insert_frames(
+        current, next, std::max<std::size_t>(requested, 2), problem.frames, out.nodes);
     out.inserted += inserted;
     if (inserted == 0) ++out.gaps_left;
   }

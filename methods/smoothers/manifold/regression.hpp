@@ -1,5 +1,5 @@
 /// Joints by constrained least squares: cubics on windows with equal value, slope and second
-/// derivative where they meet are one cubic spline, so that is what is fitted.
+/// derivative at their joints form one cubic spline, which is fitted directly.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace loopbench::manifold {
 
-/// r(s) over the way along all nodes, least squares in space, knots where consecutive windows of N
-/// nodes meet. The same function as the windows' cubics under equality constraints, without their
-/// multipliers. Only for the parametric frame: in y' = f(x') every window has axes of its own, in
-/// which C2 is no linear condition. One piece owns everything. Nothing when the nodes have no way.
-/// O(nodes).
+/// Least-squares fit of r(s) in space over the arc length along all nodes, with knots where
+/// consecutive windows of N nodes meet. Equal to the windows' cubics under equality constraints,
+/// without multipliers. For the parametric frame only: with y' = f(x') every window has its own
+/// axes, so C2 continuity is not a linear condition. One piece owns all edges. Returns nullopt when
+/// the path has zero length. O(nodes).
 std::optional<PlanarFit> fit_regression(const Nodes& nodes,
                                         std::span<const NodeRange> segments,
                                         const NodeSpline& spline,

@@ -12,7 +12,7 @@ double mean_speed(const Nodes& nodes) {
   return length / (nodes.stamps.back() - nodes.stamps.front());
 }
 
-/// The speeds of the open segment, as far as the rules want to know them.
+/// Statistics of the speeds of the current segment.
 struct Speeds {
   double slowest, fastest, last, sum;
   double count = 1.0;

@@ -1,4 +1,4 @@
-/// Step 9: which family a window takes, judged on its keyframes and never on the reference.
+/// Step 9: selection of a window's family, based on its keyframes and never on the reference.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,9 @@
 
 namespace loopbench::manifold {
 
-/// fixed: the first of the list that can be fitted. aicc: least corrected Akaike criterion.
-/// loocv: least squared error at nodes left out of the fit, one at a time.
+/// fixed: the first family of the list that can be fitted. aicc: lowest corrected Akaike
+/// information criterion. loocv: lowest squared error in leave-one-out cross-validation over the
+/// nodes.
 enum class Selection { fixed, aicc, loocv };
 inline auto choices(Selection) {
   return std::array{std::pair{"fixed", Selection::fixed},
@@ -17,9 +18,10 @@ inline auto choices(Selection) {
                     std::pair{"loocv", Selection::loocv}};
 }
 
-/// n ln(RSS / n) + 2 k + 2 k (k + 1) / (n - k - 1), k = parameters and the variance. Infinite where
-/// n <= k + 1: five nodes let a line compete and nothing else, six a parabola as well. Residuals
-/// below a micrometre count as that. Source: Hurvich and Tsai, Biometrika 76(2) 1989.
+/// Returns n ln(RSS / n) + 2 k + 2 k (k + 1) / (n - k - 1), where k is the number of parameters + 1
+/// for the variance. Infinite for n <= k + 1: five nodes admit only a line, six also a parabola.
+/// The mean squared residual is bounded below by (1 um)^2. Source: Hurvich and Tsai, Biometrika
+/// 76(2) 1989.
 inline double aicc(double residual_squares, std::size_t nodes, std::size_t parameters) {
   const double n = static_cast<double>(nodes);
   const double k = static_cast<double>(parameters) + 1.0;

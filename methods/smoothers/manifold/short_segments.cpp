@@ -6,23 +6,28 @@
 
 namespace loopbench::manifold {
 
-std::vector<NodeRange> merged(const Nodes& nodes, std::vector<NodeRange> runs, std::size_t least) {
-  std::vector<double> ways(nodes.size(), 0.0);
-  for (std::size_t i = 1; i < nodes.size(); ++i) ways[i] = ways[i - 1] + nodes.step(i - 1).norm();
+std::vector<NodeRange> merged(const Nodes& nodes,
+                              std::vector<NodeRange> runs,
+                              std::size_t min_nodes) {
+  std::vector<double> path_length(nodes.size(), 0.0);
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    path_length[i] = path_length[i - 1] + nodes.step(i - 1).norm();
   const auto speed = [&](const NodeRange& run) {
-    return (ways[run.last] - ways[run.first]) / (nodes.stamps[run.last] - nodes.stamps[run.first]);
+    return (path_length[run.last] - path_length[run.first]) /
+           (nodes.stamps[run.last] - nodes.stamps[run.first]);
   };
   std::vector<NodeRange> out;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const NodeRange& run = runs[k];
-    const bool next = k + 1 < runs.size();
-    if (run.nodes() >= least || (out.empty() && !next)) {
+    const bool has_next = k + 1 < runs.size();
+    if (run.nodes() >= min_nodes || (out.empty() && !has_next)) {
       out.push_back(run);
       continue;
     }
-    const bool forth = out.empty() || (next && std::abs(speed(runs[k + 1]) - speed(run)) <
-                                                   std::abs(speed(out.back()) - speed(run)));
-    if (forth) {
+    const bool with_next =
+        out.empty() || (has_next && std::abs(speed(runs[k + 1]) - speed(run)) <
+                                        std::abs(speed(out.back()) - speed(run)));
+    if (with_next) {
       runs[k + 1].first = run.first;
     } else {
       out.back().last = run.last;
@@ -34,13 +39,13 @@ std::vector<NodeRange> merged(const Nodes& nodes, std::vector<NodeRange> runs, s
 Filled filled(const Trajectory& nodes,
               const std::vector<NodeRange>& runs,
               const Trajectory& frames,
-              std::size_t least) {
+              std::size_t min_nodes) {
   Filled out;
   out.nodes.push_back(nodes.front());
   for (const NodeRange& run : runs) {
     const std::size_t first = out.nodes.size() - 1;
     const std::size_t edges = run.last - run.first;
-    const std::size_t parts = run.nodes() < least ? (least - 2 + edges) / edges : 1;
+    const std::size_t parts = run.nodes() < min_nodes ? (min_nodes - 2 + edges) / edges : 1;
     for (std::size_t i = run.first; i < run.last; ++i) {
       out.inserted += insert_frames(nodes[i], nodes[i + 1], parts, frames, out.nodes);
       out.nodes.push_back(nodes[i + 1]);

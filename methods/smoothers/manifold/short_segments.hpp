@@ -1,4 +1,4 @@
-/// Step 4: what becomes of segments with fewer nodes than a window wants.
+/// Step 4: treatment of segments with fewer nodes than a window.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace loopbench::manifold {
 
-/// borrow_neighbours: their windows take nodes of the neighbours. merge: they join the neighbour
-/// nearer in mean speed. polyline: straight lines. quasi_keyframes: tracked frames fill them up;
-/// where there are none they borrow.
+/// borrow_neighbours: their windows include nodes of the neighbouring segments. merge: they are
+/// merged with the neighbour of the most similar mean speed. polyline: straight lines.
+/// quasi_keyframes: tracked frames are inserted; without such frames nodes are borrowed.
 enum class Short { borrow_neighbours, merge, polyline, quasi_keyframes };
 inline auto choices(Short) {
   return std::array{std::pair{"borrow_neighbours", Short::borrow_neighbours},
@@ -19,22 +19,25 @@ inline auto choices(Short) {
                     std::pair{"quasi_keyframes", Short::quasi_keyframes}};
 }
 
-/// Segments with fewer than `least` nodes joined, left to right, to the neighbour whose mean speed
-/// is nearer; both rules of segmentation are relaxed there. O(n).
-std::vector<NodeRange> merged(const Nodes& nodes, std::vector<NodeRange> runs, std::size_t least);
+/// Merges segments with fewer than `min_nodes` nodes, left to right, with the neighbour of the most
+/// similar mean speed, regardless of the segmentation rules. O(n).
+std::vector<NodeRange> merged(const Nodes& nodes,
+                              std::vector<NodeRange> runs,
+                              std::size_t min_nodes);
 
-/// Nodes and segments after tracked frames were added.
+/// Nodes and segments after the insertion of tracked frames.
 struct Filled {
   Trajectory nodes;
   std::vector<NodeRange> runs;
   std::size_t inserted = 0;
 };
 
-/// Every edge of a segment with fewer than `least` nodes is cut into as many equal parts as the
-/// segment lacks, and the tracked frame nearest to each cut becomes a node. O(n log frames).
+/// Divides every edge of a segment with fewer than `min_nodes` nodes into as many equal parts as
+/// are needed to reach `min_nodes`, and inserts the tracked frame nearest to each division. O(n log
+/// frames).
 Filled filled(const Trajectory& nodes,
               const std::vector<NodeRange>& runs,
               const Trajectory& frames,
-              std::size_t least);
+              std::size_t min_nodes);
 
 }  // namespace loopbench::manifold

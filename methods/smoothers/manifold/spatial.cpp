@@ -5,7 +5,7 @@
 namespace loopbench::manifold {
 namespace {
 
-constexpr double kRounding = 1e-9;  // [of the window] level motion has no range of heights
+constexpr double kRounding = 1e-9;  // fraction of the window size, for level motion
 
 bool is_tame(const Height::Surface& surface,
              const Nodes& nodes,
@@ -18,13 +18,13 @@ bool is_tame(const Height::Surface& surface,
     low = std::min(low, up.dot(nodes.points[i]));
     high = std::max(high, up.dot(nodes.points[i]));
   }
-  const double most = high - low + kRounding * surface.quadric.scale;
+  const double max_deviation = high - low + kRounding * surface.quadric.scale;
   const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
   const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
   for (std::size_t edge = begin; edge < end; ++edge) {
     for (const double u : {0.25, 0.5, 0.75}) {
       const Vector3 point = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge)).point;
-      if (std::abs(surface.height(point) - up.dot(point)) > most) return false;
+      if (std::abs(surface.height(point) - up.dot(point)) > max_deviation) return false;
     }
   }
   return true;

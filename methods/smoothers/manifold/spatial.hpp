@@ -10,7 +10,7 @@
 
 namespace loopbench::manifold {
 
-/// Height over a place; empty: the place keeps the height it has.
+/// Height as a function of position; empty: the spline's height is kept.
 struct Height {
   struct Surface {
     Frame frame;
@@ -35,21 +35,20 @@ struct SpatialRule {
   Axes axes = Axes::chord;
   bool guarded = true;
   Scheme scheme = Scheme::consecutive;
-  double cut = kQuadricCut;     ///< weaker directions are dropped [of the strongest]
-  std::size_t plain_below = 0;  ///< segments of fewer nodes keep the height they have
+  double cut = kQuadricCut;     ///< relative singular value below which directions are dropped
+  std::size_t plain_below = 0;  ///< segments with fewer nodes keep the spline's height
 };
 
 struct SpatialFit {
   std::vector<Window> windows;
-  std::vector<Height> pieces;  ///< one for each window
+  std::vector<Height> pieces;  ///< one per window
   std::size_t truncated = 0;   ///< windows whose nodes lie near a conic
-  std::size_t fallbacks = 0;   ///< windows that keep the height they have
+  std::size_t fallbacks = 0;   ///< windows that keep the spline's height
 };
 
-/// Heights along `up`, from the first node. `guarded`: a surface that leaves the spline, on the
-/// edges it stands for or the next one, by more than the whole range of its nodes' heights says
-/// nothing about them and is not used; nodes nearly on a conic give such surfaces even truncated.
-/// O(nodes).
+/// Fits heights along `up`, relative to the first node. `guarded`: rejects a surface that leaves
+/// the spline, on its own edges or one edge beside them, by more than the height range of its
+/// nodes; nodes near a conic produce such surfaces even with truncation. O(nodes).
 SpatialFit fit_spatial(const Nodes& nodes,
                        std::span<const NodeRange> segments,
                        const NodeSpline& spline,

@@ -3,10 +3,10 @@
 namespace loopbench::manifold {
 
 NodeSpline::NodeSpline(const Nodes& nodes, Straight) : stamps_(nodes.stamps), knots_(nodes.size()) {
-  double way = 0.0;
+  double path_length = 0.0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (i > 0) way += nodes.step(i - 1).norm();
-    knots_[i].value << nodes.points[i], way;
+    if (i > 0) path_length += nodes.step(i - 1).norm();
+    knots_[i].value << nodes.points[i], path_length;
     knots_[i].before.setZero();
     knots_[i].after.setZero();
   }
@@ -19,11 +19,11 @@ NodeSpline::NodeSpline(const Nodes& nodes, std::span<const Clamp> clamps)
   std::size_t first = 0;
   const Clamp* start = nullptr;
   for (const Clamp& clamp : clamps) {
-    if (clamp.node > first) bend(first, clamp.node, start, &clamp);
+    if (clamp.node > first) solve_second_derivatives(first, clamp.node, start, &clamp);
     first = clamp.node;
     start = &clamp;
   }
-  if (first + 1 < nodes.size()) bend(first, nodes.size() - 1, start, nullptr);
+  if (first + 1 < nodes.size()) solve_second_derivatives(first, nodes.size() - 1, start, nullptr);
 }
 
 NodeSpline NodeSpline::polyline(const Nodes& nodes) { return NodeSpline(nodes, Straight{}); }
@@ -32,14 +32,17 @@ NodeSpline NodeSpline::of_order(const Nodes& nodes, std::size_t order) {
   NodeSpline out(nodes, Straight{});
   std::vector<Value> values;
   for (const Knot& knot : out.knots_) values.push_back(knot.value);
-  out.other_ = BSpline::through(out.stamps_, values, order);
+  out.b_spline_ = BSpline::through(out.stamps_, values, order);
   return out;
 }
 
-// Continuous second derivatives m: h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 (slope1 - slope0); at the
-// ends m = 0, or 2 h m0 + h m1 = 6 (slope - velocity). Thomas' elimination; the matrix is
+// Solves for continuous second derivatives m: h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 (slope1 - slope0);
+// at the ends m = 0, or 2 h m0 + h m1 = 6 (slope - velocity). Thomas algorithm; the matrix is
 // diagonally dominant.
-void NodeSpline::bend(std::size_t first, std::size_t last, const Clamp* start, const Clamp* end) {
+void NodeSpline::solve_second_derivatives(std::size_t first,
+                                          std::size_t last,
+                                          const Clamp* start,
+                                          const Clamp* end) {
   const auto duration = [&](std::size_t i) { return stamps_[i + 1] - stamps_[i]; };
   const auto slope = [&](std::size_t i) -> Value {
     return (knots_[i + 1].value - knots_[i].value) / duration(i);
@@ -77,8 +80,8 @@ void NodeSpline::bend(std::size_t first, std::size_t last, const Clamp* start, c
 }
 
 Place NodeSpline::at(std::size_t edge, double time) const {
-  if (other_) {
-    const Value value = other_->at(time);
+  if (b_spline_) {
+    const Value value = b_spline_->at(time);
     return {value.head<3>(), value[3], time};
   }
   const Knot& a = knots_[edge];
@@ -94,8 +97,8 @@ Place NodeSpline::at(std::size_t edge, double time) const {
 
 MovingPlace NodeSpline::at(std::size_t edge, const Jet<double>& time) const {
   Jet<Value> out;
-  if (other_) {
-    out = other_->at(time);
+  if (b_spline_) {
+    out = b_spline_->at(time);
   } else {
     const Knot& a = knots_[edge];
     const Knot& b = knots_[edge + 1];

@@ -1,4 +1,4 @@
-/// Step 7: the curve through all nodes, x'(t) and z'(t) of every window at once.
+/// Step 7: the curve through all nodes, which gives x'(t) and z'(t) for every window.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace loopbench::manifold {
 
-/// Where the spline is: a position [m], the way along the nodes [m], and when [s].
+/// Point of the spline: position [m], arc length along the nodes [m] and time [s].
 template <class T>
 struct PlaceOf {
   VectorOf<T> point;
@@ -20,56 +20,59 @@ struct PlaceOf {
 using Place = PlaceOf<double>;
 using MovingPlace = PlaceOf<Jet<double>>;
 
-/// Which x is used to find the corresponding y.
+/// Curve that provides the x' at which y' is evaluated.
 enum class Abscissa { spline, polyline };
 inline auto choices(Abscissa) {
   return std::array{std::pair{"spline", Abscissa::spline},
                     std::pair{"polyline", Abscissa::polyline}};
 }
 
-/// A node the spline passes with a given velocity; the cubic is C1 there and no more.
+/// Node with a prescribed velocity; the cubic is only C1 there.
 struct Clamp {
   std::size_t node;
   Vector3 velocity;  ///< [m/s]
 };
 
-/// The interpolating cubic B-spline with natural ends and time as its parameter. Held as values
-/// and second derivatives at the nodes (the same function, cheaper to ask). One spline over the
-/// whole trajectory: one for each segment would have no acceleration at every joint and could not
-/// be C2 there. Coordinates in any fitting frame are linear in it, so frames share it.
+/// Interpolating cubic spline with natural ends in time, stored as values and second derivatives at
+/// the nodes, which is cheaper to evaluate than B-spline coefficients. One spline covers the whole
+/// trajectory; a natural spline per segment would have zero acceleration at every joint.
+/// Coordinates in any fitting frame are linear in the spline, so all frames share it.
 class NodeSpline {
  public:
-  explicit NodeSpline(const Nodes& nodes);  ///< two nodes or more; O(n)
+  explicit NodeSpline(const Nodes& nodes);  ///< requires at least two nodes; O(n)
 
-  /// Clamped in the given nodes, which increase: where segments end, to the optimal tangent psi.
+  /// Spline with prescribed velocities at the given nodes (increasing): psi at segment ends.
   NodeSpline(const Nodes& nodes, std::span<const Clamp> clamps);
 
   /// Straight lines between the nodes.
   static NodeSpline polyline(const Nodes& nodes);
 
-  /// B-spline of another order (bspline.hpp); 4 there has its knots between the nodes, not natural
-  /// ends.
+  /// B-spline of another order (bspline.hpp). Its order 4 has knots between the nodes instead of
+  /// natural ends.
   static NodeSpline of_order(const Nodes& nodes, std::size_t order);
 
-  /// `time` in stamps[edge]..stamps[edge + 1]. O(1), O(log n) for another order.
+  /// Point at `time` in stamps[edge]..stamps[edge + 1]. O(1), or O(log n) for another order.
   Place at(std::size_t edge, double time) const;
   MovingPlace at(std::size_t edge, const Jet<double>& time) const;
 
   double way(std::size_t node) const { return knots_[node].value[3]; }
 
  private:
-  using Value = Eigen::Vector4d;  ///< x, y, z and the way
+  using Value = Eigen::Vector4d;  ///< x, y, z and arc length
   struct Knot {
     Value value;
-    Value before, after;  ///< second derivative by time on either side
+    Value before, after;  ///< second time derivative on either side
   };
   struct Straight {};
   NodeSpline(const Nodes& nodes, Straight);
-  void bend(std::size_t first, std::size_t last, const Clamp* start, const Clamp* end);
+  void solve_second_derivatives(std::size_t first,
+                                std::size_t last,
+                                const Clamp* start,
+                                const Clamp* end);
 
   std::vector<double> stamps_;
   std::vector<Knot> knots_;
-  std::optional<BSpline> other_;
+  std::optional<BSpline> b_spline_;  ///< set by of_order()
 };
 
 }  // namespace loopbench::manifold

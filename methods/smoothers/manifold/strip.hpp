@@ -1,4 +1,4 @@
-/// Pieces laid end to end in time with a joint between each two.
+/// Piecewise curve in time with joints between neighbouring pieces.
 #pragma once
 
 #include <vector>
@@ -13,18 +13,18 @@ struct Strip {
   std::vector<Piece> pieces;
   std::vector<Joint> joints;  ///< joints[k] is between pieces k and k + 1
   std::vector<std::uint32_t> piece_of_edge;
-  std::vector<Ramp<Value>> ramps;      ///< one a piece, or none at all
-  std::vector<Bridge<Value>> bridges;  ///< one a joint, or none at all
+  std::vector<Ramp<Value>> ramps;      ///< one per piece, or empty
+  std::vector<Bridge<Value>> bridges;  ///< one per joint, or empty
 
-  /// Piece k and its ramp.
+  /// Value of piece k plus its ramp.
   template <class T, class Ask>
   Asked<T, Value> alone(std::size_t k, const T& time, Ask ask) const {
     if (ramps.empty()) return ask(pieces[k]);
     return ask(pieces[k]) + ramps[k](time);
   }
 
-  /// `ask(piece)` blended or bridged where pieces meet. Blended pieces that meet in a node which
-  /// both pass through leave it where it is, whatever the weights. O(1), three pieces at most.
+  /// Value of the curve: `ask(piece)`, blended or bridged at joints. Blending keeps a node that
+  /// both pieces interpolate. O(1), at most three pieces.
   template <class T, class Ask>
   Asked<T, Value> at(std::size_t edge, const T& time, Ask ask) const {
     const std::size_t k = piece_of_edge[edge];
@@ -46,15 +46,15 @@ struct Strip {
   }
 };
 
-/// How windows are laid and meet.
+/// Placement and joints of windows.
 struct Laying {
   JointRule rule;
   Scheme scheme = Scheme::consecutive;
-  std::size_t size = 4;  ///< nodes of a window
+  std::size_t size = 4;  ///< number of nodes of a window
 };
 
-/// Pieces and the windows they were fitted to, both in time order and covering every edge.
-/// `ask(piece, edge, time)` is the piece at a Jet of time: what ramps and bridges are made from.
+/// Joins pieces that were fitted to windows, in time order and covering every edge. `ask(piece,
+/// edge, time)` evaluates a piece at a Jet of time, from which ramps and bridges are computed.
 template <class Value, class Piece, class Ask>
 Strip<Piece, Value> laid(const Nodes& nodes,
                          const std::vector<Window>& windows,

@@ -5,12 +5,12 @@
 namespace loopbench::manifold {
 namespace {
 
-// Closer eigenvalues than this turn rounding of the input into a turn of the axis that shows:
-// the axis errs by about eps * l2 / (l1 - l0) and moves points that lie sqrt(l1) off the axis.
-constexpr double kGap = 1e-5;  // [of sqrt(l1 l2)]
+// Relative eigenvalue gap below which rounding of the input rotates the axis noticeably: the axis
+// error is about eps * l2 / (l1 - l0) and moves points at a distance of sqrt(l1) from the axis.
+constexpr double kGap = 1e-5;  // fraction of sqrt(l1 l2)
 
-// The first body axis that is not nearly across the space. One of three always has more than
-// sqrt(1/3) of its length in it.
+// Returns the first body axis that is not nearly perpendicular to the subspace. At least one of
+// three has a component of more than sqrt(1/3) in it.
 Vector3 body_axis_in(const Matrix3& projector, const Rotation& world_from_body) {
   Vector3 inside;
   for (const int axis : {2, 1, 0}) {

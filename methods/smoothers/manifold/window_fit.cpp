@@ -3,9 +3,9 @@
 namespace loopbench::manifold {
 namespace {
 
-// A curve that runs away between nodes does so by multiples of the chord near a pole or a turning
-// point; honest bends of a window within the guard stay below a quarter.
-constexpr double kMostAway = 0.25;  // [of the chord]
+// Near a pole or a turning point a curve leaves the spline between nodes by multiples of the chord;
+// valid curves of a window that passes the guard stay below a quarter.
+constexpr double kMaxDeviation = 0.25;  // fraction of the chord
 
 }  // namespace
 
@@ -16,7 +16,7 @@ bool WindowFitter::admits(const Window& window) const {
   if (!rule.guarded) return true;
   std::vector<Vector2> points;
   for (const std::size_t i : picked(window)) points.push_back(frame->local(nodes.points[i]));
-  // The world's x may run against the motion: a graph read from right to left is one too.
+  // World x may run against the motion: a graph in reversed x is valid, too.
   if (points.back().x() < points.front().x()) {
     for (Vector2& point : points) point.x() = -point.x();
   }
@@ -30,60 +30,60 @@ std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
     frame = fitting_frame(rule.axes, nodes, window.fitted, up);
     if (!frame) return std::nullopt;
   }
-  const std::vector<std::size_t> nodes_taken = picked(window);
+  const std::vector<std::size_t> node_indices = picked(window);
   std::optional<PlanarPiece> best;
-  double least = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Family family : families) {
-    auto piece = fit(family, frame, nodes_taken);
+    auto piece = fit(family, frame, node_indices);
     if (!piece) continue;
     if (rule.guarded && !is_polynomial(family) && !is_tame(*piece, window)) continue;
     if (rule.selection == Selection::fixed && !rule.judge) return piece;
-    const double own = rule.judge ? rule.judge(*piece, window, nodes, spline)
-                                  : score(family, *piece, frame, nodes_taken);
-    if (best && !(own < least)) continue;
+    const double cost = rule.judge ? rule.judge(*piece, window, nodes, spline)
+                                   : score(family, *piece, frame, node_indices);
+    if (best && !(cost < lowest)) continue;
     best = piece;
-    least = own;
+    lowest = cost;
   }
   return best;
 }
 
 std::optional<PlanarPiece> WindowFitter::fit(Family family,
                                              const std::optional<Frame>& frame,
-                                             std::span<const std::size_t> taken) const {
+                                             std::span<const std::size_t> node_indices) const {
   if (!frame) {
     std::vector<Vector3> points;
-    std::vector<double> ways;
-    for (const std::size_t i : taken) {
+    std::vector<double> arc_lengths;
+    for (const std::size_t i : node_indices) {
       points.push_back(nodes.points[i]);
-      ways.push_back(spline.way(i));
+      arc_lengths.push_back(spline.way(i));
     }
-    return fit_along(family, points, ways);
+    return fit_along(family, points, arc_lengths);
   }
   std::vector<Vector2> points;
-  points.reserve(taken.size());
-  for (const std::size_t i : taken) points.push_back(frame->local(nodes.points[i]));
+  points.reserve(node_indices.size());
+  for (const std::size_t i : node_indices) points.push_back(frame->local(nodes.points[i]));
   return fit_family(family, *frame, points, rule.family);
 }
 
 double WindowFitter::score(Family family,
                            const PlanarPiece& piece,
                            const std::optional<Frame>& frame,
-                           std::span<const std::size_t> taken) const {
+                           std::span<const std::size_t> node_indices) const {
   double sum = 0.0;
   if (rule.selection == Selection::aicc) {
-    for (const std::size_t i : taken) sum += squared_error(piece, i);
-    return aicc(sum, taken.size(), unknowns(family, taken.size(), rule.family));
+    for (const std::size_t i : node_indices) sum += squared_error(piece, i);
+    return aicc(sum, node_indices.size(), unknowns(family, node_indices.size(), rule.family));
   }
-  for (std::size_t k = 0; k < taken.size(); ++k) {
-    std::vector<std::size_t> rest(taken.begin(), taken.end());
+  for (std::size_t k = 0; k < node_indices.size(); ++k) {
+    std::vector<std::size_t> rest(node_indices.begin(), node_indices.end());
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-    // Fewer nodes would quietly lower a polynomial's degree: another family, not this one.
-    if (unknowns(family, taken.size(), rule.family) > rest.size()) {
+    // With fewer nodes fit_polynomial() would reduce the degree, which is another family.
+    if (unknowns(family, node_indices.size(), rule.family) > rest.size()) {
       return std::numeric_limits<double>::infinity();
     }
-    const auto without = fit(family, frame, rest);
-    if (!without) return std::numeric_limits<double>::infinity();
-    sum += squared_error(*without, taken[k]);
+    const auto refitted = fit(family, frame, rest);
+    if (!refitted) return std::numeric_limits<double>::infinity();
+    sum += squared_error(*refitted, node_indices[k]);
   }
   return sum;
 }
@@ -95,13 +95,13 @@ double WindowFitter::squared_error(const PlanarPiece& piece, std::size_t node) c
 
 bool WindowFitter::is_tame(const PlanarPiece& piece, const Window& window) const {
   const Vector3 chord = nodes.points[window.fitted.last] - nodes.points[window.fitted.first];
-  const double most = kMostAway * chord.norm();
+  const double max_deviation = kMaxDeviation * chord.norm();
   const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
   const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
   for (std::size_t edge = begin; edge < end; ++edge) {
     for (const double u : {0.25, 0.5, 0.75}) {
       const Place place = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge));
-      if (!((asked(piece, place) - place.point).norm() <= most)) return false;
+      if (!((asked(piece, place) - place.point).norm() <= max_deviation)) return false;
     }
   }
   return true;

@@ -1,21 +1,22 @@
-/// One window: frame, guard, candidates, choice.
+/// Fit of one window: frame, guard, candidate families and selection.
 #pragma once
 
 #include "methods/smoothers/manifold/planar.hpp"
 
 namespace loopbench::manifold {
 
-/// What the steps inside a window share.
+/// Data shared by the steps of fitting a window.
 struct WindowFitter {
   const Nodes& nodes;
   const NodeSpline& spline;
   const Vector3& up;
   const PlanarRule& rule;
 
-  /// The chosen family on the window's nodes, or nothing: no frame, no graph, all refused.
+  /// Returns the selected family fitted to the window's nodes, or nullopt if there is no frame, no
+  /// graph, or all families fail.
   std::optional<PlanarPiece> fit(const Window& window, std::span<const Family> families) const;
 
-  /// Whether the nodes may be a graph in the window's frame, the guard's opinion or none.
+  /// Whether a frame exists and, with the guard, whether the nodes are a graph in it.
   bool admits(const Window& window) const;
 
  private:

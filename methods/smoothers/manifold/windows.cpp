@@ -13,7 +13,7 @@ NodeRange borrowing(NodeRange nodes, std::size_t size, std::size_t count) {
   return nodes;
 }
 
-// Around node `edge` when `size` is odd, around the edge when it is even; inside the segment.
+// Window around node `edge` for odd `size`, around the edge for even `size`; within the segment.
 Window sliding(NodeRange segment, std::size_t edge, std::size_t size) {
   const std::size_t back = (size - 1) / 2;
   const std::size_t latest = segment.last + 1 - size;
@@ -57,7 +57,7 @@ std::vector<std::size_t> picked(const Window& window) {
   std::vector<std::size_t> out;
   out.reserve(taken);
   for (std::size_t k = 0; k < taken; ++k) {
-    // Rounded to the nearest; all of them when all are taken.
+    // Rounded to the nearest node; gives all nodes when all are taken.
     const std::size_t parts = taken > 1 ? taken - 1 : 1;
     out.push_back(window.fitted.first + (2 * k * (nodes - 1) + parts) / (2 * parts));
   }

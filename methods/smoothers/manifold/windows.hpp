@@ -1,4 +1,4 @@
-/// Step 6: which nodes are fitted together, and which part of the curve each fit speaks for.
+/// Step 6: windows of nodes that are fitted together, and the part of the curve each fit covers.
 #pragma once
 
 #include <array>
@@ -7,9 +7,10 @@
 
 namespace loopbench::manifold {
 
-/// consecutive: end to end, sharing end nodes. sliding_blend: one for every edge, each blended into
-/// the next. one_per_segment: nodes spread evenly over it. first_n: its first nodes speak for all.
-/// "We select N keyframe pose nodes in each segment" admits all four.
+/// consecutive: adjacent windows share their end nodes. sliding_blend: one window per edge, each
+/// blended into the next. one_per_segment: nodes evenly subsampled from the segment. first_n: the
+/// first nodes represent the segment. The article's "We select N keyframe pose nodes in each
+/// segment" is compatible with all four.
 enum class Scheme { consecutive, sliding_blend, one_per_segment, first_n };
 inline auto choices(Scheme) {
   return std::array{std::pair{"consecutive", Scheme::consecutive},
@@ -20,22 +21,22 @@ inline auto choices(Scheme) {
 
 struct Window {
   NodeRange fitted;       ///< nodes the curve is fitted to
-  NodeRange owned;        ///< part of the trajectory it stands for; inside `fitted` but for first_n
-  std::size_t taken = 0;  ///< as many of the fitted nodes, evenly spread; 0: all of them
+  NodeRange owned;        ///< part of the trajectory it covers; within `fitted` except for first_n
+  std::size_t taken = 0;  ///< number of fitted nodes used, evenly subsampled; 0: all
 
   bool operator==(const Window&) const = default;
 };
 
-/// Windows of `size` nodes over one segment, consecutive ones share their end node, the last
-/// re-uses earlier nodes. A segment shorter than that borrows nodes from its neighbours, the
-/// earlier and the later in turn. Fewer only when the trajectory has fewer (`count` nodes).
-/// `segment` has two nodes or more, `size` >= 2. O(windows).
+/// Returns windows of `size` nodes over one segment. Consecutive windows share their end node; the
+/// last one reuses earlier nodes. A segment with fewer nodes borrows nodes from its neighbours,
+/// alternately from the earlier and the later one. A window has fewer nodes only if the trajectory
+/// has fewer (`count`). `segment` must have at least two nodes, `size` >= 2. O(windows).
 std::vector<Window> windows(NodeRange segment,
                             std::size_t size,
                             std::size_t count,
                             Scheme scheme = Scheme::consecutive);
 
-/// The nodes the window is fitted to. O(their number).
+/// Indices of the nodes that the window is fitted to. O(their number).
 std::vector<std::size_t> picked(const Window& window);
 
 }  // namespace loopbench::manifold

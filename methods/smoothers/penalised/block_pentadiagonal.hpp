@@ -1,4 +1,4 @@
-/// Symmetric positive definite systems with two diagonals of 3 x 3 blocks on each side.
+/// Symmetric positive definite block systems with two diagonals of 3 x 3 blocks on each side.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,17 +8,16 @@
 
 namespace loopbench {
 
-/// Solves (B + blocks) x = right, in place, where scalars of B stand for multiples of the identity
-/// and `blocks` (destroyed) for the diagonal's own. Elimination by blocks; pivots are made
-/// symmetric at each step, because what rounding takes from their symmetry grows from one to the
-/// next. O(n).
+/// Solves (B + blocks) x = right in place. Scalars of B are multiples of the identity; `blocks` are
+/// added to the diagonal and are overwritten. Block elimination; each pivot is symmetrised, because
+/// otherwise the asymmetry due to rounding grows from pivot to pivot. O(n).
 inline void solve_block_pentadiagonal(const Pentadiagonal& B,
                                       std::vector<Eigen::Matrix3d>& blocks,
                                       std::vector<Eigen::Vector3d>& right) {
   using Block = Eigen::Matrix3d;
   const std::size_t n = B.size();
   const auto symmetric = [](const Block& M) -> Block { return 0.5 * (M + M.transpose()); };
-  std::vector<Block> factor(n);                // L, one below the diagonal
+  std::vector<Block> factor(n);                // first subdiagonal of L
   Block next = B[0].next * Block::Identity();  // block (i + 1, i)
   for (std::size_t i = 0; i < n; ++i) {
     const Block pivot = blocks[i] + B[i].diagonal * Block::Identity();
@@ -29,10 +28,10 @@ inline void solve_block_pentadiagonal(const Pentadiagonal& B,
     blocks[i + 1] -= factor[i] * next.transpose();
     right[i + 1] -= factor[i] * right[i];
     if (i + 2 == n) continue;
-    const double far = B[i].second;
-    blocks[i + 2] -= far * far * inverse;
-    right[i + 2] -= far * (inverse * right[i]);
-    next = B[i + 1].next * Block::Identity() - far * factor[i].transpose();
+    const double second = B[i].second;
+    blocks[i + 2] -= second * second * inverse;
+    right[i + 2] -= second * (inverse * right[i]);
+    next = B[i + 1].next * Block::Identity() - second * factor[i].transpose();
   }
   for (std::size_t i = n; i-- > 0;) {
     Eigen::Vector3d x = right[i];
@@ -43,7 +42,7 @@ inline void solve_block_pentadiagonal(const Pentadiagonal& B,
   }
 }
 
-/// B x, scalars standing for multiples of the identity. O(n).
+/// Returns B x, where scalars of B are multiples of the identity. O(n).
 inline std::vector<Eigen::Vector3d> block_product(const Pentadiagonal& B,
                                                   const std::vector<Eigen::Vector3d>& x) {
   std::vector<Eigen::Vector3d> out(x.size());

@@ -1,4 +1,4 @@
-/// Symmetric positive definite systems with two diagonals on each side, all of it in O(n).
+/// Symmetric positive definite systems with two diagonals on each side. All operations are O(n).
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace loopbench {
 
-/// One column from the diagonal down: entries (i, i), (i + 1, i), (i + 2, i). The last columns have
-/// zeros where there is no row.
+/// One column from the diagonal down: entries (i, i), (i + 1, i), (i + 2, i). Entries below the
+/// last row are zero.
 struct Band {
   double diagonal = 0.0, next = 0.0, second = 0.0;
 };
 using Pentadiagonal = std::vector<Band>;
 
-/// M = L D L', unit lower L with two diagonals. No pivoting: stable for positive definite M.
+/// Factorisation M = L D L', where L is unit lower triangular with two subdiagonals. No pivoting:
+/// stable for positive definite M.
 class PentadiagonalFactor {
  public:
   explicit PentadiagonalFactor(Pentadiagonal matrix) : columns_(std::move(matrix)) {
@@ -32,7 +33,7 @@ class PentadiagonalFactor {
     }
   }
 
-  /// M^-1 right, in place.
+  /// Computes M^-1 right in place.
   template <class Value>
   void solve(std::vector<Value>& right) const {
     const std::size_t n = columns_.size();
@@ -53,18 +54,18 @@ class PentadiagonalFactor {
     return sum;
   }
 
-  /// The five middle diagonals of M^-1 (Hutchinson & de Hoog 1985).
+  /// Returns the five central diagonals of M^-1 (Hutchinson & de Hoog 1985).
   Pentadiagonal inverse_bands() const {
     Pentadiagonal out(columns_.size());
     Band below, far;  // columns i + 1 and i + 2 of the inverse
     for (std::size_t i = columns_.size(); i-- > 0;) {
       const Band& c = columns_[i];
-      Band& here = out[i];
-      here.next = -c.next * below.diagonal - c.second * below.next;
-      here.second = -c.next * below.next - c.second * far.diagonal;
-      here.diagonal = 1.0 / c.diagonal - c.next * here.next - c.second * here.second;
+      Band& column = out[i];
+      column.next = -c.next * below.diagonal - c.second * below.next;
+      column.second = -c.next * below.next - c.second * far.diagonal;
+      column.diagonal = 1.0 / c.diagonal - c.next * column.next - c.second * column.second;
       far = below;
-      below = here;
+      below = column;
     }
     return out;
   }
@@ -73,8 +74,8 @@ class PentadiagonalFactor {
   std::vector<Band> columns_;  ///< D on the diagonal, L below
 };
 
-/// tr(A B) of two symmetric pentadiagonal matrices, or of one with the bands of any symmetric
-/// other.
+/// Returns tr(A B) of two symmetric matrices, of which at least one is pentadiagonal. The other is
+/// given by its central bands.
 inline double trace_of_product(const Pentadiagonal& a, const Pentadiagonal& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {

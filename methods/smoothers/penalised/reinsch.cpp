@@ -29,12 +29,12 @@ Reinsch::Fit Reinsch::fit(const std::vector<Vector3>& y, double lambda) const {
   for (std::size_t j = 0; j < gamma.size(); ++j) {
     out.energy += lambda * right[j].cwiseProduct(gamma[j]);
   }
-  std::vector<Vector3> misses(y.size(), Vector3::Zero());
-  slope_change_.add_transposed(gamma, lambda, misses);
+  std::vector<Vector3> residuals(y.size(), Vector3::Zero());
+  slope_change_.add_transposed(gamma, lambda, residuals);
   out.residual.setZero();
-  for (const Vector3& miss : misses) out.residual += miss.cwiseAbs2();
+  for (const Vector3& residual : residuals) out.residual += residual.cwiseAbs2();
   out.values = y;
-  for (std::size_t i = 0; i < y.size(); ++i) out.values[i] -= misses[i];
+  for (std::size_t i = 0; i < y.size(); ++i) out.values[i] -= residuals[i];
   out.free = lambda * trace_of_product(outer_, factor.inverse_bands());
   out.log_determinant =
       static_cast<double>(gamma.size()) * std::log(lambda) - factor.log_determinant();
@@ -47,9 +47,9 @@ Reinsch::Fit Reinsch::fit(const std::vector<Vector3>& y, double lambda) const {
 double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
   const auto size = static_cast<double>(n);
   if (criterion == Criterion::gcv) return size * fit.residual.sum() / (fit.free * fit.free);
-  constexpr double kNothing = 1e-300;  // a straight line has no energy to take the logarithm of
-  // Three axes share the variance: 3 (n - 2) log(sum) - 3 log det, divided by three.
-  return (size - 2.0) * std::log(fit.energy.sum() + kNothing) - fit.log_determinant;
+  constexpr double kTiny = 1e-300;  // keeps the logarithm finite for a straight line
+  // REML with a variance common to three axes: 3 (n - 2) log(sum) - 3 log det, divided by three.
+  return (size - 2.0) * std::log(fit.energy.sum() + kTiny) - fit.log_determinant;
 }
 
 double chosen_lambda(const Reinsch& reinsch,

@@ -1,4 +1,4 @@
-/// By how much the slope of a polyline in time changes at each inner stamp: D y.
+/// Slope changes D y of a polyline in time at its inner stamps.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace loopbench {
 
-/// Row j of D is (1 / h_j, -1 / h_j - 1 / h_{j+1}, 1 / h_{j+1}) on values j..j+2, with h the
-/// intervals: n - 2 rows for n >= 3 stamps. D' is Reinsch's Q.
+/// Row j of D is (1 / h_j, -1 / h_j - 1 / h_{j+1}, 1 / h_{j+1}) on the values j..j+2, where h are
+/// the intervals. D has n - 2 rows for n >= 3 stamps. D' is Reinsch's Q.
 class SlopeChange {
  public:
   using Row = std::array<double, 3>;
@@ -26,18 +26,18 @@ class SlopeChange {
 
   std::size_t size() const { return rows_.size(); }
 
-  /// D values.
+  /// Returns D values.
   std::vector<Vector3> of(const std::vector<Vector3>& values) const {
     std::vector<Vector3> out(rows_.size());
     for (std::size_t j = 0; j < rows_.size(); ++j) {
-      // Differences first: large coordinates cost no digits.
+      // Differences first, to avoid cancellation of large coordinates.
       out[j] =
           rows_[j][2] * (values[j + 2] - values[j + 1]) - rows_[j][0] * (values[j + 1] - values[j]);
     }
     return out;
   }
 
-  /// out += factor * D' changes.
+  /// Adds factor * D' changes to `out`.
   void add_transposed(const std::vector<Vector3>& changes,
                       double factor,
                       std::vector<Vector3>& out) const {
@@ -46,7 +46,7 @@ class SlopeChange {
     }
   }
 
-  /// D D', n - 2 rows.
+  /// Returns D D', n - 2 rows.
   Pentadiagonal outer() const {
     Pentadiagonal out(rows_.size());
     const auto product = [&](std::size_t i, std::size_t j) {
@@ -62,7 +62,7 @@ class SlopeChange {
     return out;
   }
 
-  /// I + factor D' D, n rows.
+  /// Returns I + factor D' D, n rows.
   Pentadiagonal penalty(double factor) const {
     Pentadiagonal out(rows_.size() + 2, Band{1.0, 0.0, 0.0});
     for (std::size_t j = 0; j < rows_.size(); ++j) {

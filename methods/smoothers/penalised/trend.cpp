@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-std::vector<double> in_intervals(std::vector<double> stamps, double interval) {
+std::vector<double> to_mean_intervals(std::vector<double> stamps, double interval) {
   const double first = stamps.front();
   for (double& stamp : stamps) stamp = (stamp - first) / interval;
   return stamps;
@@ -17,7 +17,7 @@ std::vector<double> in_intervals(std::vector<double> stamps, double interval) {
 Trend::Trend(const std::vector<double>& stamps)
     : interval_((stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1)),
       slope_change_({0.0, 1.0, 2.0}) {
-  times_ = in_intervals(stamps, interval_);
+  times_ = to_mean_intervals(stamps, interval_);
   slope_change_ = SlopeChange(times_);
 }
 
@@ -49,7 +49,7 @@ std::vector<Vector3> Trend::refitted(const std::vector<Vector3>& y,
   const auto share = [&](std::size_t piece, std::size_t i) {
     return (times_[i] - times_[knots[piece]]) / (times_[knots[piece + 1]] - times_[knots[piece]]);
   };
-  const auto every = [&](auto visit) {
+  const auto for_each_point = [&](auto visit) {
     for (std::size_t piece = 0; piece + 1 < knots.size(); ++piece) {
       const bool last = piece + 2 == knots.size();
       for (std::size_t i = knots[piece]; i < knots[piece + 1] + (last ? 1 : 0); ++i) {
@@ -57,7 +57,7 @@ std::vector<Vector3> Trend::refitted(const std::vector<Vector3>& y,
       }
     }
   };
-  every([&](std::size_t piece, std::size_t i, double u) {
+  for_each_point([&](std::size_t piece, std::size_t i, double u) {
     const Vector3 value = y[i] - y.front();
     const double v = 1.0 - u;
     rows[piece].diagonal += v * v;
@@ -67,21 +67,22 @@ std::vector<Vector3> Trend::refitted(const std::vector<Vector3>& y,
     rows[piece + 1].lower += v * u;
     rows[piece + 1].right += u * value;
   });
-  const std::vector<Vector3> at = solve_tridiagonal(rows);
+  const std::vector<Vector3> knot_values = solve_tridiagonal(rows);
   std::vector<Vector3> out(y.size());
-  every([&](std::size_t piece, std::size_t i, double u) {
-    out[i] = y.front() + (1.0 - u) * at[piece] + u * at[piece + 1];
+  for_each_point([&](std::size_t piece, std::size_t i, double u) {
+    out[i] = y.front() + (1.0 - u) * knot_values[piece] + u * knot_values[piece + 1];
   });
   return out;
 }
 
 void Trend::refit(const std::vector<Vector3>& y, Fit& fit) const {
   fit.values = refitted(y, fit.kinks);
-  const std::vector<Vector3> bends = slope_change_.of(fit.values);
+  const std::vector<Vector3> slope_changes = slope_change_.of(fit.values);
   double largest = 0.0;
-  for (const Vector3& bend : bends) largest = std::max(largest, bend.norm());
+  for (const Vector3& slope_change : slope_changes)
+    largest = std::max(largest, slope_change.norm());
   std::erase_if(fit.kinks, [&](std::size_t kink) {
-    return bends[kink - 1].norm() <= 1e-9 * largest;  // rounding
+    return slope_changes[kink - 1].norm() <= 1e-9 * largest;  // zero up to rounding
   });
 }
 

@@ -29,62 +29,67 @@ class TrendBarrier {
         bends_(bends),
         square_(lambda * lambda),
         v_(bends.size(), Vector3::Zero()),
-        pushed_(v_) {}
+        gram_v_(v_) {}
 
-  /// Infinite outside.
-  double value(double t, const Forces& v, const Forces& pushed) const {
+  /// Value of the barrier objective, infinite outside the feasible set.
+  double value(double t, const Forces& v, const Forces& gram_v) const {
     double quadratic = 0.0, barrier = 0.0;
     for (std::size_t j = 0; j < v.size(); ++j) {
       const double slack = 1.0 - v[j].squaredNorm() / square_;
       if (!(slack > 0.0)) return std::numeric_limits<double>::infinity();
-      quadratic += v[j].dot(0.5 * pushed[j] - bends_[j]);
+      quadratic += v[j].dot(0.5 * gram_v[j] - bends_[j]);
       barrier += std::log(slack);
     }
     return t * quadratic - barrier;
   }
 
-  /// One damped Newton step. What it promised to lower the value by, doubled; negative when nothing
-  /// could be lowered.
+  /// Takes one damped Newton step. Returns twice the predicted decrease, or a negative number when
+  /// no step decreases the value.
   double step(double t) {
     const std::size_t n = v_.size();
     std::vector<Matrix3> blocks(n);
-    Forces gradient(n), way(n);
+    Forces gradient(n), direction(n);
     for (std::size_t j = 0; j < n; ++j) {
       const double slack = square_ - v_[j].squaredNorm();
-      const double pull = 2.0 / (t * slack);
-      gradient[j] = pushed_[j] - bends_[j] + pull * v_[j];
-      blocks[j] = pull * Matrix3::Identity() + (2.0 * pull / slack) * v_[j] * v_[j].transpose();
-      way[j] = -gradient[j];
+      const double weight = 2.0 / (t * slack);
+      gradient[j] = gram_v_[j] - bends_[j] + weight * v_[j];
+      blocks[j] = weight * Matrix3::Identity() + (2.0 * weight / slack) * v_[j] * v_[j].transpose();
+      direction[j] = -gradient[j];
     }
-    solve_block_pentadiagonal(outer_, blocks, way);
-    const double promised = -t * force_product(gradient, way);
-    const Forces way_pushed = block_product(outer_, way);
-    const double now = value(t, v_, pushed_);
-    for (double length = std::min(1.0, 0.95 * room(way)); length > 1e-9; length *= 0.5) {
-      Forces v = force_sum(v_, length, way), pushed = force_sum(pushed_, length, way_pushed);
-      const double then = value(t, v, pushed);
-      if (!(then < now) || !(then <= now - 0.1 * length * promised)) continue;
+    solve_block_pentadiagonal(outer_, blocks, direction);
+    const double predicted = -t * force_product(gradient, direction);
+    const Forces gram_direction = block_product(outer_, direction);
+    const double value_before = value(t, v_, gram_v_);
+    for (double length = std::min(1.0, 0.95 * max_length(direction)); length > 1e-9;
+         length *= 0.5) {
+      Forces v = force_sum(v_, length, direction),
+             gram_v = force_sum(gram_v_, length, gram_direction);
+      const double value_after = value(t, v, gram_v);
+      if (!(value_after < value_before) ||
+          !(value_after <= value_before - 0.1 * length * predicted))
+        continue;
       v_ = std::move(v);
-      pushed_ = std::move(pushed);
-      return promised;
+      gram_v_ = std::move(gram_v);
+      return predicted;
     }
     return -1.0;
   }
 
-  double squares() const { return force_product(v_, pushed_); }  ///< |D'v|^2
+  double squares() const { return force_product(v_, gram_v_); }  ///< |D'v|^2
 
-  /// Either a force or a bend has room at the optimum, never both: rows where the multiplier
-  /// 1 / slack stands out more than the slack itself does.
-  std::vector<std::size_t> bent() const {
+  /// Returns the rows with a slope change. At the optimum either the slack or the multiplier of a
+  /// row is zero; a row is selected if its multiplier 1 / slack is relatively larger than its
+  /// slack.
+  std::vector<std::size_t> kink_rows() const {
     std::vector<double> slack;
-    double least = 1.0;
+    double smallest = 1.0;
     for (const Vector3& v : v_) {
       slack.push_back(1.0 - v.squaredNorm() / square_);
-      least = std::min(least, slack.back());
+      smallest = std::min(smallest, slack.back());
     }
     std::vector<std::size_t> out;
     for (std::size_t j = 0; j < slack.size(); ++j) {
-      if (least / slack[j] > slack[j]) out.push_back(j);
+      if (smallest / slack[j] > slack[j]) out.push_back(j);
     }
     return out;
   }
@@ -92,13 +97,13 @@ class TrendBarrier {
   Forces forces() && { return std::move(v_); }
 
  private:
-  /// How far along `way` the balls reach.
-  double room(const Forces& way) const {
+  /// Maximum step length along `direction` that stays feasible.
+  double max_length(const Forces& direction) const {
     double out = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < way.size(); ++j) {
-      const double a = way[j].squaredNorm();
+    for (std::size_t j = 0; j < direction.size(); ++j) {
+      const double a = direction[j].squaredNorm();
       if (!(a > 0.0)) continue;
-      const double b = v_[j].dot(way[j]), c = square_ - v_[j].squaredNorm();
+      const double b = v_[j].dot(direction[j]), c = square_ - v_[j].squaredNorm();
       out = std::min(out, (std::sqrt(b * b + a * c) - b) / a);
     }
     return out;
@@ -108,7 +113,7 @@ class TrendBarrier {
   const Forces& bends_;
   double square_;
   Forces v_;
-  Forces pushed_;  ///< D D' v
+  Forces gram_v_;  ///< D D' v
 };
 
 }  // namespace
@@ -118,34 +123,35 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
                            double lambda,
                            double tolerance,
                            int most) {
-  constexpr double kFaster = 10.0;  // t, from one centre to the next
-  constexpr double kSettled = 0.5;  // promised a row, as near a centre as is needed
+  constexpr double kFaster = 10.0;  // growth of t from one centre to the next
+  constexpr double kCentred = 0.5;  // sufficient predicted decrease per row at a centre
   constexpr double kRounding = 1e-4;
-  constexpr double kFinest = 1e-12;  // below it slacks are rounding
+  constexpr double kFinest = 1e-12;  // below this the slacks are rounding errors
   const auto rows = static_cast<double>(bends.size());
-  Forces free = bends;
-  PentadiagonalFactor(outer).solve(free);
-  const auto inside = [&](const Vector3& force) { return force.norm() <= lambda; };
-  if (std::ranges::all_of(free, inside)) return {std::move(free), {}, 0, true};
-  const double small = std::max(0.5 * tolerance * tolerance, kFinest);
-  const double energy = 0.5 * force_product(free, bends);  // of the straight line
+  Forces unconstrained = bends;
+  PentadiagonalFactor(outer).solve(unconstrained);
+  const auto is_feasible = [&](const Vector3& force) { return force.norm() <= lambda; };
+  if (std::ranges::all_of(unconstrained, is_feasible))
+    return {std::move(unconstrained), {}, 0, true};
+  const double threshold = std::max(0.5 * tolerance * tolerance, kFinest);
+  const double energy = 0.5 * force_product(unconstrained, bends);  // for the straight line
   TrendBarrier barrier(outer, bends, lambda);
   TrendDual out;
   double t = 2.0 * rows / energy;
   while (!out.converged && out.iterations < most) {
     ++out.iterations;
-    const double promised = barrier.step(t);
-    // How far the objective is from its least: at a centre, two a row, over t.
-    const double above = (2.0 * rows + std::abs(promised)) / t;
-    if (promised < 0.0) {
-      out.converged = above <= kRounding * barrier.squares();
+    const double predicted = barrier.step(t);
+    // Bound on the duality gap: two per row over t at a centre.
+    const double gap = (2.0 * rows + std::abs(predicted)) / t;
+    if (predicted < 0.0) {
+      out.converged = gap <= kRounding * barrier.squares();
       break;
     }
-    if (promised > kSettled * rows) continue;
-    out.converged = above <= small * barrier.squares();
+    if (predicted > kCentred * rows) continue;
+    out.converged = gap <= threshold * barrier.squares();
     t *= kFaster;
   }
-  out.bends = barrier.bent();
+  out.bends = barrier.kink_rows();
   out.forces = std::move(barrier).forces();
   return out;
 }

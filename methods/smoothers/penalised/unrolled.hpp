@@ -1,4 +1,4 @@
-/// A path of rotations rolled out flat, so that what smooths vectors can smooth attitudes.
+/// Unrolls a path of rotations into R^3, so that methods for vectors can smooth rotations.
 #pragma once
 
 #include <algorithm>
@@ -8,38 +8,38 @@
 
 namespace loopbench {
 
-/// The great arcs through base rotations B_i, developed into R^3 without slipping or twisting:
+/// Development of the great arcs through base rotations B_i into R^3 without slipping or twisting:
 ///
 ///     flat_{i+1} = flat_i + Q_i d_i,   Q_{i+1} = Q_i Exp(d_i / 2),   d_i = Log(B_i' B_{i+1}),
 ///
-/// where Q_i carries body vectors along (parallel transport of the bi-invariant metric turns them
-/// by half the rotation). A steady turn becomes a straight line, however often it goes round, and
-/// where the world's axes point makes no difference. Source: Jupp & Kent 1987 (on the sphere);
-/// Kim, Dryden & Le 2021 (on manifolds).
+/// where Q_i is the parallel transport of body vectors (with the bi-invariant metric, half the
+/// rotation). A constant angular velocity becomes a straight line for any number of revolutions,
+/// and the result does not depend on the world axes. Sources: Jupp & Kent 1987 (sphere); Kim,
+/// Dryden & Le 2021 (manifolds).
 class Unrolled {
  public:
-  explicit Unrolled(std::vector<Rotation> base);  ///< one rotation or more; O(n)
+  explicit Unrolled(std::vector<Rotation> base);  ///< requires at least one rotation; O(n)
 
   const std::vector<Rotation>& base() const { return base_; }
 
-  /// Where rotation i, near base i, lies: flat_i + Q_i Log(B_i' R).
+  /// Unrolled point of rotation i, which is near base i: flat_i + Q_i Log(B_i' R).
   Vector3 flattened(std::size_t i, const Rotation& rotation) const {
     return flat_[i] + flat_from_body_[i] * log_so3(base_[i].conjugate() * rotation);
   }
 
-  /// The rotation at a flat point near the base, at fraction u of interval i (0: at base i).
+  /// Rotation of an unrolled point near the base, at fraction u of interval i (0: at base i).
   Rotation rolled(std::size_t i, double u, const Vector3& point) const {
-    if (u == 0.0) return turned(base_[i], flat_from_body_[i], point - flat_[i]);
+    if (u == 0.0) return rotated(base_[i], flat_from_body_[i], point - flat_[i]);
     const Vector3& step = steps_[i];
-    return turned(base_[i] * exp_so3(u * step),
-                  flat_from_body_[i] * exp_so3(0.5 * u * step),
-                  point - flat_[i] - flat_from_body_[i] * (u * step));
+    return rotated(base_[i] * exp_so3(u * step),
+                   flat_from_body_[i] * exp_so3(0.5 * u * step),
+                   point - flat_[i] - flat_from_body_[i] * (u * step));
   }
 
  private:
-  static Rotation turned(const Rotation& base,
-                         const Rotation& flat_from_body,
-                         const Vector3& flat_offset) {
+  static Rotation rotated(const Rotation& base,
+                          const Rotation& flat_from_body,
+                          const Vector3& flat_offset) {
     return (base * exp_so3(flat_from_body.conjugate() * flat_offset)).normalized();
   }
 
@@ -59,7 +59,7 @@ inline Unrolled::Unrolled(std::vector<Rotation> base) : base_(std::move(base)) {
   }
 }
 
-/// A smoothing of rotations found by `smoothed(fit, ...)`: `fit` belongs to `path`.
+/// Result of smoothed_rotations(): `fit` is relative to `path`.
 template <class Fit>
 struct SmoothedRotations {
   Unrolled path;
@@ -68,17 +68,17 @@ struct SmoothedRotations {
   bool settled;
 };
 
-/// Flattens the rotations about a base, lets `fit` smooth the points (it returns a struct with
-/// `values`, one a rotation), rolls them up as the next base, and so on until the base stands
-/// still: there the fit is that of the manifold, its penalty taken along its own path. Linear
-/// convergence, faster the smaller the noise; `settled` is false when after 30 rounds a rotation
-/// still moves by more than `still` [rad].
+/// Unrolls the rotations about a base, smooths the points with `fit_points` (which returns a struct
+/// with `values`, one per rotation), and rolls the result back as the next base, until the base
+/// converges. At convergence the fit minimises the cost on the manifold with the penalty along its
+/// own path. Linear convergence, faster for smaller noise. `settled` is false when a rotation still
+/// changes by more than `tolerance` [rad] after 30 rounds.
 template <class FitPoints>
 auto smoothed_rotations(const std::vector<Rotation>& rotations,
                         FitPoints fit_points,
-                        double still = 1e-11)
+                        double tolerance = 1e-11)
     -> SmoothedRotations<decltype(fit_points(std::vector<Vector3>{}))> {
-  constexpr int kMost = 30;
+  constexpr int kMaxRounds = 30;
   Unrolled path(rotations);
   for (int round = 1;; ++round) {
     std::vector<Vector3> points;
@@ -94,8 +94,8 @@ auto smoothed_rotations(const std::vector<Rotation>& rotations,
       next.push_back(path.rolled(i, 0.0, fit.values[i]));
       change = std::max(change, angle_between(path.base()[i], next[i]));
     }
-    const bool settled = change <= still;
-    if (settled || round == kMost) return {std::move(path), std::move(fit), round, settled};
+    const bool settled = change <= tolerance;
+    if (settled || round == kMaxRounds) return {std::move(path), std::move(fit), round, settled};
     path = Unrolled(std::move(next));
   }
 }

@@ -1,4 +1,4 @@
-/// Systems with `band` diagonals of blocks on each side of the main one, solved in O(n band^2).
+/// Linear systems with `band` block diagonals on each side of the main one, solved in O(n band^2).
 #pragma once
 
 #include <algorithm>
@@ -9,22 +9,22 @@
 
 namespace loopbench {
 
-/// `Block` is double or Matrix3, `Value` what it multiplies. Elimination without pivoting: backward
-/// stable for the totally positive matrices of B-spline interpolation (de Boor & Pinkus 1977), and
-/// what the cumulative spline on SO(3) adds to them is small while its steps are.
+/// `Block` is double or Matrix3, `Value` the type of the right side. Elimination without pivoting:
+/// backward stable for the totally positive matrices of B-spline interpolation (de Boor & Pinkus
+/// 1977). The cumulative spline on SO(3) adds only small terms while its steps are small.
 template <class Block, class Value>
 class BlockBanded {
  public:
   BlockBanded(std::size_t size, std::size_t band, const Block& zero, const Value& right)
       : size_(size), band_(band), blocks_(size * (2 * band + 1), zero), right_(size, right) {}
 
-  /// |row - column| <= band.
+  /// Requires |row - column| <= band.
   Block& at(std::size_t row, std::size_t column) {
     return blocks_[row * (2 * band_ + 1) + column + band_ - row];
   }
   Value& right(std::size_t row) { return right_[row]; }
 
-  /// Destroys the matrix.
+  /// Solves the system and overwrites the matrix.
   std::vector<Value> solve() {
     for (std::size_t i = 0; i < size_; ++i) {
       const Block pivot = inverse(at(i, i));

@@ -1,4 +1,5 @@
-/// A B-spline of order k in position, a cumulative one in attitude, on the same knots.
+/// Spline curve of order k: a B-spline in position and a cumulative B-spline in rotation on the
+/// same knots.
 #pragma once
 
 #include <utility>
@@ -10,11 +11,11 @@
 namespace loopbench {
 
 /// p(t) = sum_j N_j(t) c_j,   R(t) = C_0 prod_{j>=1} Exp(B_j(t) Log(C_{j-1}^T C_j)),
-/// B_j = N_j + N_{j+1} + ... Both are C^{k-2} in time. O(k^2) a time, sorted times.
+/// B_j = N_j + N_{j+1} + ... Both are C^{k-2} in time. O(k^2) per time for sorted times.
 /// Source: Kim, Kim & Shin 1995; Sommer et al., CVPR 2020.
 class CumulativeCurve final : public Curve {
  public:
-  /// One control pose for every function of the basis.
+  /// Requires one control pose per basis function.
   CumulativeCurve(SplineBasis basis, const std::vector<Pose>& controls)
       : basis_(std::move(basis)), controls_(controls.size()) {
     for (std::size_t j = 0; j < controls.size(); ++j) {

@@ -10,19 +10,19 @@
 namespace loopbench {
 namespace {
 
-/// The largest miss that still counts as passing through [rad]; rounding reaches 1e-15.
+/// Residual below which Newton has converged [rad]; rounding is about 1e-15.
 constexpr double kTolerance = 1e-13;
-/// Where rounding stops Newton short of kTolerance, this is still called a solution [rad].
-constexpr double kGoodEnough = 1e-11;
+/// Largest accepted residual when rounding stops Newton above kTolerance [rad].
+constexpr double kAccepted = 1e-11;
 constexpr int kMostSteps = 30;
 constexpr int kMostHalvings = 12;
 
 using System = BlockBanded<Matrix3, Vector3>;
 
-/// The linearised system, and the largest of its right sides, which are what the curve misses.
+/// The linearised system and the largest residual of the curve.
 struct Linearised {
   System system;
-  double miss = 0.0;
+  double residual = 0.0;
 };
 
 Linearised linearised(const SplineBasis& basis,
@@ -34,22 +34,23 @@ Linearised linearised(const SplineBasis& basis,
   KnotSpan span(basis.breaks());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const std::size_t piece = span.find(sites[i]);
-    const Turning here = turning(&controls[piece], k, basis.cumulative(piece, sites[i]));
+    const Turning evaluated = turning(&controls[piece], k, basis.cumulative(piece, sites[i]));
     for (std::size_t j = 0; j < k; ++j) {
-      // A site on a knot has a vanishing function, which may lie outside the band.
+      // At a site on a knot one function is zero, and its column may lie outside the band.
       const std::size_t column = piece + j;
-      if (column + k > i && column < i + k) out.system.at(i, column) = here.by[j];
+      if (column + k > i && column < i + k) out.system.at(i, column) = evaluated.by[j];
     }
-    out.system.right(i) = log_so3(rotations[i] * here.rotation.conjugate());
-    out.miss = std::max(out.miss, out.system.right(i).norm());
+    out.system.right(i) = log_so3(rotations[i] * evaluated.rotation.conjugate());
+    out.residual = std::max(out.residual, out.system.right(i).norm());
   }
   return out;
 }
 
-/// On the great arcs through the rotations, at the Greville abscissae: exact for a steady turn.
-std::vector<Rotation> first_guess(const SplineBasis& basis,
-                                  const std::vector<double>& sites,
-                                  const std::vector<Rotation>& rotations) {
+/// Initial controls: on the great arcs through the rotations at the Greville abscissae, which is
+/// exact for a constant angular velocity.
+std::vector<Rotation> initial_controls(const SplineBasis& basis,
+                                       const std::vector<double>& sites,
+                                       const std::vector<Rotation>& rotations) {
   std::vector<Rotation> out(basis.size());
   KnotSpan span(sites);
   for (std::size_t j = 1; j + 1 < out.size(); ++j) {
@@ -88,10 +89,10 @@ std::vector<Vector3> points_through(const SplineBasis& basis,
 std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
                                                   const std::vector<double>& sites,
                                                   const std::vector<Rotation>& rotations) {
-  RotationsThrough out{first_guess(basis, sites, rotations), 0};
-  Linearised now = linearised(basis, sites, out.controls, rotations);
-  for (; now.miss > kTolerance && out.iterations < kMostSteps; ++out.iterations) {
-    const std::vector<Vector3> step = now.system.solve();
+  RotationsThrough out{initial_controls(basis, sites, rotations), 0};
+  Linearised current = linearised(basis, sites, out.controls, rotations);
+  for (; current.residual > kTolerance && out.iterations < kMostSteps; ++out.iterations) {
+    const std::vector<Vector3> step = current.system.solve();
     bool better = false;
     double share = 1.0;
     for (int halving = 0; halving <= kMostHalvings && !better; ++halving, share *= 0.5) {
@@ -100,14 +101,14 @@ std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
         trial[j] = (exp_so3(share * step[j]) * trial[j]).normalized();
       }
       Linearised next = linearised(basis, sites, trial, rotations);
-      better = next.miss < now.miss;  // false for NaN as well
+      better = next.residual < current.residual;  // false for NaN as well
       if (!better) continue;
-      now = std::move(next);
+      current = std::move(next);
       out.controls = std::move(trial);
     }
     if (!better) break;
   }
-  if (!(now.miss <= kGoodEnough)) return std::nullopt;
+  if (!(current.residual <= kAccepted)) return std::nullopt;
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// Controls of the splines of order k that pass through given values.
+/// Controls of splines of order k that interpolate given values.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace loopbench {
 
-/// sum_j N_j(sites[i]) c_j = points[i]; `basis` is SplineBasis::for_sites. O(n k^2).
+/// Solves sum_j N_j(sites[i]) c_j = points[i]; `basis` is SplineBasis::for_sites. O(n k^2).
 std::vector<Vector3> points_through(const SplineBasis& basis,
                                     const std::vector<double>& sites,
                                     const std::vector<Vector3>& points);
 
 struct RotationsThrough {
   std::vector<Rotation> controls;
-  int iterations = 0;  ///< Newton steps taken
+  int iterations = 0;  ///< number of Newton steps
 };
 
-/// Control rotations of the cumulative spline through `rotations`. Newton's method on world-frame
-/// rotation vectors: blocks of 3 x 3, k - 1 diagonals on each side, O(n k^2) a step, quadratic
-/// convergence; a step that does not lessen the largest miss is halved. Nothing when no such spline
-/// was found: consecutive controls must stay less than pi apart.
+/// Returns the control rotations of the cumulative spline through `rotations`. Newton's method on
+/// world-frame rotation vectors: 3 x 3 blocks, k - 1 diagonals on each side, O(n k^2) per step,
+/// quadratic convergence. A step that does not reduce the largest residual is halved. Returns
+/// nullopt when no such spline is found: consecutive controls must be less than pi apart.
 std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
                                                   const std::vector<double>& sites,
                                                   const std::vector<Rotation>& rotations);

@@ -1,4 +1,4 @@
-/// How a cumulative spline on SO(3) turns when its controls do.
+/// Derivative of a cumulative spline on SO(3) with respect to its controls.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@ namespace loopbench {
 
 struct Turning {
   Rotation rotation;                                  ///< R(t)
-  std::array<Matrix3, SplineBasis::kMostOrder> by{};  ///< of control p + j, j < order
+  std::array<Matrix3, SplineBasis::kMostOrder> by{};  ///< derivative by control p + j, j < order
 };
 
 /// With controls perturbed to Exp(a_j) C_j, R(t) becomes Exp(sum_j by[j] a_j) R(t) to first order.
-/// `controls` points at the first of `order` rotations, B are the cumulative values. Source: the
-/// chain rule through F_j = F_{j-1} Exp(B_j d_j); compare Sommer et al., CVPR 2020. O(order).
+/// `controls` points to the first of `order` rotations; B are the cumulative basis values.
+/// O(order). Source: chain rule for F_j = F_{j-1} Exp(B_j d_j); compare Sommer et al., CVPR 2020.
 inline Turning turning(const Rotation* controls, std::size_t order, const SplineBasis::Values& B) {
   Turning out;
   out.rotation = controls[0];

@@ -1,4 +1,4 @@
-/// A similarity of space: a pose and the length unit of what it places.
+/// A similarity transform of space: a pose and a scale.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,14 @@
 
 namespace loopbench {
 
-/// x -> scale R x + t. The scale is the unit of the placed frame over that of the frame it is
-/// placed in; 1 makes it a rigid motion.
+/// x -> scale R x + t. A scale of 1 makes it a rigid motion.
 struct ScaledPose {
   Pose pose;
   double scale = 1.0;
 
   ScaledPose inverse() const {
-    const Rotation back = pose.rotation.conjugate();
-    return {{back, (back * pose.translation) / -scale}, 1.0 / scale};
+    const Rotation inverse_rotation = pose.rotation.conjugate();
+    return {{inverse_rotation, (inverse_rotation * pose.translation) / -scale}, 1.0 / scale};
   }
 };
 
@@ -31,7 +30,7 @@ inline ScaledPose normalized(ScaledPose x) {
   return x;
 }
 
-/// What an edge measured, its scale included.
+/// Measured similarity transform of an edge.
 inline ScaledPose measured(const Edge& edge) { return {edge.from_from_to, edge.scale}; }
 
 }  // namespace loopbench

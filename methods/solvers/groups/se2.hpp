@@ -1,21 +1,21 @@
-/// Planar motions and their tangent space. A twist is [x, y, yaw]: metres, radians.
+/// Planar rigid motions and their tangent space. A twist is [x, y, yaw] in [m], [m], [rad].
 #pragma once
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench {
 
-/// The operations a pose-graph solver needs; Se3 and Sim3 have the same. Elements act on the left,
-/// perturbations stand on the right: a * exp(twist). Source: Sola, Deray, Atchuthan, A micro Lie
-/// theory, 2018, section IV; the Jacobian as B(ad) = ad / (e^ad - 1), which 2 x 2 blocks close.
+/// Group operations for the pose-graph solver; Se3 and Sim3 have the same interface. Perturbations
+/// act on the right: a * exp(twist). Source: Sola, Deray, Atchuthan, A micro Lie theory, 2018,
+/// section IV. The Jacobian is B(ad) = ad / (e^ad - 1), in closed form through 2 x 2 blocks.
 struct Se2 {
   static constexpr int kDof = 3;
-  static constexpr int kSize = 3;  ///< doubles an element is stored in: x, y, yaw
+  static constexpr int kSize = 3;  ///< stored as x, y, yaw
   using Tangent = Eigen::Matrix<double, 3, 1>;
   using Square = Eigen::Matrix<double, 3, 3>;
   struct Element {
     double x = 0.0, y = 0.0;  ///< [m]
-    double yaw = 0.0;         ///< [rad], any turn
+    double yaw = 0.0;         ///< [rad], not wrapped
   };
 
   static Element read(const double* from) { return {from[0], from[1], from[2]}; }
@@ -36,7 +36,7 @@ struct Se2 {
     const double half = 0.5 * angle;
     const double half_sinc =
         std::abs(half) < kSmallAngle ? 1.0 - half * half / 6.0 : std::sin(half) / half;
-    // V = sinc(half) R(half): the chord of the arc.
+    // V = sinc(half) R(half) maps the tangent of the arc to its chord.
     const double c = half_sinc * std::cos(half);
     const double s = half_sinc * std::sin(half);
     return {c * xi[0] - s * xi[1], s * xi[0] + c * xi[1], angle};
@@ -54,12 +54,12 @@ struct Se2 {
     out << c, -s, a.y, s, c, -a.x, 0.0, 0.0, 1.0;
     return out;
   }
-  /// exp(xi + d) ~ exp(xi) exp(J d): the inverse of J.
+  /// Inverse of the J in exp(xi + d) ~ exp(xi) exp(J d).
   static Square inverse_right_jacobian(const Tangent& xi) {
     const double angle = xi[2];
     const double along = half_cotangent(angle);
     const double across = 0.5 * angle;
-    // (along - 1) / angle, without the cancellation.
+    // (along - 1) / angle without cancellation
     const double small = std::abs(angle) < 1e-2 ? -angle / 12.0 - angle * angle * angle / 720.0
                                                 : (along - 1.0) / angle;
     Square out;
@@ -69,7 +69,7 @@ struct Se2 {
     return out;
   }
 
-  /// The part in the plane z = roll = pitch = 0.
+  /// Projection to the plane z = roll = pitch = 0.
   static Element from(const ScaledPose& a) {
     const Rotation& q = a.pose.rotation;
     return {a.pose.translation.x(), a.pose.translation.y(), 2.0 * std::atan2(q.z(), q.w())};
@@ -87,7 +87,7 @@ struct Se2 {
   }
 
  private:
-  /// (angle / 2) cot(angle / 2).
+  /// (angle / 2) cot(angle / 2)
   static double half_cotangent(double angle) {
     const double half = 0.5 * angle;
     if (std::abs(half) < kSmallAngle) return 1.0 - half * half / 3.0;

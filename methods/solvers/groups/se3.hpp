@@ -1,14 +1,14 @@
-/// Rigid motions of space as the pose-graph solver wants them. A twist is [rho; phi].
+/// Rigid motions of space with the interface of the pose-graph solver. A twist is [rho; phi].
 #pragma once
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench {
 
-/// The same operations as Se2, by datasets/core/se3.hpp.
+/// The same operations as Se2, implemented with datasets/core/se3.hpp.
 struct Se3 {
   static constexpr int kDof = 6;
-  static constexpr int kSize = 7;  ///< qx qy qz qw x y z
+  static constexpr int kSize = 7;  ///< stored as qx, qy, qz, qw, x, y, z
   using Tangent = Twist;
   using Square = Matrix6;
   using Element = Pose;

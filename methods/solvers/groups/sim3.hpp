@@ -1,4 +1,5 @@
-/// Similarities of space and their tangent space. A twist is [rho; phi; lambda], scale = e^lambda.
+/// Similarity transforms of space and their tangent space. A twist is [rho; phi; lambda], scale =
+/// e^lambda.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,11 +9,11 @@
 namespace loopbench {
 
 /// The same operations as Se2. Source: Strasdat, Local accuracy and global consistency for
-/// efficient visual SLAM, 2012, section 2.4.4; the Jacobian by halving, which is exact for every
-/// twist and needs no case for small angles.
+/// efficient visual SLAM, 2012, section 2.4.4. The Jacobians are computed by halving the twist,
+/// which is exact for every twist and needs no special case for small angles.
 struct Sim3 {
   static constexpr int kDof = 7;
-  static constexpr int kSize = 8;  ///< qx qy qz qw x y z log(scale)
+  static constexpr int kSize = 8;  ///< stored as qx, qy, qz, qw, x, y, z, log(scale)
   using Tangent = Eigen::Matrix<double, 7, 1>;
   using Square = Eigen::Matrix<double, 7, 7>;
   using Element = ScaledPose;
@@ -52,7 +53,7 @@ struct Sim3 {
     out(6, 6) = 1.0;
     return out;
   }
-  /// exp(xi + d) ~ exp(J d) exp(xi), J = integral of Ad(exp(u xi)) over u in 0..1.
+  /// Returns the J in exp(xi + d) ~ exp(J d) exp(xi): the integral of Ad(exp(u xi)) over u in 0..1.
   static Square left_jacobian(Tangent xi) {
     int halvings = 0;
     for (; xi.norm() > 0.25; ++halvings) xi *= 0.5;
@@ -73,20 +74,20 @@ struct Sim3 {
 
   static ScaledPose from(const ScaledPose& a) { return a; }
   static ScaledPose to_scaled_pose(const ScaledPose& a) { return a; }
-  /// Edges carry no uncertainty of their scale: `scale_sigma` [-] is that of its logarithm. An edge
-  /// states its translation and the deviations of it in the unit of its first keyframe, while the
-  /// error here, behind the measured similarity, is in that of its second.
+  /// Edges state no uncertainty of their scale; `scale_sigma` [-] is the deviation of its
+  /// logarithm. An edge's translation and its deviations are in the scale of its first keyframe,
+  /// but the error here follows the measured similarity and is in the scale of the second keyframe.
   static Square information(const Edge& edge, double scale_sigma) {
-    Twist unit = Twist::Ones();
-    unit.head<3>().setConstant(edge.scale);
+    Twist scale = Twist::Ones();
+    scale.head<3>().setConstant(edge.scale);
     Square out = Square::Zero();
-    out.topLeftCorner<6, 6>() = unit.asDiagonal() * edge.information * unit.asDiagonal();
+    out.topLeftCorner<6, 6>() = scale.asDiagonal() * edge.information * scale.asDiagonal();
     out(6, 6) = 1.0 / (scale_sigma * scale_sigma);
     return out;
   }
 
  private:
-  /// [xi, .]: the derivative of the adjoint.
+  /// Returns the matrix of [xi, .], the derivative of the adjoint.
   static Square bracket(const Tangent& xi) {
     Square out = Square::Zero();
     out.topLeftCorner<3, 3>() = hat(xi.segment<3>(3)) + xi[6] * Matrix3::Identity();
@@ -96,9 +97,10 @@ struct Sim3 {
     return out;
   }
 
-  /// W with exp's translation = W rho: integral of e^(u lambda) Exp(u phi) over u in 0..1.
+  /// Returns the W in translation(exp(xi)) = W rho: the integral of e^(u lambda) Exp(u phi) over u
+  /// in 0..1.
   static Matrix3 translation_jacobian(const Vector3& phi, double lambda) {
-    // By the same halving, on the 3 x 3 matrix A = hat(phi) + lambda I whose exponential this is.
+    // Halving as in left_jacobian, for the 3 x 3 matrix A = hat(phi) + lambda I.
     const Matrix3 A = hat(phi) + lambda * Matrix3::Identity();
     int halvings = 0;
     double part = 1.0;
@@ -111,8 +113,8 @@ struct Sim3 {
       out += term;
     }
     for (; halvings > 0; --halvings) {
-      const Matrix3 turn = std::exp(part * lambda) * exp_so3(part * phi).toRotationMatrix();
-      out = (0.5 * (Matrix3::Identity() + turn) * out).eval();
+      const Matrix3 rotation = std::exp(part * lambda) * exp_so3(part * phi).toRotationMatrix();
+      out = (0.5 * (Matrix3::Identity() + rotation) * out).eval();
       part *= 2.0;
     }
     return out;

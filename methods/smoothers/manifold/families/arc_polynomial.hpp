@@ -1,5 +1,5 @@
-/// The family arc-poly: r(s) = c0 + c1 s + ... of degree 1 to 3, vector-valued, s the way along
-/// the nodes. No axis is singled out, so nothing has to be a graph.
+/// The family arc-poly: vector-valued r(s) = c0 + c1 s + ... of degree 1 to 3, where s is the arc
+/// length along the nodes. It has no distinguished axis, so the nodes need not be a graph.
 #pragma once
 
 #include <Eigen/QR>
@@ -17,27 +17,27 @@ struct ArcPolynomial {
   std::array<Vector3, 4> coefficients{};  ///< of powers of u = (s - centre) / scale [m]
 
   template <class T>
-  VectorOf<T> operator()(const T& way) const {
-    const T u = (way - centre) / scale;
+  VectorOf<T> operator()(const T& arc_length) const {
+    const T u = (arc_length - centre) / scale;
     const auto& c = coefficients;
     return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
   }
 };
 
-/// Least squares in space by QR. The degree is lowered to the number of points less one. Nothing
-/// when two ways coincide; twelve points at most.
+/// Least-squares fit in space by QR to at most twelve points. The degree is reduced to the number
+/// of points - 1. Returns nullopt when two arc lengths coincide.
 inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> points,
-                                                       std::span<const double> ways,
+                                                       std::span<const double> arc_lengths,
                                                        int degree) {
-  for (std::size_t i = 1; i < ways.size(); ++i) {
-    if (!(ways[i] > ways[i - 1])) return std::nullopt;
+  for (std::size_t i = 1; i < arc_lengths.size(); ++i) {
+    if (!(arc_lengths[i] > arc_lengths[i - 1])) return std::nullopt;
   }
   const auto count = static_cast<Eigen::Index>(points.size());
   const Eigen::Index terms = std::min<Eigen::Index>(degree + 1, count);
   ArcPolynomial out;
   out.coefficients.fill(Vector3::Zero());
-  out.centre = 0.5 * (ways.front() + ways.back());
-  out.scale = 0.5 * (ways.back() - ways.front());
+  out.centre = 0.5 * (arc_lengths.front() + arc_lengths.back());
+  out.scale = 0.5 * (arc_lengths.back() - arc_lengths.front());
   if (count < 2) return std::nullopt;
   Slopes powers(count, terms);
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostNodes, 3> right(count, 3);
@@ -46,7 +46,7 @@ inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> 
     right.row(i) = points[k].transpose();
     powers(i, 0) = 1.0;
     for (Eigen::Index j = 1; j < terms; ++j) {
-      powers(i, j) = powers(i, j - 1) * (ways[k] - out.centre) / out.scale;
+      powers(i, j) = powers(i, j - 1) * (arc_lengths[k] - out.centre) / out.scale;
     }
   }
   const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostParameters, 3> solved =

@@ -1,4 +1,4 @@
-/// Where a window's points lie, so that families can work on centred and scaled coordinates.
+/// Bounding box of a window's points, for centring and scaling their coordinates.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct Extent {
   Vector2 size() const { return high - low; }
 };
 
-// The neighbours' joints ask for a curve up to one node past its window, half of the range for the
-// shortest one, so poles must stay that far away.
-constexpr double kPoleMargin = 0.5;  // [of the range of x]
+// Joints evaluate a curve up to one node past its window, which is half of the range for the
+// shortest window, so poles must be at least that far away.
+constexpr double kPoleMargin = 0.5;  // fraction of the range of x
 
 }  // namespace loopbench::manifold

@@ -7,7 +7,7 @@
 namespace loopbench::manifold {
 namespace {
 
-// Poles tried on each side, in half ranges from the middle. The last is a line for all purposes.
+// Poles tried on each side, in half ranges from the middle. The last one is practically a line.
 constexpr double kFirst = 1.0 + 2.0 * kPoleMargin;
 constexpr double kLast = 100.0;
 constexpr int kHyperbolaStarts = 8;
@@ -21,7 +21,7 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
   const double centre = extent.centre().x();
   const double scale = 0.5 * extent.size().x();
   if (!(scale > 0.0)) return std::nullopt;
-  // Parameters are the pole in half ranges from the middle, c0, c1.
+  // The parameters are the pole in half ranges from the middle, c0 and c1.
   const auto evaluate = [&](const Parameters& q, Residuals& r, Slopes& J) {
     for (Eigen::Index i = 0; i < count; ++i) {
       const Vector2& point = points[static_cast<std::size_t>(i)];
@@ -31,7 +31,7 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
     }
   };
   Parameters best;
-  double least = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 2 * kHyperbolaStarts; ++start) {
     Parameters q = Parameters::Zero(3);
     q[0] = kFirst * std::pow(kLast / kFirst, (start / 2) / (kHyperbolaStarts - 1.0));
@@ -42,8 +42,8 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
     const Slopes linear = J.rightCols(2);
     q.tail(2) = linear.colPivHouseholderQr().solve(-r);
     evaluate(q, r, J);
-    if (!(r.squaredNorm() < least)) continue;
-    least = r.squaredNorm();
+    if (!(r.squaredNorm() < lowest)) continue;
+    lowest = r.squaredNorm();
     best = q;
   }
   if (best.size() == 0) return std::nullopt;

@@ -1,4 +1,4 @@
-/// The family hyperbola: y = c0 + c1 / (x + q). Named in the article, never used there.
+/// The family hyperbola: y = c0 + c1 / (x + q). The article names it but does not use it.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace loopbench::manifold {
 
-/// Written c0 + c1 scale / (x - pole) so that c0 and c1 are lengths.
+/// Stored as c0 + c1 scale / (x - pole), so that c0 and c1 are lengths.
 struct Hyperbola {
   double pole = 0.0;   ///< -q [m]
   double scale = 1.0;  ///< [m]
@@ -21,8 +21,9 @@ struct Hyperbola {
   }
 };
 
-/// Least squares in y: a grid of poles on both sides, then Levenberg-Marquardt. Four points or
-/// more with distinct x. Nothing when the pole comes nearer to the range of x than half a range.
+/// Least-squares fit in y: a grid of poles on both sides, then Levenberg-Marquardt. Requires at
+/// least four points with distinct x. Returns nullopt when the pole is closer to the range of x
+/// than half that range.
 std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points);
 
 }  // namespace loopbench::manifold

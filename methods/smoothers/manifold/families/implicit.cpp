@@ -31,8 +31,8 @@ using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostParameters, kMostParameters>;
 
 Parameters taubin(const Square& values, Square gradients) {
-  // Largest eigenvalue of gradients over values: that way round the vanishing constant term in
-  // `gradients` does no harm, and a little weight keeps exact fits from being singular.
+  // Largest eigenvalue of gradients relative to values: in this order the zero row of the constant
+  // term in `gradients` is harmless, and a small regularisation keeps exact fits nonsingular.
   const Eigen::Index terms = values.rows();
   const Square weight = values + 1e-14 * values.trace() * Square::Identity(terms, terms);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(gradients, weight);

@@ -12,30 +12,30 @@
 
 namespace loopbench::manifold {
 
-/// How many (i, j) there are with i + j <= n.
+/// Returns the number of (i, j) with i + j <= n.
 inline Eigen::Index implicit_terms(int order) { return (order + 1) * (order + 2) / 2; }
 
-/// The powers (i, j) of monomial k, in the article's order: falling total degree, then falling
-/// power of x; x^2, xy, y^2, x, y, 1 for n = 2.
+/// Returns the powers (i, j) of monomial k in the article's order: falling total degree, then
+/// falling power of x; x^2, xy, y^2, x, y, 1 for n = 2.
 std::pair<int, int> implicit_powers(int order, Eigen::Index k);
 
 struct Implicit {
   int order = 1;                     ///< n, 1..3
-  Vector2 centre = Vector2::Zero();  ///< coordinates are centred [m] ...
-  double scale = 1.0;                ///< ... and share one scale [m]
+  Vector2 centre = Vector2::Zero();  ///< origin of the scaled coordinates [m]
+  double scale = 1.0;                ///< common scale of both coordinates [m]
   Parameters alpha;                  ///< |alpha| = 1
 
-  /// F and its gradient at scaled coordinates.
+  /// F and its gradient with respect to scaled coordinates.
   template <class T>
-  struct Seen {
+  struct Evaluation {
     T f, by_u, by_v;
   };
   template <class T>
-  Seen<T> look(const T& u, const T& v) const {
+  Evaluation<T> evaluate(const T& u, const T& v) const {
     const T zero = 0.0 * u;
     const std::array<T, 4> x{zero + 1.0, u, u * u, u * u * u};
     const std::array<T, 4> y{zero + 1.0, v, v * v, v * v * v};
-    Seen<T> out{zero, zero, zero};
+    Evaluation<T> out{zero, zero, zero};
     for (Eigen::Index k = 0; k < alpha.size(); ++k) {
       const auto [i, j] = implicit_powers(order, k);
       const auto a = static_cast<std::size_t>(i);
@@ -47,37 +47,37 @@ struct Implicit {
     return out;
   }
 
-  /// The point of the curve near (x, y): steps along the gradient until F vanishes to rounding.
-  /// On jets the derivatives follow, one step behind. Nothing when the steps do not get there, as
-  /// near a singular point of the curve.
+  /// Returns the point of the curve near (x, y), by steps along the gradient until F is zero to
+  /// rounding. For jets the derivatives converge one step later. Returns nullopt when the steps do
+  /// not converge, for example near a singular point of the curve.
   template <class T>
   std::optional<std::pair<T, T>> nearest(const T& x, const T& y) const {
     constexpr int steps = 30;
     constexpr double close = 1e-12;  // [of the scale]
     T u = (x - centre.x()) / scale;
     T v = (y - centre.y()) / scale;
-    int arrived = 0;
+    int converged_steps = 0;
     for (int i = 0; i < steps; ++i) {
-      const Seen<T> seen = look(u, v);
-      const T pull = seen.f * (1.0 / (seen.by_u * seen.by_u + seen.by_v * seen.by_v));
-      const T du = pull * seen.by_u;
-      const T dv = pull * seen.by_v;
+      const Evaluation<T> at = evaluate(u, v);
+      const T step_factor = at.f * (1.0 / (at.by_u * at.by_u + at.by_v * at.by_v));
+      const T du = step_factor * at.by_u;
+      const T dv = step_factor * at.by_v;
       const double step = std::hypot(value_of(du), value_of(dv));
       if (!(step < 1.0)) return std::nullopt;
       u = u - du;
       v = v - dv;
-      if (step < close) ++arrived;
-      if (arrived == 3) return std::pair{scale * u + centre.x(), scale * v + centre.y()};
+      if (step < close) ++converged_steps;
+      if (converged_steps == 3) return std::pair{scale * u + centre.x(), scale * v + centre.y()};
     }
     return std::nullopt;
   }
 };
 
-/// Taubin's fit (the eigenvector that makes F^2 over squared gradient least), then
-/// Levenberg-Marquardt on the Sampson distance F / |grad F|, which is the distance to the curve to
-/// first order. Needs as many points as there are unknowns less one: 2, 5, 9 for n = 1, 2, 3;
-/// twelve at most. Nothing when they are fewer or have no extent.
-/// Source: Taubin, PAMI 13(11) 1991; Sampson, CGIP 18 1982.
+/// Taubin's fit (the eigenvector that minimises F^2 over the squared gradient), followed by
+/// Levenberg-Marquardt on the Sampson distance F / |grad F|, the first-order approximation of the
+/// distance to the curve. Requires at least as many points as unknowns - 1 (2, 5, 9 for n = 1, 2,
+/// 3) and at most twelve. Returns nullopt for fewer points or points without extent. Source:
+/// Taubin, PAMI 13(11) 1991; Sampson, CGIP 18 1982.
 std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order);
 
 }  // namespace loopbench::manifold

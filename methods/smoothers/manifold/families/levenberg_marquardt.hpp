@@ -1,7 +1,7 @@
-/// Levenberg-Marquardt for a handful of parameters and nodes: the nonlinear families' solver.
+/// Levenberg-Marquardt for few parameters and nodes, for the nonlinear curve families.
 ///
-/// Our own because a window has 3 to 12 residuals and 3 to 10 parameters: everything stays on the
-/// stack, and building a general solver's problem would cost more than solving it.
+/// A window has 3 to 12 residuals and 3 to 10 parameters. This solver keeps everything on the
+/// stack; setting up a general solver would take longer than the solution.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -9,7 +9,7 @@
 
 namespace loopbench::manifold {
 
-constexpr int kMostNodes = 12;  ///< in one window
+constexpr int kMostNodes = 12;  ///< per window
 constexpr int kMostParameters = 10;
 
 using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostParameters, 1>;
@@ -17,15 +17,16 @@ using Residuals = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1>;
 using Slopes =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNodes, kMostParameters>;
 
-/// `evaluate(parameters, residuals, slopes)` fills both (slopes = d residual / d parameter).
-/// Damping by Marquardt's scaling; a step is taken only if it lowers the sum of squares, so the
-/// result is never worse than `start`. Stops at `iterations` or a relative gain below 1e-14.
+/// Minimises the sum of squares. `evaluate(parameters, residuals, slopes)` sets both outputs, with
+/// slopes = d residual / d parameter. Marquardt scaling of the damping; a step is accepted only if
+/// it lowers the sum of squares, so the result is never worse than `start`. Stops after
+/// `iterations` or at a relative decrease below 1e-14.
 template <class Evaluate>
 Parameters levenberg_marquardt(Parameters start,
                                Eigen::Index count,
                                Evaluate evaluate,
                                int iterations = 50) {
-  Residuals r(count), tried(count);
+  Residuals r(count), trial_residuals(count);
   Slopes J(count, start.size()), slopes(count, start.size());
   evaluate(start, r, J);
   double cost = r.squaredNorm();
@@ -36,19 +37,19 @@ Parameters levenberg_marquardt(Parameters start,
     const double floor = 1e-15 * std::max(H.diagonal().maxCoeff(), 1e-300);
     H.diagonal().array() += damping * H.diagonal().array().max(floor);
     const Parameters next = start - H.ldlt().solve(J.transpose() * r);
-    evaluate(next, tried, slopes);
-    const double trial = tried.squaredNorm();
-    if (!(trial < cost)) {
+    evaluate(next, trial_residuals, slopes);
+    const double trial_cost = trial_residuals.squaredNorm();
+    if (!(trial_cost < cost)) {
       damping *= 8.0;
       continue;
     }
-    const bool settled = cost - trial < 1e-14 * cost;
+    const bool converged = cost - trial_cost < 1e-14 * cost;
     start = next;
-    r = tried;
+    r = trial_residuals;
     J = slopes;
-    cost = trial;
+    cost = trial_cost;
     damping = std::max(damping * 0.2, 1e-12);
-    if (settled) break;
+    if (converged) break;
   }
   return start;
 }

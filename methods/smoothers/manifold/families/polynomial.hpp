@@ -8,8 +8,8 @@
 namespace loopbench::manifold {
 
 struct Polynomial {
-  double centre = 0.0;                                     ///< of the fitted x [m]
-  double scale = 1.0;                                      ///< half their range [m]
+  double centre = 0.0;  ///< middle of the fitted x [m]
+  double scale = 1.0;   ///< half the range of x [m]; u = (x - centre) / scale
   Eigen::Vector4d coefficients = Eigen::Vector4d::Zero();  ///< of powers of u [m]
 
   template <class T>
@@ -20,9 +20,9 @@ struct Polynomial {
   }
 };
 
-/// Least squares in y by QR, x centred and scaled to [-1, 1]; with degree + 1 points it passes
-/// through all of them. The degree (1..3) is lowered to the number of points less one.
-/// Needs two points or more with distinct x, twelve at most.
+/// Least-squares fit in y by QR, with x centred and scaled to [-1, 1]; degree + 1 points are
+/// interpolated. The degree (1..3) is reduced to the number of points - 1. Requires two to twelve
+/// points with distinct x.
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
 
 }  // namespace loopbench::manifold

@@ -1,4 +1,4 @@
-/// The family quadric: z = q(x, y) of the paper's seven monomials x^2, y^2, z, xy, y, x, 1.
+/// The family quadric: z = q(x, y) with the article's seven monomials x^2, y^2, z, xy, y, x, 1.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace loopbench::manifold {
 
-constexpr double kQuadricCut = 1e-3;  ///< [of the largest singular value]
+constexpr double kQuadricCut = 1e-3;  ///< relative to the largest singular value
 
 struct Quadric {
   using Coefficients = Eigen::Matrix<double, 6, 1>;
 
-  Vector2 centre = Vector2::Zero();                  ///< of the fitted points [m]
+  Vector2 centre = Vector2::Zero();                  ///< middle of the fitted points [m]
   double scale = 1.0;                                ///< half their larger range [m]
   double level = 0.0;                                ///< their mean z [m]
   Coefficients coefficients = Coefficients::Zero();  ///< of x^2, y^2, xy, x, y, 1 [m]
-  int rank = 0;  ///< directions kept; below 6 the points lie on or near a conic
+  int rank = 0;  ///< number of directions kept; below 6 the points lie on or near a conic
 
   double operator()(const Vector2& point) const {
     return level + monomials((point - centre) / scale).dot(coefficients);
@@ -32,11 +32,11 @@ struct Quadric {
   static Coefficients monomials(const Vector2& u);
 };
 
-/// Least squares in z by truncated SVD: along a short path six nodes lie near a conic, where the
-/// full solution is noise blown up, so directions below `cut` of the strongest are dropped.
-/// Passes through six points when none is dropped. x and y share one scale: scaling each by
-/// itself would blow the noise across a straight path up to its length.
-/// Nothing when the points have no extent or are fewer than six; twelve at most.
+/// Least-squares fit in z by truncated SVD. Six nodes of a short path lie near a conic, where the
+/// full solution amplifies noise; directions with a singular value below `cut` relative to the
+/// largest are dropped. Interpolates six points if none is dropped. x and y have a common scale,
+/// because separate scales would amplify the noise across a straight path to its length. Returns
+/// nullopt for points without extent or fewer than six points; at most twelve are allowed.
 std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
                                    std::span<const double> z,
                                    double cut = kQuadricCut);

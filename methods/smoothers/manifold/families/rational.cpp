@@ -8,10 +8,10 @@ namespace loopbench::manifold {
 namespace {
 
 bool has_pole(double q1, double q2) {
-  const double under = 0.25 * q1 * q1 - q2;
-  if (under < 0.0) return false;
+  const double discriminant = 0.25 * q1 * q1 - q2;
+  if (discriminant < 0.0) return false;
   constexpr double reach = 1.0 + 2.0 * kPoleMargin;  // u runs from -1 to 1
-  const double root = std::sqrt(under);
+  const double root = std::sqrt(discriminant);
   return std::abs(-0.5 * q1 - root) <= reach || std::abs(-0.5 * q1 + root) <= reach;
 }
 
@@ -31,7 +31,7 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
   };
   const auto y = [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)].y(); };
 
-  // y (u^2 + q1 u + q2) = p + d (...): without d linear in q1, q2, p.
+  // y (u^2 + q1 u + q2) = p + d (...): linear in q1, q2 and p if d = 0.
   Slopes design(count, 3);
   Residuals right(count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
   }
   Parameters start = Parameters::Zero(unknowns);
   start.head(3) = design.colPivHouseholderQr().solve(right);
-  // From across a pole no descent leads back: begin with a wide bell instead.
+  // Descent cannot cross a pole, so start from a wide bell instead.
   if (!start.allFinite() || has_pole(start[0], start[1])) start.head(3) << 0.0, 4.0, 4.0 * y(0);
 
   const Parameters q = levenberg_marquardt(start, count, [&](const auto& q_, auto& r, auto& J) {

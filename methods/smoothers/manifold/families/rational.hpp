@@ -9,7 +9,7 @@
 
 namespace loopbench::manifold {
 
-/// Kept about the middle of the window: the coefficients in x follow by shifting.
+/// Stored relative to the middle of the window.
 struct Rational {
   double centre = 0.0;  ///< [m]
   double scale = 1.0;   ///< [m]; u = (x - centre) / scale
@@ -24,9 +24,9 @@ struct Rational {
   }
 };
 
-/// Least squares in y by Levenberg-Marquardt from the linearised solution. Four points or more
-/// with distinct x, one more `with_level`. Nothing when the denominator has a real root in the
-/// range of x or half a range beside it.
+/// Least-squares fit in y by Levenberg-Marquardt from the linearised solution. Requires at least
+/// four points with distinct x, or five with `with_level`. Returns nullopt when the denominator has
+/// a real root within the range of x or half that range beside it.
 std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level);
 
 }  // namespace loopbench::manifold

@@ -9,11 +9,11 @@ namespace loopbench::manifold {
 namespace {
 
 constexpr int kSineStarts = 12;
-constexpr double kLongest = 8.0;   // [of the range of x] the first start: hardly more than a bend
-constexpr double kShortest = 4.0;  // [spacings] below it samples no longer tell the wavelength
-constexpr double kTallest = 2.0;   // [of the range of y]
+constexpr double kLongest = 8.0;   // longest initial wavelength, in ranges of x
+constexpr double kShortest = 4.0;  // shortest wavelength, in point spacings; below it is ambiguous
+constexpr double kTallest = 2.0;   // largest amplitude, in ranges of y
 
-// Parameters are b, a cos c, a sin c [, d]: linear but for the first.
+// The parameters are b, a cos c, a sin c [, d]; all but the first are linear.
 void evaluate(
     std::span<const Vector2> points, double centre, const Parameters& q, Residuals& r, Slopes& J) {
   for (Eigen::Index i = 0; i < r.size(); ++i) {
@@ -56,14 +56,14 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
     q[0] = slowest * std::pow(fastest / slowest, start / (kSineStarts - 1.0));
     Residuals r(count);
     Slopes J(count, unknowns);
-    evaluate(points, centre, q, r, J);  // the linear ones are zero: r = -y
+    evaluate(points, centre, q, r, J);  // the linear parameters are zero, so r = -y
     const Slopes linear = J.rightCols(unknowns - 1);
     q.tail(unknowns - 1) = linear.colPivHouseholderQr().solve(-r);
     if (!best || cost(q) < cost(*best)) best = q;
   }
   const Parameters q = levenberg_marquardt(
       *best, count, [&](const auto& p, auto& r, auto& J) { evaluate(points, centre, p, r, J); });
-  // A negative rate is the same curve run backwards.
+  // A negative rate is the same curve with reversed sign.
   const double sign = q[0] < 0.0 ? -1.0 : 1.0;
   Sine out;
   out.rate = std::abs(q[0]);

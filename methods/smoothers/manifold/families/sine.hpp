@@ -22,9 +22,9 @@ struct Sine {
   }
 };
 
-/// Least squares in y from twelve starts of the rate. Four points or more with distinct x, one
-/// more `with_level`. Nothing when the best curve is an alias: wavelength below 4 mean spacings of
-/// the points, or amplitude above twice their range of y.
+/// Least-squares fit in y from twelve initial rates. Requires at least four points with distinct x,
+/// or five with `with_level`. Returns nullopt when the best curve is an alias: wavelength below 4
+/// mean point spacings, or amplitude above twice the range of y.
 std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level);
 
 }  // namespace loopbench::manifold
