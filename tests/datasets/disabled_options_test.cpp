@@ -71,7 +71,7 @@ TEST(DisabledOptions, OfClosuresAreRejectedWithoutClosures) {
 TEST(DisabledOptions, OfTheReferenceAreRejectedWithoutOne) {
   const Params alone{{"estimate", "a.txt"}};
   EXPECT_EQ(refusal("trajectory", with(alone, "reference_body.x", 0.1)),
-            "reference_body.x: has no effect without reference, which names no file");
+            "reference_body.x: has no effect without reference, which is empty");
   EXPECT_THAT(refusal("trajectory", with(alone, "reference_format", "tum")),
               HasSubstr("without reference"));
   const Params graph{{"path", "a.g2o"}};

@@ -88,7 +88,7 @@ TEST(TrajectoryDataset, RefusesARunOfAnotherScale) {
   TrajectoryOptions options = every_tenth(ClosureSource::estimate);
   options.closures_file = "mono.txt";
   EXPECT_THAT(refusal_of([&] { derive_problem(in, options); }),
-              HasSubstr("mono.txt: its path is 2 times as long"));
+              HasSubstr("mono.txt: path length is 2 times that of the estimate"));
 }
 
 TEST(TrajectoryDataset, EndsOfListedClosuresAreKeyframes) {
@@ -191,11 +191,11 @@ TEST(TrajectoryDataset, RefusesWhatDoesNotFitTogether) {
   const auto refusal = [&](const Params& given) {
     return refusal_of([&] { load(folder.path(), given); });
   };
-  EXPECT_THAT(refusal({}), HasSubstr("estimate: names no file"));
+  EXPECT_THAT(refusal({}), HasSubstr("estimate: is empty, expected a trajectory file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"closures.source", "file"}}),
-              HasSubstr("closures.file: names no file"));
+              HasSubstr("closures.file: is empty, expected a file for closures.source = file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"closures.source", "reference"}}),
-              HasSubstr("reference: names no file"));
+              HasSubstr("reference: is empty, expected a file for closures.source = reference"));
   EXPECT_THAT(refusal({{"estimate", "other.txt"}}), HasSubstr("other.txt: no such file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"keyframes.rule", "some"}}),
               HasSubstr("all | every | seconds | metres | count"));

@@ -82,7 +82,7 @@ TEST_F(RgbdFolder, RefusesListsThatAreEmptyOrBroken) {
 
 TEST_F(RgbdFolder, RefusesIntrinsicsThatCannotBe) {
   folder_.file("camera.yaml", "fx: 0\n");
-  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 0 breaks fx > 0"));
+  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 0: expected fx > 0"));
   folder_.file("camera.yaml", "fx: wide\n");
   EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 'wide': expected a number"));
   folder_.file("camera.yaml", "fx: 100\nfy: 100\ncx: 50\n");
