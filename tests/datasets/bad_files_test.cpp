@@ -80,10 +80,10 @@ TEST(BadFiles, TimesMustMatchThePoses) {
   };
   EXPECT_EQ(refuse("times_two.txt"),
             poses.string() + ": has 3 poses, but " + sample("bad/times_two.txt").string() +
-                " has 2 times, expected as many");
+                " has 2 times, expected equal numbers");
   EXPECT_EQ(refuse("times_unsorted.txt"),
             sample("bad/times_unsorted.txt").string() +
-                ":3: stamp 0.1 is before stamp 0.2 on line 2, expected increasing stamps");
+                ":3: stamp 0.1 is smaller than stamp 0.2 on line 2, expected increasing stamps");
   EXPECT_EQ(refuse("times_two_columns.txt"),
             sample("bad/times_two_columns.txt").string() +
                 ":1: has 2 columns, expected 1: a time in seconds");
@@ -115,7 +115,7 @@ TEST(BadFiles, TimesBesideAFormatWithStampsAreRefused) {
   options.times = sample("good/kitti_times.txt");
   const auto file = sample("good/tum.txt");
   EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
-            file.string() + ": is tum, whose stamps are its own, expected no times file");
+            file.string() + ": has format tum, which contains stamps, expected no times file");
   options = {};
   options.period = 0.0;
   EXPECT_THROW(read_trajectory(file, options), OptionError);

@@ -210,9 +210,10 @@ TEST(Chain, CarriesScaleAlong) {
 
 TEST(Chain, MissingStepsAreNamed) {
   const auto graph = read_g2o(sample("bad/g2o_chain_gap.g2o"));
-  EXPECT_EQ(refusal([&] { chain(graph, "odd.g2o"); }),
-            "odd.g2o: no edge joins vertices 1 and 2, expected one between neighbours to chain "
-            "poses from");
+  EXPECT_EQ(
+      refusal([&] { chain(graph, "odd.g2o"); }),
+      "odd.g2o: no edge between vertices 1 and 2, expected one between consecutive vertices of "
+      "a file without poses");
 }
 
 TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
@@ -234,13 +235,13 @@ TEST(G2o, RefusesWhatOverflowsOnTheWay) {
     return said.substr(file.string().size());
   };
   EXPECT_EQ(why("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
-            ":1: information is not positive definite once the edge is turned round");
+            ":1: information is not positive definite after inversion of the edge");
   EXPECT_EQ(why("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
             ": pose 2: is not finite");
   EXPECT_EQ(why("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
             ": pose 1: stamp does not increase");
   EXPECT_EQ(why("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
-            ":1: scale is 1e-310, too small to divide by");
+            ":1: scale is 1e-310, too small to be inverted");
 }
 
 }  // namespace

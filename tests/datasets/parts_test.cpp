@@ -78,13 +78,14 @@ TEST(Parts, StampsAreInOrderAcrossACut) {
   const Scratch scratch;
   const std::string half = tum();
   const auto file = scratch.file("a.txt", half + half);
-  EXPECT_EQ(refusal([&] { read_trajectory(file); }),
-            fmt::format("{}:{}: stamp 0.5 is before stamp {}.5 on line {}, expected increasing "
-                        "stamps",
-                        file.string(),
-                        kRows + 5,
-                        kRows - 1,
-                        kRows + 2));
+  EXPECT_EQ(
+      refusal([&] { read_trajectory(file); }),
+      fmt::format("{}:{}: stamp 0.5 is smaller than stamp {}.5 on line {}, expected increasing "
+                  "stamps",
+                  file.string(),
+                  kRows + 5,
+                  kRows - 1,
+                  kRows + 2));
 }
 
 TEST(Parts, ANulByteIsFoundWhereverItIs) {
@@ -127,7 +128,7 @@ TEST(Parts, PoseGraphsKeepTheirLines) {
   }
   const auto twice = scratch.file("b.g2o", text + "VERTEX_SE2 7 0 0 0\n");
   EXPECT_EQ(refusal([&] { read_g2o(twice); }),
-            fmt::format("{}:{}: vertex 7 is already on line 8", twice.string(), 2 * kRows));
+            fmt::format("{}:{}: vertex 7 is already defined on line 8", twice.string(), 2 * kRows));
 }
 
 }  // namespace
