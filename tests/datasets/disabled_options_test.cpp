@@ -90,7 +90,8 @@ TEST(DisabledOptions, KeyframeValueIsRejectedWithRuleAll) {
 
 TEST(DisabledOptions, PitchDriftIsRejectedInThePlane) {
   EXPECT_EQ(refusal("simulated", {{"planar", true}, {"drift.pitch_per_metre", 0.01}}),
-            "drift.pitch_per_metre = 0.01: leaves the plane, expected 0 with planar = true");
+            "drift.pitch_per_metre = 0.01: causes motion out of the plane, expected 0 with planar "
+            "= true");
   EXPECT_THAT(refusal("simulated", {{"planar", true}, {"drift.yaw_per_metre", 0.01}}), IsEmpty());
   EXPECT_THAT(
       refusal("simulated", {{"closures.max", std::int64_t{0}}, {"closures.false_share", 0.5}}),
