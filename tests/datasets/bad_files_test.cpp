@@ -1,4 +1,4 @@
-/// Every file in tests/data/bad/ is refused with the words its line of the manifest promises.
+/// Checks that every file in tests/data/bad/ is rejected with the error message in the manifest.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -66,7 +66,7 @@ TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
 TEST(BadFiles, AbsurdSizesAreRefusedUnread) {
   const Scratch scratch;
   const auto file = scratch.file("huge.txt", "0 0 0 0 0 0 0 1\n");
-  std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse: takes no room
+  std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse file
   EXPECT_EQ(refusal([&] { read_trajectory(file); }),
             file.string() + ": has 9663676416 bytes, expected at most 8589934592");
 }

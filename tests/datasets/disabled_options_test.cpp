@@ -35,7 +35,7 @@ TEST(DisabledOptions, OfMeasuredClosuresAreRejectedForClosuresFromAFile) {
   const Params file{
       {"estimate", "a.txt"}, {"closures.source", "file"}, {"closures.file", "loops.txt"}};
   EXPECT_THAT(refusal("trajectory", file), IsEmpty());
-  // The default, too: a config that states it expects it to act.
+  // Also rejected with the default value, because the config sets it.
   EXPECT_EQ(refusal("trajectory", with(file, "closures.max", std::int64_t{20})),
             "closures.max: has no effect with closures.source = file, expected closures.source = "
             "reference or estimate");

@@ -83,7 +83,8 @@ TEST(G2o, EdgesWrittenBackwardsAreInverted) {
   const Edge& loop = graph.edges[2];
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 2u);
-  // Vertex 10 seen from 30 is (1, 1) behind a half turn, so 30 seen from 10 is at (1, 1) as well.
+  // Vertex 10 in the frame of 30 is (1, 1) with a rotation of pi, so 30 in the frame of 10 is (1,
+  // 1).
   EXPECT_TRUE(is_close(loop.from_from_to, planar(1, 1, M_PI), 1e-15, 1e-15));
 }
 
@@ -94,7 +95,7 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (const Edge& edge : forward.edges) {
-    // The same line with its ids exchanged says where `from` is, seen from `to`.
+    // With exchanged ids the line contains the pose of `from` in the frame of `to`.
     PoseGraph one;
     one.ids = {0, 1};
     one.edges = {edge};
@@ -111,7 +112,7 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
 }
 
 TEST(G2o, HalfAnglesBecomeAngles) {
-  // The file says 4, 8, ..., 24 on the diagonal and 2 between x and q_x.
+  // The file has 4, 8, ..., 24 on the diagonal and 2 between x and q_x.
   const Edge edge = read_g2o(sample("good/se3.g2o")).edges[0];
   Matrix6 expected = Matrix6::Zero();
   expected.diagonal() << 4, 8, 12, 4, 5, 6;
@@ -136,7 +137,8 @@ TEST(G2o, SimilarityScaleIsUnitOfFirstOverSecondId) {
   const PoseGraph graph = read_g2o(sample("good/rst3.g2o"));
   EXPECT_TRUE(graph.similarity);
   EXPECT_EQ(graph.edges[0].scale, 1.0);
-  const Edge& loop = graph.edges[2];  // written 2 -> 0 with scale 4: unit of 2 is 4 units of 0
+  const Edge& loop =
+      graph.edges[2];  // written as 2 -> 0 with scale 4: scale of 2 is 4 times that of 0
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 2u);
   EXPECT_EQ(loop.scale, 4.0);

@@ -1,4 +1,4 @@
-/// Files large enough to be read by several threads read as small ones do, errors included.
+/// Files large enough to be read by several threads give the same results and errors as small ones.
 #include "datasets/formats/parts.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRows = 100'000;
 
-/// `kRows` rows of one second each, row `special` replaced; 5 MB and cut at odd places.
+/// `kRows` rows, 1 s apart, with row `special` replaced; 5 MB, split at arbitrary positions.
 std::string tum(int special = -1, const std::string& replacement = "") {
   std::string out = "# stamp tx ty tz qx qy qz qw\n\n";
   for (int i = 0; i < kRows; ++i) {

@@ -1,4 +1,4 @@
-/// Every real trajectory and pose graph, where LOOPBENCH_DATA says they lie.
+/// Reads all real trajectories and pose graphs in the folder LOOPBENCH_DATA.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class RealFiles : public testing::Test {
     root_ = root;
   }
 
-  /// Reads, or skips the one file that a partial copy of the data lacks.
+  /// Reads a file, or skips it if it is missing in a partial copy of the data.
   void expect_rows(const std::string& name, std::size_t rows, Format format, Repeats repeats = {}) {
     const auto file = root_ / name;
     if (!std::filesystem::exists(file)) {
@@ -191,7 +191,8 @@ TEST_F(RealFiles, ToroEdgesEqualTheirG2oTwins) {
     toro_sum += a.information.diagonal();
     twin_sum += b.information.diagonal();
   }
-  // Roll and pitch are four times as sure as yaw in both: the order of the axes is the same.
+  // The information of roll and pitch is four times that of yaw in both: the axes have the same
+  // order.
   EXPECT_TRUE(toro_sum.isApprox(twin_sum, 0.02)) << toro_sum << "\n\n" << twin_sum;
 }
 
@@ -203,7 +204,7 @@ TEST_F(RealFiles, TheHagueLoopSaysHowTheUnitGrew) {
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 839u);
   EXPECT_NEAR(loop.scale, 3.099978, 1e-12);
-  // Metres per unit from the truth, over 40 steps at either end: 0.86 at first, 2.6 at last.
+  // Scale with respect to the ground truth over 40 steps: 0.86 m at the start, 2.6 m at the end.
   const PoseGraph truth = read_g2o(root_ / "cop_slam/TheHague_02_gt.g2o");
   const auto unit = [&](std::size_t begin, std::size_t end) {
     double measured = 0.0, metres = 0.0;

@@ -37,7 +37,7 @@ TEST(Revisits, EqualBruteForceOnRandomWalks) {
       found += revisits.size();
     }
   }
-  EXPECT_GT(found, 500u);  // else the comparison says little
+  EXPECT_GT(found, 500u);  // otherwise the comparison is not meaningful
 }
 
 TEST(Revisits, TakeTheEarliestOfEquallyNear) {
@@ -60,7 +60,7 @@ TEST(Revisits, AreNotFoundInNothing) {
 TEST(Revisits, SpreadFromTheLongestLoop) {
   std::vector<double> stamps;
   for (int i = 0; i <= 100; ++i) stamps.push_back(i);
-  // A stretch that follows an old one, and one short loop far from it.
+  // Many revisits along a repeated section, and one short loop far from it.
   const std::vector<Revisit> revisits = {{40, 50}, {0, 90}, {1, 91}, {2, 92}, {3, 93}, {10, 100}};
   EXPECT_EQ(spread(revisits, stamps, 1), (std::vector<std::size_t>{1}));
   EXPECT_EQ(spread(revisits, stamps, 2), (std::vector<std::size_t>{0, 1}));

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Back and forth on x twice, 20 s, 201 poses.
+/// Moves back and forth on the x axis twice in 20 s, 201 poses.
 Trajectory shuttle() {
   std::vector<double> xs;
   for (int i = 0; i <= 200; ++i) xs.push_back(1.0 - std::cos(2.0 * M_PI * i / 100.0));
@@ -136,7 +136,7 @@ TEST(TrajectoryDataset, LoadsFilesAndTellsWhereAllCameFrom) {
   EXPECT_EQ(sequence.name, "room_est");
   EXPECT_EQ(sequence.problem.keyframes.size(), 13u);
   EXPECT_EQ(sequence.reference.size(), 13u);
-  EXPECT_EQ(sequence.problem.closures.size(), 4u);  // 12-0 11-1 10-2 9-3: 5 s apart or more
+  EXPECT_EQ(sequence.problem.closures.size(), 4u);  // 12-0 11-1 10-2 9-3: at least 5 s apart
   EXPECT_TRUE(sequence.provenance.oracle_closures);
   EXPECT_THAT(sequence.provenance.closures, HasSubstr("reference with noise 0.02 m"));
   EXPECT_EQ(sequence.provenance.sensor, "RGB-D");

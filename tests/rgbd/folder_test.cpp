@@ -1,4 +1,4 @@
-// Recordings on disk: read whole, and every fault named.
+// Tests of the layouts of recordings, and of error messages for faulty ones.
 #include <fstream>
 
 #include "datasets/rgbd/folder/folder_source.hpp"
@@ -130,9 +130,10 @@ TEST_F(RgbdFolder, ContentFollowsEveryImage) {
 }
 
 TEST_F(RgbdFolder, RefusesAFolderThatHoldsNoRecording) {
-  EXPECT_NE(
-      refusal_of([&] { open_rgbd_folder(folder_.path() / "rgb", {}); }).find("holds no recording"),
-      std::string::npos);
+  EXPECT_NE(refusal_of([&] {
+              open_rgbd_folder(folder_.path() / "rgb", {});
+            }).find("contains no recording"),
+            std::string::npos);
 }
 
 TEST_F(RgbdFolder, ReadsSevenScenesLayout) {
@@ -165,7 +166,7 @@ TEST_F(RgbdFolder, ReadsIclNuimLayoutAndTurnsYDown) {
   std::filesystem::remove(folder_.path() / "rgb.txt");
   folder_.file("associations.txt",
                "0 depth/0000.png 0 rgb/0000.png\n1 depth/0001.png 1 rgb/0001.png\n");
-  // Turned by 0.2 about x, with y up.
+  // Rotated by 0.2 rad about x, in axes with y up.
   folder_.file(
       "livingRoom0.gt.freiburg",
       fmt::format("0 0 0 0 0 0 0 1\n1 0.1 0.2 0.3 {} 0 0 {}\n", std::sin(0.1), std::cos(0.1)));
@@ -193,7 +194,7 @@ TEST(PairImages, TakesTheNearestAndNoDepthImageTwice) {
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].grey, "f/a");
   EXPECT_EQ(pairs[0].depth, "f/p");
-  EXPECT_EQ(pairs[1].grey, "f/c");  // nearer to q than b is
+  EXPECT_EQ(pairs[1].grey, "f/c");  // closer to q than b
   EXPECT_EQ(pairs[1].depth, "f/q");
 }
 
