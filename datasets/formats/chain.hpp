@@ -12,8 +12,7 @@ namespace loopbench {
 /// Returns one pose per id, composed from the edges between consecutive ids; the first pose is the
 /// identity. If several edges connect the same vertices, the first in the file is used.
 /// Translations of a similarity graph are converted to the scale of the first vertex. Throws
-/// InputError
-/// (`name: ...` with the ids) if consecutive ids have no edge. O(edges + ids).
+/// InputError (`name: ...` with the ids) if consecutive ids have no edge. O(edges + ids).
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name = "pose graph");
 
 }  // namespace loopbench

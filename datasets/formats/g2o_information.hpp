@@ -6,8 +6,8 @@
 namespace loopbench {
 
 /// g2o's error of a measurement Z is the vector [t; q_xyz] of Delta = Z^-1 Xi^-1 Xj with q_w >= 0.
-/// Near zero q_xyz = phi / 2 and t = rho, so Omega_phi = Omega_q / 4 and Omega_t,phi = Omega_tq
-/// / 2.
+/// Near zero q_xyz = phi / 2 and t = rho, so
+/// Omega_phi = Omega_q / 4 and Omega_t,phi = Omega_tq / 2.
 inline Matrix6 from_half_angles(const Matrix6& half) {
   Matrix6 out = half;
   out.topRightCorner<3, 3>() *= 0.5;

@@ -111,8 +111,7 @@ TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {
   Matrix6 covariance = compose(exact, noisy).information.inverse();
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.2, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(5, 5)), 0.2, 1e-9);
-  // The lever arm of the rotation of the first edge is the second edge in the scale of the
-  // first: 2.
+  // The lever arm of the first edge's rotation is the second edge in the scale of the first: 2.
   std::swap(exact.information, noisy.information);
   covariance = compose(exact, noisy).information.inverse();
   EXPECT_NEAR(covariance(1, 1), 0.01 + 0.04 * 4.0, 1e-9);

@@ -17,8 +17,8 @@ namespace loopbench {
 /// Depth image: noise with standard deviation 1.425 mm/m^2 z^2 (Khoshelham and Elberink 2012),
 /// disparity in steps of 1/8 pixel, rounding to millimetres and a random offset of at most one
 /// pixel. Depth is missing below 0.5 m, above 4.5 m, on slanted surfaces, in the projector's shadow
-/// beside depth edges and in random patches. All draws are determined by `frame` and the seed.
-/// O(pixels).
+/// beside depth edges and in random patches.
+/// All draws are determined by `frame` and the seed. O(pixels).
 RgbdFrame sensed(const Rendered& ideal,
                  const Camera& camera,
                  const Pose& begin_from_end,
