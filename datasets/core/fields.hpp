@@ -153,9 +153,9 @@ struct FieldType<std::optional<double>> {
 namespace detail {
 
 template <class T, class Rule>
-void check_rule(const std::string& name, const T& member, const Rule& rule) {
+void obey(const std::string& name, const T& member, const Rule& rule) {
   if constexpr (std::same_as<T, std::optional<double>>) {
-    if (member) check_rule(name, *member, rule);
+    if (member) obey(name, *member, rule);
   } else if (!rule.holds(static_cast<double>(member))) {
     throw OptionError(
         name,
@@ -199,7 +199,7 @@ Options with(Options options, Params given) {
       FieldType<Member>::assign(name, member, found->second);
       given.erase(found);
     }
-    (detail::check_rule(name, member, rule), ...);
+    (detail::obey(name, member, rule), ...);
   });
   if (given.empty()) return options;
   const std::string& name = given.begin()->first;
