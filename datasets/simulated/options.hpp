@@ -86,7 +86,7 @@ void fields(SimulatedOptions& o, Visit visit) {
   visit("laps", o.laps, "number of laps along the path", Between{1});
   visit("keyframes",
         o.keyframes,
-        "number of keyframes, evenly spaced in time; 0: default of the path",
+        "number of keyframes, evenly spaced in time; 0: default of the path, per lap",
         Between{0});
   visit("frame_rate",
         o.frame_rate,
