@@ -33,14 +33,14 @@ std::vector<Case> cases() {
 TEST(BadFiles, AreRefusedInTheWordsOfTheManifest) {
   for (const Case& one : cases()) {
     const auto file = sample("bad/" + one.file);
-    const std::string said = refusal([&] {
+    const std::string text = refusal([&] {
       if (one.reader == "g2o") {
         read_g2o(file);
       } else {
         read_trajectory(file);
       }
     });
-    EXPECT_EQ(said, file.string() + one.message) << one.file;
+    EXPECT_EQ(text, file.string() + one.message) << one.file;
   }
 }
 
@@ -95,8 +95,8 @@ TEST(BadFiles, AFormatGivenByHandIsHeldTo) {
     ReadOptions options;
     options.format = format;
     const std::string path = sample("good/" + name).string();
-    const std::string said = refusal([&] { read_trajectory(path, options); });
-    return said.starts_with(path) ? said.substr(path.size()) : said;
+    const std::string text = refusal([&] { read_trajectory(path, options); });
+    return text.starts_with(path) ? text.substr(path.size()) : text;
   };
   EXPECT_EQ(refuse("kitti.txt", Format::tum),
             ":1: has 12 columns, expected 8: stamp tx ty tz qx qy qz qw (looks like kitti)");

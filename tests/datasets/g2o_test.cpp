@@ -104,8 +104,8 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
     write_g2o(scratch.path("one.g2o"), one);
     const Edge back = read_g2o(scratch.path("one.g2o")).edges[0];
     const Twist small = 1e-6 * Twist::NullaryExpr([&] { return normal(random); });
-    const Pose seen = edge.from_from_to * exp_se3(small);
-    const Twist other = log_se3(back.from_from_to.inverse() * seen.inverse());
+    const Pose perturbed = edge.from_from_to * exp_se3(small);
+    const Twist other = log_se3(back.from_from_to.inverse() * perturbed.inverse());
     const double cost = small.dot(edge.information * small);
     EXPECT_NEAR(other.dot(back.information * other), cost, 1e-4 * cost);
   }
@@ -230,19 +230,19 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
 
 TEST(G2o, RefusesWhatOverflowsOnTheWay) {
   const Scratch scratch;
-  const auto why = [&](const std::string& text) {
+  const auto error_of = [&](const std::string& text) {
     const auto file = scratch.file("a.g2o", text);
-    const std::string said = refusal([&] { read_trajectory(file); });
-    EXPECT_TRUE(said.starts_with(file.string())) << said;
-    return said.substr(file.string().size());
+    const std::string message = refusal([&] { read_trajectory(file); });
+    EXPECT_TRUE(message.starts_with(file.string())) << message;
+    return message.substr(file.string().size());
   };
-  EXPECT_EQ(why("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
+  EXPECT_EQ(error_of("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
             ":1: information is not positive definite after inversion of the edge");
-  EXPECT_EQ(why("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
+  EXPECT_EQ(error_of("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
             ": pose 2: is not finite");
-  EXPECT_EQ(why("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
+  EXPECT_EQ(error_of("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
             ": pose 1: stamp does not increase");
-  EXPECT_EQ(why("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
+  EXPECT_EQ(error_of("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
             ":1: scale is 1e-310, too small to be inverted");
 }
 

@@ -99,20 +99,20 @@ TEST(MeasuredClosures, PathRatioShowsAnotherScale) {
 TEST(MeasuredClosures, OfARunWithItsOwnUnitAreOfSim3) {
   // The run moves 3 m per step; the estimate 1 at first, and 0.5 from keyframe 30.
   Trajectory keyframes, run;
-  double way = 0.0;
+  double x = 0.0;
   for (int i = 0; i < 60; ++i) {
-    keyframes.push_back({double(i), {Rotation::Identity(), Vector3(way, 0, 0)}});
+    keyframes.push_back({double(i), {Rotation::Identity(), Vector3(x, 0, 0)}});
     run.push_back({double(i), {Rotation::Identity(), Vector3(3.0 * i, 0, 0)}});
-    way += i < 30 ? 1.0 : 0.5;
+    x += i < 30 ? 1.0 : 0.5;
   }
-  const Edge seen{10, 50, {Rotation::Identity(), Vector3(120, 0, 0)}, Matrix6::Identity()};
-  const auto edges = with_local_scale({seen}, keyframes, run, {});
+  const Edge measured{10, 50, {Rotation::Identity(), Vector3(120, 0, 0)}, Matrix6::Identity()};
+  const auto edges = with_local_scale({measured}, keyframes, run, {});
   EXPECT_NEAR(edges[0].scale, 6.0 / 3.0, 1e-12);
   EXPECT_NEAR(
       edges[0].from_from_to.translation.x(), 40.0, 1e-12);  // 120 m in the run, 3 m per unit
   Trajectory still = keyframes;
   for (auto& [stamp, pose] : still) pose = Pose{Rotation::Identity(), Vector3::Zero()};
-  EXPECT_THROW(with_local_scale({seen}, still, run, {}), InputError);
+  EXPECT_THROW(with_local_scale({measured}, still, run, {}), InputError);
 }
 
 }  // namespace

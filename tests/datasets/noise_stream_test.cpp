@@ -142,8 +142,8 @@ TEST(NoiseStream, AMovedFolderDrawsTheSameNoise) {
     }
     throw std::logic_error("no such dataset");
   };
-  const TemporaryFolder here, there;
-  const std::vector<Edge> a = closures(here), b = closures(there);
+  const TemporaryFolder first, second;
+  const std::vector<Edge> a = closures(first), b = closures(second);
   ASSERT_FALSE(a.empty());
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(a[0].from_from_to.translation, b[0].from_from_to.translation);

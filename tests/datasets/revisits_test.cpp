@@ -10,14 +10,14 @@ namespace {
 std::vector<Revisit> by_brute_force(const Trajectory& poses, const RevisitRule& rule) {
   std::vector<Revisit> out;
   for (std::size_t to = 0; to < poses.size(); ++to) {
-    const Pose& here = poses[to].world_from_body;
+    const Pose& current = poses[to].world_from_body;
     std::size_t best = to;
     double nearest = 0.0;
     for (std::size_t from = 0; from < to; ++from) {
-      const Pose& there = poses[from].world_from_body;
-      const double distance = (there.translation - here.translation).norm();
+      const Pose& earlier = poses[from].world_from_body;
+      const double distance = (earlier.translation - current.translation).norm();
       if (poses[to].stamp - poses[from].stamp < rule.min_gap || distance > rule.radius) continue;
-      if (angle_between(there.rotation, here.rotation) > rule.angle) continue;
+      if (angle_between(earlier.rotation, current.rotation) > rule.angle) continue;
       if (best != to && distance >= nearest) continue;
       best = from;
       nearest = distance;

@@ -23,8 +23,8 @@ class RgbdFolder : public Test {
     return refusal_of([&] { open(); });
   }
   bool refuses_with(const std::string& text) const {
-    const std::string said = refusal();
-    return said.find(text) != std::string::npos ? true : (ADD_FAILURE() << said, false);
+    const std::string message = refusal();
+    return message.find(text) != std::string::npos ? true : (ADD_FAILURE() << message, false);
   }
   void cut(const std::string& name, std::uintmax_t bytes) const {
     std::filesystem::resize_file(folder_.path() / name, bytes);

@@ -22,38 +22,38 @@ FrontendOptions quick() {
   return out;
 }
 
-/// Rendered room, forward and back: frames of `there`, then the same frames in reverse order, some
+/// Rendered room, forward and back: its frames, then the same frames in reverse order, some
 /// of them unreadable or black.
 class OutAndBack final : public RgbdSource {
  public:
   OutAndBack(std::size_t black_begin, std::size_t black_end)
       : black_begin_(black_begin), black_end_(black_end) {
     for (std::size_t i = 0; i < size(); ++i) {
-      reference_.push_back({stamp(i), there_->reference()[4 * turned(i)].world_from_body});
+      reference_.push_back({stamp(i), forward_->reference()[4 * turned(i)].world_from_body});
     }
   }
-  Camera camera() const override { return there_->camera(); }
-  std::size_t size() const override { return 2 * there_->size() - 1; }
+  Camera camera() const override { return forward_->camera(); }
+  std::size_t size() const override { return 2 * forward_->size() - 1; }
   double stamp(std::size_t index) const override { return 0.125 * static_cast<double>(index); }
   std::optional<RgbdFrame> read(std::size_t index, std::string& why) const override {
-    std::optional<RgbdFrame> out = there_->read(turned(index), why);
+    std::optional<RgbdFrame> out = forward_->read(turned(index), why);
     if (index >= black_begin_ && index < black_end_) {
       std::ranges::fill(out->grey.pixels, std::uint8_t{0});
     }
     return out;
   }
   std::uint64_t content() const override {
-    return there_->content() + 1000 * black_begin_ + black_end_;
+    return forward_->content() + 1000 * black_begin_ + black_end_;
   }
   const Trajectory& reference() const override { return reference_; }
   Provenance provenance() const override { return {}; }
 
  private:
   std::size_t turned(std::size_t i) const {
-    const std::size_t last = there_->size() - 1;
+    const std::size_t last = forward_->size() - 1;
     return i <= last ? i : 2 * last - i;
   }
-  std::unique_ptr<const RgbdSource> there_ = rendered_room(small_room(0.04));
+  std::unique_ptr<const RgbdSource> forward_ = rendered_room(small_room(0.04));
   std::size_t black_begin_;
   std::size_t black_end_;
   Trajectory reference_;
@@ -159,19 +159,19 @@ TEST(Frontend, DepthMakesStepsBetter) {
   check(after.problem, "room");
   ASSERT_EQ(after.problem.keyframes.size(), before.problem.keyframes.size());
   EXPECT_LT(mean_step_error(after, source), 0.8 * mean_step_error(before, source));
-  std::string told;
-  for (const std::string& note : after.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("measured again by depth: "), std::string::npos) << told;
+  std::string notes;
+  for (const std::string& note : after.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("measured again by depth: "), std::string::npos) << notes;
 }
 
 TEST(Frontend, SaysWhereTrackingWasLostAndRecovered) {
   const OutAndBack source(14, 17);  // dark at the turning point: frame 17 shows the same as 13
   const Sequence sequence = run_frontend(source, "room", quick(), {});
-  std::string told;
-  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("tracking lost at 1.750 s, recovered at 2.125 s: 3 frames have no pose"),
+  std::string notes;
+  for (const std::string& note : sequence.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("tracking lost at 1.750 s, recovered at 2.125 s: 3 frames have no pose"),
             std::string::npos)
-      << told;
+      << notes;
   EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size() + 3, source.size());
   EXPECT_LT(largest_error(sequence, source), kDrift);
 }
@@ -182,9 +182,9 @@ TEST(Frontend, BeginsAnewWhenLostForLongAndSaysSo) {
   const OutAndBack source(6, 12);
   const Sequence sequence = run_frontend(source, "room", options, {});
   check(sequence.problem, "room");
-  std::string told;
-  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("the step between is a guess"), std::string::npos) << told;
+  std::string notes;
+  for (const std::string& note : sequence.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("the step between is a guess"), std::string::npos) << notes;
 }
 
 TEST(Frontend, AsksForAboutSoManyKeyframes) {

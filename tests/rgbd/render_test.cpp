@@ -60,8 +60,8 @@ TEST(Render, DepthIsAlongTheAxisSoAFlatWallIsFlat) {
   camera.cy = 11.5;
   Matrix3 R;  // camera looks along x
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const Rendered seen = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
-  for (const float depth : seen.depth.pixels) EXPECT_NEAR(depth, 0.8, 1e-6);
+  const Rendered rendered = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
+  for (const float depth : rendered.depth.pixels) EXPECT_NEAR(depth, 0.8, 1e-6);
 }
 
 TEST(Render, TexturesAreFullOfContrastAndFollowTheSeed) {
@@ -85,13 +85,13 @@ TEST(Sensor, WithoutNoiseDepthIsExactToTheMillimetre) {
   options.depth_noise = 0.0;
   options.dropouts = 0.0;
   const auto source = rendered_room(options);
-  const RgbdFrame seen = frame(options, 3);
+  const RgbdFrame image = frame(options, 3);
   const Camera camera = source->camera();
   const Pose pose = source->reference()[12].world_from_body;  // four times the rate
   std::size_t on_wall = 0;
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
-      const auto z = static_cast<double>(seen.depth.at(x, y));
+      const auto z = static_cast<double>(image.depth.at(x, y));
       if (z == 0.0) continue;
       const Vector3 p = (pose * camera.back_project(x, y, z)).cwiseAbs();
       const Vector3 half(2.7, 2.4, 1.35);

@@ -18,7 +18,7 @@ namespace {
 const Pose kTruth{exp_so3({0.1, -0.2, 0.3}), {0.2, -0.1, 0.4}};
 
 /// Error-free observations of points from a camera at kTruth; every `wrong`-th one is an outlier.
-std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
+std::vector<Observation> observe(std::size_t count, std::size_t wrong) {
   Random random({5}, Purpose::odometry);
   const Camera camera;
   std::vector<Observation> out;
@@ -34,7 +34,7 @@ std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
 }
 
 TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
-  const std::vector<Observation> all = seen(90, 3);
+  const std::vector<Observation> all = observe(90, 3);
   const std::optional<Pose> found = pose_by_ransac(all, {}, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
@@ -46,13 +46,13 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
 }
 
 TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
-  const std::vector<Observation> all = seen(60, 4);
+  const std::vector<Observation> all = observe(60, 4);
   EXPECT_EQ(pose_by_ransac(all, {}, {})->translation, pose_by_ransac(all, {}, {})->translation);
 }
 
 TEST(CameraPose, IsNotFoundFromThreePoints) {
-  EXPECT_FALSE(pose_by_ransac(seen(3, 0), {}, {}));
-  EXPECT_EQ(refine_pose(seen(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
+  EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}, {}));
+  EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
 }
 
 TEST(CameraPose, InformationTellsTheScatterOfThePose) {
@@ -63,7 +63,7 @@ TEST(CameraPose, InformationTellsTheScatterOfThePose) {
   double sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    std::vector<Observation> noisy = seen(60, 0);
+    std::vector<Observation> noisy = observe(60, 0);
     for (Observation& o : noisy) {
       const Vector3 noise = random.normal3();
       o.u += noise.x();
@@ -136,12 +136,12 @@ TEST(NormalisedGap, IsOneOnAverageWhenTheInformationIsRight) {
   std::vector<double> gaps;
   for (int run = 0; run < 200; ++run) {
     std::vector<Edge> odometry;
-    Pose way{Rotation::Identity(), Vector3::Zero()};
+    Pose motion{Rotation::Identity(), Vector3::Zero()};
     for (std::size_t i = 0; i < 8; ++i) {
       odometry.push_back({i, i + 1, step * exp_se3(noise()), information});
-      if (i >= 2) way = way * step;
+      if (i >= 2) motion = motion * step;
     }
-    const std::vector<Edge> loop{{2, 8, way * exp_se3(noise()), information}};
+    const std::vector<Edge> loop{{2, 8, motion * exp_se3(noise()), information}};
     gaps.push_back(normalised_gaps(odometry, loop)[0]);
     EXPECT_EQ(information_excess(odometry, loop, 2), 1.0);  // too few edges
   }
@@ -191,20 +191,20 @@ TEST(Bags, AreAlikeByTheRareWordsTheyShare) {
 
 TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
   const Features all = two_groups();
-  Features here;  // one feature of each group in the image centre
+  Features query;  // one feature of each group in the image centre
   const Camera camera;
   for (const std::size_t i : {std::size_t{0}, std::size_t{20}}) {
-    here.points.push_back({static_cast<float>(camera.cx), static_cast<float>(camera.cy), 2.0f});
-    here.descriptors.insert(
-        here.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
+    query.points.push_back({static_cast<float>(camera.cx), static_cast<float>(camera.cy), 2.0f});
+    query.descriptors.insert(
+        query.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
   }
   const std::vector<Seen> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
-  const std::vector<Match> matches = match_near(points, all, here, camera, {}, 10.0, {});
+  const std::vector<Match> matches = match_near(points, all, query, camera, {}, 10.0, {});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].a, 1u);  // descriptor row 0 is equal, row 1 differs slightly
   EXPECT_EQ(matches[0].b, 0u);
   EXPECT_TRUE(
-      match_near(points, all, here, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
+      match_near(points, all, query, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
 }
 
 TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {
