@@ -1,4 +1,4 @@
-/// A dataset: from settings to one sequence. One line in datasets.cpp lists it.
+/// Interface of a dataset, which loads one sequence from options. Registered in datasets.cpp.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace loopbench {
 
-/// Where relative paths in options are looked for, in order (config folder, --data DIR).
+/// Search folders for relative paths in options, in order (config folder, --data DIR).
 struct DataRoot {
   std::vector<std::filesystem::path> folders;
 
-  /// The first existing file. Throws DataMissing naming every place tried.
+  /// Returns the first existing file. Throws DataMissing with the list of searched folders.
   std::filesystem::path find(const std::string& path) const;
 };
 
-/// A file named in the settings is not there; tests on real data skip on it.
+/// A file named in an option does not exist. Tests on real data are skipped in this case.
 class DataMissing : public InputError {
  public:
   using InputError::InputError;
@@ -29,18 +29,18 @@ struct DatasetEntry {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
-  std::function<void(const Params&)> check;  ///< throws OptionError; reads no file
-  /// Throws OptionError, InputError. Same settings and files give the same bits.
+  std::function<void(const Params&)> check;  ///< throws OptionError; does not read files
+  /// Throws OptionError, InputError. Bit-identical results for equal options and files.
   std::function<Sequence(const Params&, const DataRoot&)> load;
-  /// Reads what tells quickly whether load() would find its input; null: load() itself is quick.
-  /// Throws as load() does.
+  /// Checks quickly whether the input of load() exists; null if load() itself is fast. Throws the
+  /// same exceptions as load().
   std::function<void(const Params&, const DataRoot&)> inspect = {};
 };
 
-/// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. What no
-/// field can refuse alone is refused by `void check_combination(const Options&)`, or by
-/// `void check_combination(const Options&, const Params& given)`, which also receives the options
-/// that a config states, where there is one.
+/// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. Combinations
+/// of options are checked by `void check_combination(const Options&)` or
+/// `void check_combination(const Options&, const Params& given)`, if one is declared; `given` holds
+/// the options set in the config.
 template <class Options, class Load>
 DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
@@ -60,7 +60,7 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           {}};
 }
 
-/// Every built-in.
+/// All built-in datasets that need no images.
 std::vector<DatasetEntry> datasets();
 
 }  // namespace loopbench

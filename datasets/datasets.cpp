@@ -7,11 +7,15 @@ namespace loopbench {
 
 std::vector<DatasetEntry> datasets() {
   return {
-      dataset<SimulatedOptions>(
-          "simulated", "closed-form paths, odometry that errs, closures", load_simulated),
+      dataset<SimulatedOptions>("simulated",
+                                "closed-form paths with simulated odometry and loop closures",
+                                load_simulated),
       dataset<TrajectoryOptions>(
-          "trajectory", "a problem derived from an estimate file", load_trajectory),
-      dataset<PoseGraphOptions>("pose_graph", "a g2o chain with its loop edges", load_pose_graph),
+          "trajectory",
+          "keyframes, odometry and loop closures from an estimated trajectory file",
+          load_trajectory),
+      dataset<PoseGraphOptions>(
+          "pose_graph", "g2o pose graph: odometry chain and loop closures", load_pose_graph),
   };
 }
 

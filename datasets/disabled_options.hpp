@@ -8,8 +8,8 @@
 
 namespace loopbench {
 
-/// Throws OptionError when one of `options` is `given`: it has no effect with `disabled_by`
-/// ("closures.source = file"); `expected` are the other option's values for which it has one.
+/// Throws OptionError if one of `options` is `given` although it has no effect with `disabled_by`
+/// ("closures.source = file"). `expected` lists the values of that option with which it has one.
 inline void reject_disabled(const Params& given,
                             std::initializer_list<const char*> options,
                             const std::string& disabled_by,
@@ -23,14 +23,14 @@ inline void reject_disabled(const Params& given,
   }
 }
 
-/// Throws OptionError when an option whose name starts with `prefix` is `given`: it has no effect
-/// without `file`.
+/// Throws OptionError if an option whose name starts with `prefix` is `given` although the option
+/// `file`, which it depends on, is not set.
 inline void reject_disabled_by_missing(const Params& given,
                                        const std::string& prefix,
                                        const std::string& file) {
   for (const auto& [option, value] : given) {
     if (!option.starts_with(prefix)) continue;
-    throw OptionError(option, option + ": has no effect without " + file + ", which names no file");
+    throw OptionError(option, option + ": has no effect without " + file + ", which is empty");
   }
 }
 

@@ -1,4 +1,4 @@
-/// Mixing of numbers: noise that depends on what it is for and not on who asks first, and keys.
+/// Hash functions for noise (independent of the order of draws) and for cache keys.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 namespace loopbench {
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every input bit moves half of the output.
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every input bit changes half of the
+/// output bits on average.
 inline std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -19,7 +20,7 @@ inline std::uint64_t mixed(std::uint64_t x) {
 
 inline std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return mixed(a ^ mixed(b)); }
 
-/// A key of bytes: eight at a time, and the rest. Not safe against someone who means harm.
+/// Hash of a byte string, in words of eight bytes. Not cryptographically secure.
 inline std::uint64_t mixed(std::uint64_t seed, std::string_view bytes) {
   std::uint64_t hash = mixed(seed, std::uint64_t{bytes.size()});
   while (!bytes.empty()) {
@@ -32,10 +33,11 @@ inline std::uint64_t mixed(std::uint64_t seed, std::string_view bytes) {
   return mixed(hash);
 }
 
-/// In [0, 1) of 24 bits.
+/// Uniform draw in [0, 1) with 24 bits.
 inline float uniform(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
 
-/// About normal, unit variance: the sum of four uniform draws (largest 3.5). Cheap and exact bits.
+/// Approximately normal draw of unit variance: the sum of four uniform draws, at most 3.5 in
+/// absolute value. Fast and bit-identical on all platforms.
 inline float about_normal(std::uint64_t bits) {
   const std::uint64_t sum =
       (bits & 0xffff) + ((bits >> 16) & 0xffff) + ((bits >> 32) & 0xffff) + (bits >> 48);

@@ -5,15 +5,15 @@
 namespace loopbench {
 namespace {
 
-constexpr std::uint64_t kNamed = 1;
-constexpr std::uint64_t kOwn = 2;
+constexpr std::uint64_t kSharedStream = 1;
+constexpr std::uint64_t kOwnStream = 2;
 
 }  // namespace
 
-std::uint64_t noise_identity(const std::string& stream) { return mixed(kNamed, stream); }
+std::uint64_t noise_identity(const std::string& stream) { return mixed(kSharedStream, stream); }
 
 std::uint64_t noise_identity(const std::string& text, const Trajectory& poses) {
-  std::uint64_t out = mixed(kOwn, text);
+  std::uint64_t out = mixed(kOwnStream, text);
   for (const auto& [stamp, pose] : poses) {
     const Vector3& t = pose.translation;
     const Rotation& q = pose.rotation;

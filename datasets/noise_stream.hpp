@@ -1,4 +1,4 @@
-/// Where a dataset's random draws come from: its seed and its identity.
+/// Random stream of a dataset, given by its seed and its identity.
 #pragma once
 
 #include <array>
@@ -10,15 +10,16 @@
 
 namespace loopbench {
 
-/// Two streams with different identities are independent, even with equal seeds.
+/// Streams with different identities are independent, even with equal seeds.
 struct NoiseStream {
   std::int64_t seed = 1;
   std::uint64_t identity = 0;
 };
 
-/// A dataset's name and those of its options that differ from their defaults, as text:
-/// "simulated: noise.gain=2.0, path=office". Left out are seeds, the option `stream` and what
-/// `ignored` accepts. A default that is stated and an option that is added later change nothing.
+/// Dataset name and all options that differ from their defaults, as text:
+/// "simulated: noise.gain=2.0, path=office". Seeds, the option `stream` and options accepted by
+/// `ignored` are omitted. Setting an option to its default, or adding a new option to the code,
+/// does not change the text.
 template <class Options, class Ignored>
 std::string identity_text(const std::string& dataset, const Options& options, Ignored ignored) {
   const Params defaults = echo(Options{});
@@ -30,8 +31,8 @@ std::string identity_text(const std::string& dataset, const Options& options, Ig
   return dataset + ": " + to_text(changed);
 }
 
-/// Files and free text: they name the data, which noise_identity() takes from the poses instead,
-/// so that a moved folder draws the same noise.
+/// Whether an option is a file name or free text. These are excluded from identity_text(), because
+/// noise_identity() hashes the poses instead: moving a folder does not change the noise.
 inline bool names_data(const std::string& option) {
   constexpr std::array kNames{"name",
                               "estimate",
@@ -54,15 +55,15 @@ template <class Visit>
 void noise_stream_field(std::string& stream, Visit visit) {
   visit("stream",
         stream,
-        "name of a noise stream: datasets with equal name and seed share their random numbers; "
-        "empty: independent of all other datasets");
+        "name of a shared noise stream: datasets with the same name and seed draw the same random "
+        "numbers; empty: independent of all other datasets");
 }
 
-/// Of a named stream, which several datasets may share on purpose (common random numbers).
+/// Identity of a named stream, which several datasets may share (common random numbers).
 std::uint64_t noise_identity(const std::string& stream);
 
-/// Of a dataset with a stream of its own: its text and the bits of the poses it is derived from.
-/// O(poses).
+/// Identity of a dataset with its own stream: hash of its identity text and of the poses it is
+/// derived from. O(poses).
 std::uint64_t noise_identity(const std::string& text, const Trajectory& poses);
 
 }  // namespace loopbench

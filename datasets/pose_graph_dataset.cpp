@@ -13,7 +13,7 @@
 namespace loopbench {
 namespace {
 
-/// Columns are the vehicle's axes in the camera: x forward = z, y left = -x, z up = -y.
+/// Columns are the vehicle axes in camera axes: x forward = z, y left = -x, z up = -y.
 Rotation camera_from_vehicle() {
   Matrix3 axes;
   axes << 0.0, -1.0, 0.0,  //
@@ -36,22 +36,24 @@ std::vector<std::size_t> kept_poses(std::size_t size,
   return kept;
 }
 
-/// A graph's truth must name the same ids; other formats have no ids, only as many poses.
+/// A g2o ground truth must have the ids of the graph. Other formats have no ids and must have one
+/// pose per vertex.
 Trajectory read_truth(const std::filesystem::path& file,
                       const std::vector<double>& stamps,
                       const PoseGraphOptions& o) {
-  ReadOptions how;
-  how.format = recognise(file);
-  how.period = o.period;
-  Trajectory truth = read_trajectory(file, how);
-  const auto refuse = [&](const std::string& what) { return input_error(file.string(), 0, what); };
+  ReadOptions options;
+  options.format = recognise(file);
+  options.period = o.period;
+  Trajectory truth = read_trajectory(file, options);
+  const auto invalid = [&](const std::string& what) { return input_error(file.string(), 0, what); };
   if (truth.size() != stamps.size()) {
-    throw refuse(fmt::format(
-        "found {} poses, expected {}, as many as the graph", truth.size(), stamps.size()));
+    throw invalid(fmt::format("found {} poses, expected {}, the number of vertices of the graph",
+                              truth.size(),
+                              stamps.size()));
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (how.format == Format::g2o && truth[i].stamp != stamps[i]) {
-      throw refuse(fmt::format("its id number {} differs, expected the ids of the graph", i + 1));
+    if (options.format == Format::g2o && truth[i].stamp != stamps[i]) {
+      throw invalid(fmt::format("id number {} differs, expected the ids of the graph", i + 1));
     }
     truth[i].stamp = stamps[i];
   }
@@ -69,10 +71,10 @@ std::uint64_t identity(const PoseGraphOptions& o, const Trajectory& keyframes) {
   return noise_identity(identity_text("pose_graph", o, names_data), keyframes);
 }
 
-std::string told(const PoseGraphOptions& o,
-                 const PoseGraph& graph,
-                 std::size_t count,
-                 std::size_t false_closures) {
+std::string closure_provenance(const PoseGraphOptions& o,
+                               const PoseGraph& graph,
+                               std::size_t count,
+                               std::size_t false_closures) {
   std::string text = "none";
   if (o.closures == GraphClosures::edges) {
     text =
@@ -88,8 +90,8 @@ std::string told(const PoseGraphOptions& o,
 }  // namespace
 
 void check_combination(const PoseGraphOptions& o, const Params& given) {
-  if (o.path.empty()) throw OptionError("path", "path: names no file");
-  pose_of(o.reference_body);  // refuses what is no pose
+  if (o.path.empty()) throw OptionError("path", "path: is empty, expected a g2o file");
+  pose_of(o.reference_body);  // throws if it is not a valid pose
   if (o.truth.empty()) {
     reject_disabled_by_missing(given, "reference_body.", "truth");
     reject_disabled_by_missing(given, "truth_axes", "truth");
@@ -128,10 +130,11 @@ Problem derive_problem(const PoseGraph& graph,
   sort_closures(closures);
 
   Problem problem;
-  KeyframeSplit told_apart = split(poses, kept);
-  problem.keyframes = std::move(told_apart.keyframes);
-  problem.frames = std::move(told_apart.frames);
-  if (kept.size() < poses.size()) refuse_gap(parts, graph, file, "when poses are left out");
+  KeyframeSplit parts_of_poses = split(poses, kept);
+  problem.keyframes = std::move(parts_of_poses.keyframes);
+  problem.frames = std::move(parts_of_poses.frames);
+  if (kept.size() < poses.size())
+    refuse_gap(parts, graph, file, "if poses are omitted between keyframes");
   problem.odometry =
       kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
@@ -168,7 +171,8 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);
-  sequence.provenance.closures = told(o, graph, sequence.problem.closures.size(), false_closures);
+  sequence.provenance.closures =
+      closure_provenance(o, graph, sequence.problem.closures.size(), false_closures);
   sequence.provenance.oracle_closures = lists;
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");

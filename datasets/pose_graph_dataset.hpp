@@ -1,4 +1,4 @@
-/// The dataset `pose_graph`: a g2o file's chain as odometry, its other edges as closures.
+/// The dataset `pose_graph`: a g2o file with edges i, i + 1 as odometry and the others as closures.
 #pragma once
 
 #include "datasets/dataset.hpp"
@@ -14,9 +14,9 @@ inline auto choices(GraphClosures) {
                     std::pair{"edges", GraphClosures::edges}};
 }
 
-/// `kitti_camera`: the truth's body is KITTI's camera (x right, y down, z forward) and the graph's
-/// is a vehicle (x forward, y left, z up); the truth is turned to the latter.
-/// Where it then still follows another point, `reference_body` says which.
+/// Body axes of the ground truth. `kitti_camera`: KITTI's camera axes (x right, y down, z forward),
+/// which are rotated to the vehicle axes of the graph (x forward, y left, z up). A remaining offset
+/// between the two bodies is given by `reference_body`.
 enum class TruthAxes { same, kitti_camera };
 inline auto choices(TruthAxes) {
   return std::array{std::pair{"same", TruthAxes::same},
@@ -42,44 +42,61 @@ struct PoseGraphOptions {
   bool skip_placeholders = false;
   std::string true_list;
   FalseClosures false_closures;
-  std::string stream;  ///< shared noise; empty: noise of its own
+  std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::string sensor;
   std::string licence;
 };
 
 template <class Visit>
 void fields(PoseGraphOptions& o, Visit visit) {
-  visit("name", o.name, "of the sequence; empty: folder and stem of the path");
-  visit("path", o.path, "g2o file");
-  visit("truth", o.truth, "g2o with the same ids, or poses, as many; empty: none");
-  visit("truth_axes", o.truth_axes, "body axes of the truth");
+  visit("name", o.name, "name of the sequence; empty: folder and file name of path");
+  visit("path", o.path, "g2o file with the pose graph");
+  visit("truth",
+        o.truth,
+        "ground truth file: g2o with the same vertex ids, or one pose per vertex; empty: none");
+  visit("truth_axes", o.truth_axes, "body axes of the ground truth");
   reference_body_fields(o.reference_body, visit);
   visit("information",
         o.turns,
-        "what that of :QUAT edges is about: half_angles as g2o, angles as GTSAM and SE-Sync");
-  visit("period", o.period, "stamp = id * period [s]", Above{0.0});
-  visit("keyframes.every", o.keyframes_every, "k-th pose, and every loop's ends", Between{1});
-  visit("closures.source", o.closures, "edges: all that are not i, i + 1");
-  visit("closures.max", o.closures_max, "at most so many, well spread; 0: all", Between{0});
-  // Off: what the file states is what a method gets, unless the config says otherwise.
+        "convention of the rotation information of :QUAT edges: half_angles (quaternion vector, "
+        "g2o) or angles (GTSAM, SE-Sync)");
+  visit("period",
+        o.period,
+        "time between consecutive vertex ids: stamp = id * period [s]",
+        Above{0.0});
+  visit("keyframes.every",
+        o.keyframes_every,
+        "keyframe interval [poses]; endpoints of loop closures are always keyframes",
+        Between{1});
+  visit("closures.source",
+        o.closures,
+        "source of loop closures; edges: all edges except the odometry i, i + 1");
+  visit("closures.max",
+        o.closures_max,
+        "maximum number of closures, subsampled evenly over the sequence; 0: all",
+        Between{0});
+  // Off by default: methods receive all edges of the file.
   visit("closures.skip_placeholders",
         o.skip_placeholders,
-        "drop closures measured as exactly the identity (robust_slam's unmeasured ones)");
-  visit("closures.true_list", o.true_list, "file with `id id` a line: keep only these; empty: all");
+        "drop closures with exactly the identity as measurement (placeholders of robust_slam)");
+  visit("closures.true_list",
+        o.true_list,
+        "file with the true closures, `id id` per line: all others are dropped; empty: keep all");
   false_closure_fields(o.false_closures, visit);
   noise_stream_field(o.stream, visit);
-  visit("sensor", o.sensor, "free text for the results");
-  visit("licence", o.licence, "of the data, free text for the results");
+  visit("sensor", o.sensor, "sensor, free text copied to the results");
+  visit("licence", o.licence, "licence of the data, free text copied to the results");
 }
 
-/// No option is `given` that another one disables. Throws OptionError that names both.
+/// Throws OptionError if a `given` option has no effect because of another option, naming both.
 void check_combination(const PoseGraphOptions& options, const Params& given);
 
-/// Consecutive poses need an edge each where poses are left out between keyframes or the file has
-/// no vertices; otherwise the graph may have gaps. Keyframes are every k-th pose, the last one and
-/// both ends of every closure taken; odometry between them is composed from the file's edges. The
-/// poses between become frames. `true_list` is the found file, or empty. `false_closures`, if any,
-/// receives how many were added. Throws InputError. O(poses + edges).
+/// Derives a problem from a pose graph. Keyframes are every k-th pose, the last pose and both ends
+/// of every closure kept; odometry between them is composed from the edges of the file. Other poses
+/// become frames. If poses are omitted between keyframes or the file has no vertices, every pair of
+/// consecutive poses needs an edge; otherwise the odometry may have gaps. `true_list` is the
+/// resolved path of the list, or empty. The number of added false closures is written to
+/// `false_closures` unless it is null. Throws InputError. O(poses + edges).
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& options,
                        const std::filesystem::path& file,

@@ -1,4 +1,4 @@
-/// Normal draws that are the same with every standard library.
+/// Random draws that are identical with every standard library.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace loopbench {
 
-/// What draws are for: a stream each, so that asking for more of one leaves the others alone.
+/// Each purpose has its own stream, so that more draws for one do not change the others.
 enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures = 3, shake = 4 };
 
 class Random {
@@ -30,12 +30,12 @@ class Random {
   /// In [0, 1).
   double uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
 
-  /// Whole, in [0, count).
+  /// Uniform integer in [0, count).
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }
 
-  /// Three independent normal draws of unit variance; always costs the stream four words.
+  /// Three independent standard normal draws; always consumes four words of the stream.
   Vector3 normal3() {
     const auto [a, b] = pair();
     const auto [c, unused] = pair();
@@ -48,7 +48,7 @@ class Random {
   }
 
  private:
-  /// Box and Muller.
+  /// Two independent standard normal draws (Box and Muller 1958).
   std::pair<double, double> pair() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     const double angle = 2.0 * std::numbers::pi * uniform();

@@ -16,7 +16,7 @@ using Cell = std::array<std::int64_t, 3>;
 struct CellHash {
   std::size_t operator()(const Cell& cell) const {
     std::uint64_t hash = 0;
-    for (const std::int64_t c : cell) {  // large odd multiplier: neighbours land far apart
+    for (const std::int64_t c : cell) {  // large odd multiplier: separates neighbouring cells
       hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ULL;
       hash ^= hash >> 32;
     }
@@ -24,20 +24,21 @@ struct CellHash {
   }
 };
 
-/// The latest poses in one cube of space: standing still must not make the search quadratic.
-class Latest {
+/// The latest poses in one grid cell. Their number is bounded so that the search stays linear for a
+/// body at rest.
+class RecentPoses {
  public:
   void add(std::size_t index) {
-    if (indices_.size() < kMost) {
+    if (indices_.size() < kCapacity) {
       indices_.push_back(index);
     } else {
-      indices_[next_++ % kMost] = index;
+      indices_[next_++ % kCapacity] = index;
     }
   }
   const std::vector<std::size_t>& indices() const { return indices_; }
 
  private:
-  static constexpr std::size_t kMost = 64;  // several slow passes through one cube
+  static constexpr std::size_t kCapacity = 64;  // enough for several slow passes
 
   std::vector<std::size_t> indices_;
   std::size_t next_ = 0;
@@ -49,7 +50,7 @@ class Grid {
 
   void add(const Vector3& point, std::size_t index) { cells_[cell_of(point)].add(index); }
 
-  /// Calls visit(index) for every point in the 27 cells about `point`.
+  /// Calls visit(index) for every point in the 27 cells around `point`.
   template <class Visit>
   void near(const Vector3& point, Visit visit) const {
     const Cell centre = cell_of(point);
@@ -66,15 +67,15 @@ class Grid {
 
  private:
   Cell cell_of(const Vector3& point) const {
-    const auto along = [&](double x) {
-      // Far beyond any trajectory; keeps the conversion defined for absurd files.
+    const auto axis_index = [&](double x) {
+      // The bound keeps the conversion defined for extreme coordinates.
       return static_cast<std::int64_t>(std::clamp(std::floor(x / size_), -1e18, 1e18));
     };
-    return {along(point.x()), along(point.y()), along(point.z())};
+    return {axis_index(point.x()), axis_index(point.y()), axis_index(point.z())};
   }
 
   double size_;
-  std::unordered_map<Cell, Latest, CellHash> cells_;
+  std::unordered_map<Cell, RecentPoses, CellHash> cells_;
 };
 
 }  // namespace
@@ -82,19 +83,19 @@ class Grid {
 std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& rule) {
   std::vector<Revisit> out;
   Grid grid(rule.radius);
-  std::size_t old = 0;  // poses before it are old enough and in the grid
+  std::size_t next_old = 0;  // earlier poses are older than min_gap and in the grid
   for (std::size_t to = 0; to < poses.size(); ++to) {
-    const Pose& here = poses[to].world_from_body;
-    for (; old < to && poses[to].stamp - poses[old].stamp >= rule.min_gap; ++old) {
-      grid.add(poses[old].world_from_body.translation, old);
+    const Pose& current = poses[to].world_from_body;
+    for (; next_old < to && poses[to].stamp - poses[next_old].stamp >= rule.min_gap; ++next_old) {
+      grid.add(poses[next_old].world_from_body.translation, next_old);
     }
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t from = to;
-    grid.near(here.translation, [&](std::size_t i) {
-      const Pose& there = poses[i].world_from_body;
-      const double distance = (there.translation - here.translation).norm();
+    grid.near(current.translation, [&](std::size_t i) {
+      const Pose& earlier = poses[i].world_from_body;
+      const double distance = (earlier.translation - current.translation).norm();
       if (distance > rule.radius || distance > nearest || (distance == nearest && i > from)) return;
-      if (angle_between(there.rotation, here.rotation) > rule.angle) return;
+      if (angle_between(earlier.rotation, current.rotation) > rule.angle) return;
       nearest = distance;
       from = i;
     });
@@ -111,10 +112,10 @@ std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
     return chosen;
   }
-  const auto between = [&](const Revisit& a, const Revisit& b) {
+  const auto distance = [&](const Revisit& a, const Revisit& b) {
     return std::hypot(stamps[a.from] - stamps[b.from], stamps[a.to] - stamps[b.to]);
   };
-  // How far each is from all taken so far; before the first, the length of its loop.
+  // Distance to the nearest chosen revisit; initially the duration of the loop.
   std::vector<double> merit;
   for (const Revisit& r : revisits) merit.push_back(stamps[r.to] - stamps[r.from]);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
@@ -122,10 +123,10 @@ std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
         static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin());
     chosen[k] = best;
     for (std::size_t i = 0; i < revisits.size(); ++i) {
-      const double apart = between(revisits[i], revisits[best]);
-      merit[i] = k == 0 ? apart : std::min(merit[i], apart);
+      const double to_best = distance(revisits[i], revisits[best]);
+      merit[i] = k == 0 ? to_best : std::min(merit[i], to_best);
     }
-    for (std::size_t i = 0; i <= k; ++i) merit[chosen[i]] = -1.0;  // equal ones are not retaken
+    for (std::size_t i = 0; i <= k; ++i) merit[chosen[i]] = -1.0;  // never chosen twice
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;

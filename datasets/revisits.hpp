@@ -1,4 +1,4 @@
-/// Places a path comes back to: where a loop could be closed.
+/// Revisited places of a trajectory: candidates for loop closures.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@
 namespace loopbench {
 
 struct RevisitRule {
-  double radius = 0.5;   ///< largest distance [m]
-  double angle = 0.5;    ///< largest difference of attitude [rad]
-  double min_gap = 5.0;  ///< least time between the two [s]
+  double radius = 0.5;   ///< maximum distance [m]
+  double angle = 0.5;    ///< maximum rotation angle between the poses [rad]
+  double min_gap = 5.0;  ///< minimum time between the poses [s]
 };
 
 struct Revisit {
@@ -23,13 +23,14 @@ inline bool operator==(const Revisit& a, const Revisit& b) {
   return a.from == b.from && a.to == b.to;
 }
 
-/// For each pose the nearest earlier one that obeys the rule, if any; the earliest of equals.
-/// Sorted by `to`. Of a place where one lingers only the latest 64 poses in a cube of `radius` are
-/// looked at, so the cost stays O(n). radius > 0.
+/// Returns for each pose the nearest earlier pose that satisfies `rule`, if any; ties are resolved
+/// in favour of the earliest. Sorted by `to`. rule.radius must be positive. Only the latest 64
+/// poses in each cube of side `radius` are compared, so that the cost is O(n) also for a body at
+/// rest.
 std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& rule);
 
-/// Ascending indices of at most `count` revisits spread well over (stamp of from, stamp of to):
-/// first the longest loop, then always the one farthest from those taken. O(revisits * count).
+/// Subsamples at most `count` revisits by farthest-point sampling in the plane (stamp of from,
+/// stamp of to), starting with the longest loop. Returns ascending indices. O(revisits * count).
 std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
                                 const std::vector<double>& stamps,
                                 std::size_t count);

@@ -10,8 +10,8 @@
 namespace loopbench {
 namespace {
 
-// Drift changes a path's length by a few per cent; a monocular run's unit is arbitrary.
-constexpr double kSameScale = 1.25;
+// Drift changes the path length by a few per cent; a monocular run has an arbitrary scale.
+constexpr double kMaxScaleRatio = 1.25;
 
 RevisitRule revisit_rule(const TrajectoryOptions& o) {
   return {o.closures_radius, o.closures_angle * std::numbers::pi / 180.0, o.closures_min_gap};
@@ -28,21 +28,21 @@ std::vector<Edge> in_run(const Trajectory& keyframes,
                          o.closures_noise);
 }
 
-void refuse_other_scale(const Trajectory& keyframes,
+void require_same_scale(const Trajectory& keyframes,
                         const TrajectoryInputs& in,
                         const Reach& reach,
                         const std::string& file) {
   const double ratio = path_ratio(keyframes, in.other_run, reach);
-  if (ratio < kSameScale && ratio > 1.0 / kSameScale) return;
+  if (ratio < kMaxScaleRatio && ratio > 1.0 / kMaxScaleRatio) return;
   throw input_error(file,
                     0,
-                    fmt::format("its path is {:.3g} times as long as the estimate's at the same "
-                                "stamps, expected the same scale (monocular runs have one each: "
+                    fmt::format("path length is {:.3g} times that of the estimate at the same "
+                                "stamps, expected the same scale (for monocular runs set "
                                 "closures.scale: local)",
                                 ratio));
 }
 
-std::size_t position(const std::vector<std::size_t>& kept, std::size_t pose) {
+std::size_t keyframe_index(const std::vector<std::size_t>& kept, std::size_t pose) {
   return static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), pose) - kept.begin());
 }
 
@@ -52,7 +52,7 @@ std::string default_name(const std::string& estimate) {
   return (folder.empty() ? "" : folder + "_") + path.stem().string();
 }
 
-std::string told(const TrajectoryOptions& o, std::size_t count) {
+std::string closure_provenance(const TrajectoryOptions& o, std::size_t count) {
   const auto& [sigma_t, sigma_r] = o.closures_noise;
   switch (o.closures) {
     case ClosureSource::none:
@@ -71,8 +71,8 @@ std::string told(const TrajectoryOptions& o, std::size_t count) {
   return "";
 }
 
-void require(bool holds, const std::string& option, const std::string& wanted) {
-  if (!holds) throw OptionError(option, option + ": " + wanted);
+void require(bool condition, const std::string& option, const std::string& message) {
+  if (!condition) throw OptionError(option, option + ": " + message);
 }
 
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
@@ -123,19 +123,19 @@ void check_disabled(const TrajectoryOptions& o, const Params& given) {
 }  // namespace
 
 void check_combination(const TrajectoryOptions& o, const Params& given) {
-  require(!o.estimate.empty(), "estimate", "names no file");
-  const bool takes_file =
+  require(!o.estimate.empty(), "estimate", "is empty, expected a trajectory file");
+  const bool needs_file =
       o.closures == ClosureSource::file || o.closures == ClosureSource::estimate;
-  require(!takes_file || !o.closures_file.empty(),
+  require(!needs_file || !o.closures_file.empty(),
           "closures.file",
-          "names no file, and closures.source = " + to_text(o.closures) + " needs one");
+          "is empty, expected a file for closures.source = " + to_text(o.closures));
   require(o.closures != ClosureSource::reference || !o.reference.empty(),
           "reference",
-          "names no file, and closures.source = reference needs one");
+          "is empty, expected a file for closures.source = reference");
   require(o.closures_scale == ClosureScale::same || o.closures == ClosureSource::estimate,
           "closures.scale",
-          "local compares with another run, and closures.source is not estimate");
-  pose_of(o.reference_body);  // refuses what is no pose
+          "local has no effect without another run, expected closures.source = estimate");
+  pose_of(o.reference_body);  // throws if it is not a valid pose
   check_disabled(o, given);
 }
 
@@ -150,8 +150,8 @@ Problem derive_problem(const TrajectoryInputs& in,
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     for (Edge& edge : closures) {
-      edge.from = position(kept, edge.from);
-      edge.to = position(kept, edge.to);
+      edge.from = keyframe_index(kept, edge.from);
+      edge.to = keyframe_index(kept, edge.to);
     }
   }
 
@@ -170,7 +170,7 @@ Problem derive_problem(const TrajectoryInputs& in,
     if (o.closures_scale == ClosureScale::local) {
       closures = with_local_scale(std::move(closures), problem.keyframes, in.other_run, o.reach);
     } else {
-      refuse_other_scale(problem.keyframes, in, o.reach, o.closures_file);
+      require_same_scale(problem.keyframes, in, o.reach, o.closures_file);
     }
   }
   problem.closures = std::move(closures);
@@ -185,14 +185,14 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const auto open = [&](const std::string& path, const std::string& option) {
     return sequence.provenance.inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
-  ReadOptions how;
-  how.period = o.period;
-  how.repeats = o.repeats;
-  if (!o.times.empty()) how.times = open(o.times, "times");
+  ReadOptions options;
+  options.period = o.period;
+  options.repeats = o.repeats;
+  if (!o.times.empty()) options.times = open(o.times, "times");
   const auto read = [&](const std::string& path, const std::string& option, Format format) {
     if (path.empty()) return Trajectory();
-    how.format = format;
-    return read_trajectory(open(path, option), how);
+    options.format = format;
+    return read_trajectory(open(path, option), options);
   };
 
   TrajectoryInputs in;
@@ -218,7 +218,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);
   const std::size_t all = sequence.problem.closures.size();
-  sequence.provenance.closures = told(o, all) +
+  sequence.provenance.closures = closure_provenance(o, all) +
                                  (run_is_reference ? ", which is the reference" : "") +
                                  false_closures_text(o.false_closures, false_closures, all);
   sequence.provenance.oracle_closures = o.closures == ClosureSource::reference || run_is_reference;

@@ -1,4 +1,4 @@
-/// The dataset `trajectory`: a problem derived from an estimate file of any known format.
+/// The dataset `trajectory`: a problem derived from an estimated trajectory in any known format.
 #pragma once
 
 #include "datasets/dataset.hpp"
@@ -25,9 +25,9 @@ inline auto choices(ClosureScale) {
   return std::array{std::pair{"same", ClosureScale::same}, std::pair{"local", ClosureScale::local}};
 }
 
-/// Estimate and other run must describe the same body: two runs on the same camera do, a camera and
-/// an IMU do not. So must the reference, unless `reference_body` says where its own is. TUM and
-/// KITTI files are camera poses throughout.
+/// Estimate, other run and reference must contain poses of the same body, for example the same
+/// camera. If the reference contains another body, `reference_body` gives its extrinsic offset. TUM
+/// and KITTI files contain camera poses.
 struct TrajectoryOptions {
   std::string name;
   std::string estimate;
@@ -52,96 +52,127 @@ struct TrajectoryOptions {
   Reach reach;
   FalseClosures false_closures;
   std::int64_t seed = 1;
-  std::string stream;  ///< shared noise; empty: noise of its own
+  std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::string sensor;
   std::string licence;
 };
 
 template <class Visit>
 void fields(TrajectoryOptions& o, Visit visit) {
-  visit("name", o.name, "of the sequence; empty: folder and stem of the estimate");
-  visit("estimate", o.estimate, "file with the drifting (or corrected) poses");
-  visit("reference", o.reference, "file with the reference; empty: none");
+  visit("name", o.name, "name of the sequence; empty: folder and file name of the estimate");
+  visit("estimate", o.estimate, "file with the estimated poses, before or after loop closing");
+  visit("reference", o.reference, "file with the reference (ground truth) poses; empty: none");
   reference_body_fields(o.reference_body, visit);
-  visit("frames", o.frames, "frames of the same run, when the estimate is a keyframe file");
-  visit("format", o.format, "of estimate, frames and closures.file");
-  visit("reference_format", o.reference_format, "of the reference");
-  visit("times", o.times, "times file of KITTI poses, one stamp [s] a line");
-  visit("period", o.period, "between poses without stamps [s]", Above{0.0});
-  visit("repeats", o.repeats, "what to do with a pose whose stamp repeats the last one");
-  visit("keyframes.rule", o.keyframes.rule, "which poses of the estimate are keyframes");
+  visit("frames",
+        o.frames,
+        "file with all tracked poses of the same run, if the estimate contains only keyframes; "
+        "empty: none");
+  visit("format",
+        o.format,
+        "file format of estimate, frames and, for closures.source: estimate, closures.file");
+  visit("reference_format", o.reference_format, "file format of the reference");
+  visit(
+      "times", o.times, "file with the times of KITTI poses, one per line [s]; empty: use period");
+  visit("period", o.period, "time between poses in formats without stamps [s]", Above{0.0});
+  visit("repeats", o.repeats, "handling of a pose with the same stamp as the previous one");
+  visit("keyframes.rule", o.keyframes.rule, "rule that selects keyframes from the estimate");
   visit("keyframes.value",
         o.keyframes.value,
-        "every k poses, or least distance [s] or [m], or how many",
+        "parameter of keyframes.rule: interval [poses], minimum spacing [s] or [m], or number of "
+        "keyframes",
         Above{0.0});
   visit("odometry.sigma_t",
         o.odometry.sigma_t,
-        "assumed standard deviation of an edge at rest [m]",
+        "assumed translation standard deviation of an odometry edge at rest [m]",
         Above{0.0});
   visit("odometry.sigma_r",
         o.odometry.sigma_r,
-        "assumed standard deviation of an edge at rest [rad]",
+        "assumed rotation standard deviation of an odometry edge at rest [rad]",
         Above{0.0});
   const Between any{0.0, 1e6};
   visit("odometry.sigma_t_per_m",
         o.odometry.sigma_t_per_m,
-        "assumed growth with the square root of distance travelled [m/sqrt(m)]",
+        "assumed translation standard deviation per square root of distance travelled [m/sqrt(m)]",
         any);
   visit("odometry.sigma_r_per_m",
         o.odometry.sigma_r_per_m,
-        "assumed growth with the square root of distance travelled [rad/sqrt(m)]",
+        "assumed rotation standard deviation per square root of distance travelled [rad/sqrt(m)]",
         any);
   visit("odometry.sigma_t_per_rad",
         o.odometry.sigma_t_per_rad,
-        "assumed growth with the square root of the rotation angle [m/sqrt(rad)]",
+        "assumed translation standard deviation per square root of rotation angle [m/sqrt(rad)]",
         any);
   visit("odometry.sigma_r_per_rad",
         o.odometry.sigma_r_per_rad,
-        "assumed growth with the square root of the rotation angle [rad/sqrt(rad)]",
+        "assumed rotation standard deviation per square root of rotation angle [rad/sqrt(rad)]",
         any);
-  visit("closures.source", o.closures, "file: a list; reference: oracle; estimate: another run");
-  visit("closures.file", o.closures_file, "list of closures, or estimate of the other run");
-  visit("closures.radius", o.closures_radius, "largest distance of a revisit [m]", Above{0.0});
-  visit("closures.angle", o.closures_angle, "largest turn of a revisit [deg]", Between{0.0, 180.0});
-  visit("closures.min_gap", o.closures_min_gap, "least time to a revisit [s]", Above{0.0});
-  visit("closures.max", o.closures_max, "at most so many, well spread; 0: all", Between{0});
+  visit("closures.source",
+        o.closures,
+        "source of loop closures; file: closure file; reference: measured in the reference with "
+        "simulated noise; estimate: measured in another run");
+  visit("closures.file", o.closures_file, "closure file, or estimated trajectory of the other run");
+  visit("closures.radius",
+        o.closures_radius,
+        "maximum distance between the two poses of a revisit [m]",
+        Above{0.0});
+  visit("closures.angle",
+        o.closures_angle,
+        "maximum rotation angle between the two poses of a revisit [deg]",
+        Between{0.0, 180.0});
+  visit("closures.min_gap",
+        o.closures_min_gap,
+        "minimum time between the two poses of a revisit [s]",
+        Above{0.0});
+  visit("closures.max",
+        o.closures_max,
+        "maximum number of closures, subsampled evenly over the sequence; 0: all",
+        Between{0});
   visit("closures.scale",
         o.closures_scale,
-        "of another run; same: as the estimate's; local: monocular, closures are of Sim(3)");
-  visit("closures.sigma_t", o.closures_noise.sigma_t, "of a closure [m]", Above{0.0});
-  visit("closures.sigma_r", o.closures_noise.sigma_r, "of a closure [rad]", Above{0.0});
-  visit(
-      "closures.max_diff", o.reach.max_diff, "between stamps taken as one [s]", Between{0.0, 1e9});
+        "scale of the other run; same: equal to the estimate's; local: estimated locally, giving "
+        "Sim(3) closures (monocular)");
+  visit("closures.sigma_t",
+        o.closures_noise.sigma_t,
+        "translation standard deviation of a closure [m]",
+        Above{0.0});
+  visit("closures.sigma_r",
+        o.closures_noise.sigma_r,
+        "rotation standard deviation of a closure [rad]",
+        Above{0.0});
+  visit("closures.max_diff",
+        o.reach.max_diff,
+        "maximum time difference between matched stamps [s]",
+        Between{0.0, 1e9});
   visit("closures.max_interval",
         o.reach.max_gap,
-        "longest gap interpolated in reference or other run [s]",
+        "maximum gap interpolated in the reference or other run [s]",
         Between{0.0, 1e9});
   false_closure_fields(o.false_closures, visit);
-  visit("seed", o.seed, "seed of the noise on closures from the reference");
+  visit("seed", o.seed, "random seed of the noise on closures from the reference");
   noise_stream_field(o.stream, visit);
-  visit("sensor", o.sensor, "free text for the results");
-  visit("licence", o.licence, "of the data, free text for the results");
+  visit("sensor", o.sensor, "sensor, free text copied to the results");
+  visit("licence", o.licence, "licence of the data, free text copied to the results");
 }
 
-/// Files that are needed are named, and no option is `given` that another one disables. Throws
-/// OptionError that names both.
+/// Throws OptionError if a required file is not set, or if a `given` option has no effect because
+/// of another option, naming both.
 void check_combination(const TrajectoryOptions& options, const Params& given);
 
-/// The files' content, read.
+/// Contents of the input files.
 struct TrajectoryInputs {
   Trajectory estimate;
-  Trajectory frames;     ///< empty: poses of the estimate that are no keyframes stand in
-  Trajectory reference;  ///< may be empty
-  Trajectory other_run;  ///< for closures.source estimate
+  Trajectory frames;                   ///< empty: non-keyframe poses of the estimate are used
+  Trajectory reference;                ///< may be empty
+  Trajectory other_run;                ///< for closures.source estimate
   std::vector<TimedClosure> closures;  ///< for closures.source file
 };
 
-/// Loop endpoints named in a closure file become keyframes whatever the rule. Closures from the
-/// reference carry seeded noise; those from another run are that run's measurement as it is. A run
-/// of another scale (path lengths differ by a quarter or more: monocular) is refused, or with
-/// closures.scale local gives closures of Sim(3) (with_local_scale); closures.radius is in its
-/// unit. `false_closures`, if any, receives how many were added. Throws OptionError, InputError.
-/// O(n log n).
+/// Derives a problem from the input files. Endpoints of closures from a closure file always become
+/// keyframes. Seeded noise is added to closures from the reference, none to closures from another
+/// run. Another run whose path length differs by 25 % or more (monocular scale) is rejected, unless
+/// closures.scale is local: then closures are Sim(3) (see with_local_scale) and closures.radius is
+/// in the scale of that run. The number of added false closures is written to `false_closures`
+/// unless it is null. Throws OptionError, InputError. O(n log n).
 Problem derive_problem(const TrajectoryInputs& inputs,
                        const TrajectoryOptions& options,
                        std::size_t* false_closures = nullptr);

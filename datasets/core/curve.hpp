@@ -1,4 +1,4 @@
-/// A trajectory that can be asked for its pose at any time in its span.
+/// Interface of a continuous-time trajectory.
 #pragma once
 
 #include <span>
@@ -9,16 +9,17 @@
 
 namespace loopbench {
 
-/// Every estimate is judged as a curve: between keyframes is where smoothers differ.
+/// All estimates are evaluated as curves, because smoothers differ between keyframes.
 class Curve {
  public:
   virtual ~Curve() = default;
 
-  virtual double start() const = 0;  ///< first time it knows [s]
-  virtual double end() const = 0;    ///< last time it knows [s]
+  virtual double start() const = 0;  ///< first valid time [s]
+  virtual double end() const = 0;    ///< last valid time [s]
 
-  /// poses[i] = world_from_body at times[i]; same size. Any order of times is allowed; sorted
-  /// ones cost O(n + m). Throws std::out_of_range for a time outside start()..end().
+  /// Writes world_from_body at times[i] [s] to poses[i]; both spans have the same size. Times may
+  /// be in any order. Throws std::out_of_range for a time outside start()..end(). O(n + m) for
+  /// sorted times.
   virtual void sample(std::span<const double> times, std::span<Pose> poses) const = 0;
 
   Pose at(double time) const {

@@ -1,4 +1,4 @@
-/// The world is wrong: a file, a config, a command line. Ends a run with exit code 2.
+/// Errors in user input: a file, a config or the command line. The program exits with code 2.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace loopbench {
 
-/// Its text reads `where: what was found and what was expected`.
+/// Message format: `where: what was found, what was expected`.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// `file: what`, or `file:line: what` when line > 0.
+/// Message `file: what`, or `file:line: what` if line > 0.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
   std::string text = file;
   if (line > 0) text.append(":").append(std::to_string(line));

@@ -1,15 +1,16 @@
-/// One list of fields an options struct: it drives defaults, reading, checking, listing and echo.
+/// Reflection for options structs: one list of fields per struct provides defaults, parsing,
+/// checks, the listing and the echo in results.
 ///
-/// An options struct is anything with a free function that walks its members:
+/// An options struct is any type with a free function that visits its members:
 ///
-///     struct Options { double share = 1.0; Turn turn = Turn::slerp; };
+///     struct Options { double share = 1.0; Blend blend = Blend::slerp; };
 ///     template <class Visit> void fields(Options& o, Visit visit) {
-///       visit("share", o.share, "part of the gap to close [-]", Between{0.0, 1.0});
-///       visit("turn", o.turn, "how rotation is spread");
+///       visit("share", o.share, "fraction of the gap to close [-]", Between{0.0, 1.0});
+///       visit("blend", o.blend, "interpolation of the rotation");
 ///     }
 ///
-/// Members may be bool, int, std::int64_t, double, std::string, std::optional<double> (the word
-/// `none` when empty) and enums that have `choices(Enum)`, an array of name-value pairs.
+/// Members may be bool, int, std::int64_t, double, std::string, std::optional<double>
+/// (written `none` when empty) and enums with `choices(Enum)`, an array of name-value pairs.
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@
 
 namespace loopbench {
 
-/// A rule: low <= value <= high. NaN obeys no rule.
+/// Range check: low <= value <= high. NaN fails every check.
 struct Between {
   double low;
   double high = std::numeric_limits<double>::infinity();
@@ -44,7 +45,7 @@ struct Between {
   }
 };
 
-/// A rule: value > low.
+/// Range check: low < value < infinity.
 struct Above {
   double low;
 
@@ -61,7 +62,7 @@ concept NamedEnum = std::is_enum_v<T> && requires(T value) {
   choices(value);
 };
 
-/// The word for an enum value.
+/// The name of an enum value. Throws std::logic_error if it has none.
 template <NamedEnum E>
 std::string to_text(E value) {
   for (const auto& [name, choice] : choices(value)) {
@@ -70,7 +71,7 @@ std::string to_text(E value) {
   throw std::logic_error("enum value without a name");
 }
 
-/// "none | slerp".
+/// All names of an enum, for example "none | slerp".
 template <NamedEnum E>
 std::string choice_list(E any = {}) {
   std::string out;
@@ -79,16 +80,17 @@ std::string choice_list(E any = {}) {
   return out;
 }
 
-/// The value for a word, or nothing.
+/// The enum value with this name, or nothing.
 template <NamedEnum E>
-std::optional<E> from_text(const std::string& word) {
+std::optional<E> from_text(const std::string& text) {
   for (const auto& [name, choice] : choices(E{})) {
-    if (name == word) return choice;
+    if (name == text) return choice;
   }
   return std::nullopt;
 }
 
-/// Reading and writing one member type; the message says what was wanted.
+/// Conversion of one member type to and from Param. assign() throws OptionError with the expected
+/// type.
 template <class T>
 struct FieldType {
   static Param to_param(const T& value) {
@@ -102,31 +104,31 @@ struct FieldType {
   }
 
   static void assign(const std::string& name, T& member, const Param& given) {
-    const auto wrong = [&](const std::string& wanted) {
-      return OptionError(name, name + " = " + to_text(given) + ": expected " + wanted);
+    const auto mismatch = [&](const std::string& expected) {
+      return OptionError(name, name + " = " + to_text(given) + ": expected " + expected);
     };
     if constexpr (NamedEnum<T>) {
       const std::string* word = std::get_if<std::string>(&given);
       const auto value = word ? from_text<T>(*word) : std::nullopt;
-      if (!value) throw wrong("one of " + choice_list<T>());
+      if (!value) throw mismatch("one of " + choice_list<T>());
       member = *value;
     } else if constexpr (std::same_as<T, bool>) {
       const bool* flag = std::get_if<bool>(&given);
-      if (flag == nullptr) throw wrong("true or false");
+      if (flag == nullptr) throw mismatch("true or false");
       member = *flag;
     } else if constexpr (std::integral<T>) {
-      const auto* whole = std::get_if<std::int64_t>(&given);
-      if (whole == nullptr || !std::in_range<T>(*whole)) throw wrong("a whole number");
-      member = static_cast<T>(*whole);
+      const auto* integer = std::get_if<std::int64_t>(&given);
+      if (integer == nullptr || !std::in_range<T>(*integer)) throw mismatch("a whole number");
+      member = static_cast<T>(*integer);
     } else if constexpr (std::same_as<T, double>) {
-      const auto* whole = std::get_if<std::int64_t>(&given);  // `gain: 1` is a fine 1.0
+      const auto* integer = std::get_if<std::int64_t>(&given);  // `gain: 1` is accepted as 1.0
       const double* real = std::get_if<double>(&given);
-      if (whole == nullptr && real == nullptr) throw wrong("a number");
-      member = real != nullptr ? *real : static_cast<double>(*whole);
-      if (std::isnan(member)) throw wrong("a number");
+      if (integer == nullptr && real == nullptr) throw mismatch("a number");
+      member = real != nullptr ? *real : static_cast<double>(*integer);
+      if (std::isnan(member)) throw mismatch("a number");
     } else {
       static_assert(std::same_as<T, std::string>, "unsupported option type");
-      // `name: 07` is a number to YAML and a name to its author.
+      // YAML parses `name: 07` as a number although the option is a text.
       member = to_text(given);
     }
   }
@@ -157,13 +159,13 @@ void obey(const std::string& name, const T& member, const Rule& rule) {
   } else if (!rule.holds(static_cast<double>(member))) {
     throw OptionError(
         name,
-        name + " = " + to_text(FieldType<T>::to_param(member)) + " breaks " + rule.text(name));
+        name + " = " + to_text(FieldType<T>::to_param(member)) + ": expected " + rule.text(name));
   }
 }
 
 }  // namespace detail
 
-/// Every option with its default, help and rule, in declared order.
+/// Returns every option with its default, help and rule, in declaration order.
 template <class Options>
 std::vector<OptionInfo> describe(Options options) {
   std::vector<OptionInfo> out;
@@ -177,7 +179,7 @@ std::vector<OptionInfo> describe(Options options) {
   return out;
 }
 
-/// The options as name-value pairs.
+/// Returns the options as name-value pairs.
 template <class Options>
 Params echo(Options options) {
   Params out;
@@ -185,7 +187,8 @@ Params echo(Options options) {
   return out;
 }
 
-/// `options` with the named fields replaced. Throws OptionError: unknown name, type, rule.
+/// Returns `options` with the `given` fields replaced. Throws OptionError for an unknown name, a
+/// wrong type or a value outside its range.
 template <class Options>
 Options with(Options options, Params given) {
   std::string known;

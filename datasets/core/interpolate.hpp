@@ -1,21 +1,23 @@
-/// Between two poses: straight line with SLERP, or along one screw.
+/// Interpolation between two poses: linear with SLERP, or along a screw motion.
 #pragma once
 
 #include "datasets/core/se3.hpp"
 
 namespace loopbench {
 
-/// Shortest great arc; u = 0 gives a, u = 1 gives b. Angles of exactly pi take one of two arcs.
+/// Spherical linear interpolation along the shorter arc; u = 0 returns a, u = 1 returns b. For an
+/// angle of exactly pi, one of the two arcs is used.
 inline Rotation slerp(const Rotation& a, const Rotation& b, double u) {
   return a * exp_so3(u * log_so3(a.conjugate() * b));
 }
 
-/// Position on the straight line, attitude on the great arc: SO(3) x R^3.
+/// Interpolation in SO(3) x R^3: linear in position, SLERP in rotation.
 inline Pose interpolate(const Pose& a, const Pose& b, double u) {
   return {slerp(a.rotation, b.rotation, u), a.translation + u * (b.translation - a.translation)};
 }
 
-/// Constant body twist from a to b: geodesic of SE(3), right for a wheeled arc.
+/// Interpolation in SE(3) with constant body twist from a to b; exact for a circular arc of a
+/// wheeled vehicle.
 inline Pose interpolate_screw(const Pose& a, const Pose& b, double u) {
   return a * exp_se3(u * log_se3(a.inverse() * b));
 }

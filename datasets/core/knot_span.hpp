@@ -1,4 +1,4 @@
-/// Which interval of sorted stamps holds a time; remembers the last answer.
+/// Finds the interval of sorted stamps that contains a time; caches the last interval.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace loopbench {
 
-/// Sorted queries cost O(n + m) in all, others O(log n) each.
+/// Sorted queries cost O(n + m) in total, unsorted ones O(log n) each.
 class KnotSpan {
  public:
   explicit KnotSpan(const std::vector<double>& stamps) : stamps_(stamps) {}
 
-  /// Largest i with stamps[i] <= time, and at most size - 2 so that i + 1 exists (size > 1).
-  /// Throws std::out_of_range when the time lies outside the stamps, or is NaN.
+  /// Returns the largest i with stamps[i] <= time, limited to size - 2 so that i + 1 exists (if
+  /// size > 1). Throws std::out_of_range if the time is NaN or outside the stamps.
   std::size_t find(double time) {
     if (stamps_.empty() || !(time >= stamps_.front() && time <= stamps_.back())) {
       throw std::out_of_range("time " + std::to_string(time) + " s is outside the curve");

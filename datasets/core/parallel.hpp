@@ -1,4 +1,4 @@
-/// Work spread over the cores, for results that do not depend on how it was spread.
+/// Parallel loops whose results do not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -9,25 +9,25 @@
 
 namespace loopbench {
 
-/// Threads worth starting here, at least one.
+/// Number of hardware threads, limited to 1..16.
 inline std::size_t cores() {
   constexpr unsigned kMost = 16;
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
 }
 
-/// Poses or numbers below which starting a thread costs more than it saves.
+/// Minimum number of elements for which an additional thread pays off.
 inline constexpr std::size_t kWorthAThread = 32768;
 
-/// Calls body(0) .. body(count - 1), each on a thread of its own. Throws what the first of them by
-/// index threw, after all have ended.
+/// Calls body(0) .. body(count - 1), each on its own thread, and waits for all. Rethrows the
+/// exception with the lowest index.
 template <class Body>
 void in_parallel(std::size_t count, const Body& body) {
-  std::vector<std::exception_ptr> thrown(count);
+  std::vector<std::exception_ptr> errors(count);
   const auto run = [&](std::size_t i) {
     try {
       body(i);
     } catch (...) {
-      thrown[i] = std::current_exception();
+      errors[i] = std::current_exception();
     }
   };
   {
@@ -35,13 +35,13 @@ void in_parallel(std::size_t count, const Body& body) {
     for (std::size_t i = 1; i < count; ++i) threads.emplace_back(run, i);
     if (count > 0) run(0);
   }
-  for (const std::exception_ptr& one : thrown) {
-    if (one) std::rethrow_exception(one);
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
   }
 }
 
-/// Calls body(begin, end) for ranges that make up 0..count; one range when that is not worth a
-/// thread. The body must give the same bits however the range is cut.
+/// Calls body(begin, end) in parallel for ranges that partition 0..count; small counts use a single
+/// range. The result of `body` must not depend on the partition.
 template <class Body>
 void in_blocks(std::size_t count, const Body& body) {
   const std::size_t blocks = std::clamp<std::size_t>(count / kWorthAThread, 1, cores());

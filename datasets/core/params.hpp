@@ -1,4 +1,4 @@
-/// Named settings as they travel between a config, an options struct and a result row.
+/// Option values by name, exchanged between configs, options structs and result rows.
 #pragma once
 
 #include <array>
@@ -15,44 +15,44 @@ namespace loopbench {
 using Param = std::variant<bool, std::int64_t, double, std::string>;
 using Params = std::map<std::string, Param>;
 
-/// What `list` tells about one option.
+/// Description of one option, as printed by `list`.
 struct OptionInfo {
   std::string name;
   Param value;       ///< the default
-  std::string help;  ///< what it does, unit in brackets
+  std::string help;  ///< meaning, with the unit in brackets
   std::string rule;  ///< "0 <= share <= 1", "none | slerp", or empty
 };
 
-/// An option was refused: unknown, of the wrong type, or against its rule.
+/// Invalid option: unknown name, wrong type, or value outside its range.
 class OptionError : public std::invalid_argument {
  public:
-  OptionError(std::string option, const std::string& why)
-      : std::invalid_argument(why), option_(std::move(option)) {}
+  OptionError(std::string option, const std::string& message)
+      : std::invalid_argument(message), option_(std::move(option)) {}
 
-  /// The name as given, for finding its place in a config.
+  /// The option name as given, used to find its line in a config.
   const std::string& option() const { return option_; }
 
  private:
   std::string option_;
 };
 
-/// Shortest text that reads back as the same double; "1" stays "1.0" so that types survive.
+/// Shortest text that parses to the same double; 1 is printed as "1.0" to preserve the type.
 inline std::string to_text(double value) {
   std::array<char, 32> buffer;
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   std::string out(buffer.data(), end);
-  const bool bare = out.find_first_not_of("-0123456789") == std::string::npos;
-  return bare ? out + ".0" : out;
+  const bool is_integer_text = out.find_first_not_of("-0123456789") == std::string::npos;
+  return is_integer_text ? out + ".0" : out;
 }
 
 inline std::string to_text(const Param& value) {
   if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
   if (const double* real = std::get_if<double>(&value)) return to_text(*real);
   return std::get<std::string>(value);
 }
 
-/// "a=1, b=slerp": one line for tables and row keys, sorted by name.
+/// One line for tables and row keys, sorted by name: "a=1, b=slerp".
 inline std::string to_text(const Params& params) {
   std::string out;
   for (const auto& [name, value] : params) {

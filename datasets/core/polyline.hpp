@@ -1,4 +1,4 @@
-/// Straight lines and great arcs between poses: what a keyframe list means when nothing is said.
+/// Piecewise linear curve (SLERP in rotation) through keyframes: the default interpolation.
 #pragma once
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace loopbench {
 
 class Polyline final : public Curve {
  public:
-  /// Needs at least one pose and increasing stamps, as check() promises.
+  /// Stamps must increase, see check(). Throws std::invalid_argument for an empty trajectory.
   explicit Polyline(Trajectory poses) : poses_(std::move(poses)), stamps_(stamps(poses_)) {
     if (poses_.empty()) throw std::invalid_argument("polyline: needs at least one pose");
   }
@@ -25,7 +25,7 @@ class Polyline final : public Curve {
     for (std::size_t k = 0; k < times.size(); ++k) {
       const std::size_t i = span.find(times[k]);
       const Pose& before = poses_[i].world_from_body;
-      if (times[k] == stamps_[i]) {  // exact at the nodes, no rounding
+      if (times[k] == stamps_[i]) {  // exact at the knots, without rounding
         poses[k] = before;
       } else if (times[k] == stamps_[i + 1]) {
         poses[k] = poses_[i + 1].world_from_body;

@@ -1,18 +1,18 @@
-/// A rigid transform, named by the frames it joins: `world_from_body * body_from_camera`.
+/// A rigid transform. Names state both frames: `world_from_body * body_from_camera`.
 #pragma once
 
 #include "datasets/core/so3.hpp"
 
 namespace loopbench {
 
-/// Seven doubles and no padding, so a stamped pose fills one cache line.
+/// Seven doubles without padding, so that a StampedPose fills one cache line.
 struct Pose {
   Rotation rotation = Rotation::Identity();  ///< unit
   Vector3 translation = Vector3::Zero();     ///< [m]
 
   Pose inverse() const {
-    const Rotation back = rotation.conjugate();
-    return {back, -(back * translation)};
+    const Rotation inverse_rotation = rotation.conjugate();
+    return {inverse_rotation, -(inverse_rotation * translation)};
   }
 };
 
@@ -25,7 +25,7 @@ inline Vector3 operator*(const Pose& a_from_b, const Vector3& point_in_b) {
   return a_from_b.rotation * point_in_b + a_from_b.translation;
 }
 
-/// Long chains of products drift off the unit sphere; this puts them back.
+/// Renormalises the quaternion, which long products move away from unit norm.
 inline Pose normalized(Pose pose) {
   pose.rotation.normalize();
   return pose;
@@ -35,7 +35,7 @@ inline bool is_finite(const Pose& pose) {
   return pose.rotation.coeffs().allFinite() && pose.translation.allFinite();
 }
 
-/// Largest of the two differences is below the tolerances [m], [rad].
+/// Whether the distance is at most `metres` [m] and the rotation angle at most `radians` [rad].
 inline bool is_close(const Pose& a, const Pose& b, double metres, double radians) {
   return (a.translation - b.translation).norm() <= metres &&
          angle_between(a.rotation, b.rotation) <= radians;

@@ -1,13 +1,13 @@
-/// A pose as a file prints it.
+/// A pose as a 3 x 4 matrix with the digits of its file.
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace loopbench {
 
-/// The upper 3 x 4 of world_from_body [m]. Its digits are rounded, so the left 3 x 3 is a rotation
-/// to those digits only; whoever must reproduce a tool that computes with it as it stands (KITTI's)
-/// needs this, everybody else a Pose.
+/// The upper 3 x 4 block of world_from_body [m]. Its left 3 x 3 block is orthonormal only to the
+/// printed digits. It is needed to reproduce tools that use the matrix without normalising it
+/// (KITTI devkit); otherwise use Pose.
 using PoseMatrix = Eigen::AffineCompact3d;
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// What a method is given, kept apart from what only the judge may see.
+/// Input of a method: keyframes, odometry edges and loop closures, without the reference.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -12,7 +12,7 @@
 
 namespace loopbench {
 
-/// "Keyframe `to`, seen from keyframe `from`, is here": odometry or a loop closure.
+/// Relative pose measurement between two keyframes: odometry or a loop closure.
 struct Edge {
   std::size_t from = 0;
   std::size_t to = 0;
@@ -20,49 +20,50 @@ struct Edge {
   /// Inverse covariance of the twist e in `from_from_to * exp(e)`, order [rho; phi]. Units 1/m^2,
   /// 1/(m rad), 1/rad^2. Symmetric positive definite.
   Matrix6 information = Matrix6::Identity();
-  double scale = 1.0;  ///< length unit of `to` over that of `from`; 1 unless the chain is Sim(3)
+  double scale = 1.0;  ///< scale of `to` relative to `from`; 1 unless the edges are Sim(3)
 };
 
-/// Everything a method may look at. The reference is deliberately not in here.
+/// All data available to a method. It does not contain the reference.
 struct Problem {
-  Trajectory keyframes;        ///< as the tracker left them
-  std::vector<Edge> odometry;  ///< sorted by `from`; consecutive keyframes, from + 1 == to
+  Trajectory keyframes;        ///< world_from_body as estimated by the tracker
+  std::vector<Edge> odometry;  ///< between consecutive keyframes (from + 1 == to), sorted by `from`
   std::vector<Edge> closures;  ///< from < to, sorted by (to, from)
-  Trajectory frames;           ///< tracked frames between keyframes, same world; may be empty
+  Trajectory frames;           ///< tracked frames, in the world frame of `keyframes`; may be empty
   bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
-  /// Landmarks that keyframes k and k + 1 both see, one number a pair; empty when not known.
+  /// Number of landmarks seen by both keyframes k and k + 1; empty if unknown.
   std::vector<std::size_t> common_view = {};
 };
 
-/// Throws InputError naming `name` and the rule when edges or trajectories break their promise.
+/// Throws InputError with `name` and the violated rule if edges or trajectories are invalid.
 /// O(keyframes + frames + edges).
 inline void check(const Problem& problem, const std::string& name) {
   check(problem.keyframes, name + ": keyframes");
   check(problem.frames, name + ": frames");
-  if (!problem.common_view.empty() &&
-      problem.common_view.size() + 1 != problem.keyframes.size()) {
+  if (!problem.common_view.empty() && problem.common_view.size() + 1 != problem.keyframes.size()) {
     throw InputError(name + ": common_view has " + std::to_string(problem.common_view.size()) +
                      " counts, expected one for each pair of consecutive keyframes");
   }
   const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Edge& edge = edges[i];
-      const auto refuse = [&](const std::string& what) {
+      const auto invalid = [&](const std::string& what) {
         return InputError(name + ": " + kind + " " + std::to_string(i) + ": " + what);
       };
-      if (edge.from >= edge.to) throw refuse("from is not before to");
-      if (edge.to >= problem.keyframes.size()) throw refuse("names no keyframe");
+      if (edge.from >= edge.to) throw invalid("from is not before to");
+      if (edge.to >= problem.keyframes.size())
+        throw invalid("refers to a keyframe that does not exist");
       if (!is_finite(edge.from_from_to) || !edge.information.allFinite() || !(edge.scale > 0.0)) {
-        throw refuse("is not finite");
+        throw invalid("is not finite");
       }
       if (std::abs(edge.from_from_to.rotation.norm() - 1.0) > 1e-6) {
-        throw refuse("quaternion is not unit");
+        throw invalid("quaternion is not unit");
       }
       const double largest = edge.information.cwiseAbs().maxCoeff();
       const Matrix6 skew = edge.information - edge.information.transpose();
-      if (skew.cwiseAbs().maxCoeff() > 1e-9 * largest) throw refuse("information is not symmetric");
+      if (skew.cwiseAbs().maxCoeff() > 1e-9 * largest)
+        throw invalid("information is not symmetric");
       if (edge.information.llt().info() != Eigen::Success) {
-        throw refuse("information is not positive definite");
+        throw invalid("information is not positive definite");
       }
     }
   };
@@ -71,7 +72,8 @@ inline void check(const Problem& problem, const std::string& name) {
   for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
     const Edge& edge = problem.odometry[i];
     const std::string where = name + ": odometry edge " + std::to_string(i) + ": ";
-    if (edge.to != edge.from + 1) throw InputError(where + "does not join consecutive keyframes");
+    if (edge.to != edge.from + 1)
+      throw InputError(where + "does not connect consecutive keyframes");
     if (i > 0 && edge.from <= problem.odometry[i - 1].from) {
       throw InputError(where + "is not sorted by from");
     }

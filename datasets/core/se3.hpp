@@ -1,4 +1,4 @@
-/// Rigid motions and their tangent space: exp, log, adjoint, Jacobians.
+/// SE(3) and its tangent space: exp, log, adjoint, Jacobians.
 ///
 /// A twist is [rho; phi]: translation part first [m], rotation part second [rad].
 /// Perturbations are on the right: pose * exp(twist). Source: Barfoot, ch. 7.
@@ -37,20 +37,20 @@ inline Matrix6 adjoint(const Pose& a) {
   return out;
 }
 
-/// The coupling block of the left Jacobian (Barfoot 7.86b).
+/// Upper right block of the left Jacobian (Barfoot 7.86b).
 inline Matrix3 coupling_block_se3(const Vector3& rho, const Vector3& phi) {
   const double square = phi.squaredNorm();
   const double angle = std::sqrt(square);
   double a = 1.0 / 6.0 - square / 120.0;
   double b = 1.0 / 24.0 - square / 720.0;
   double c = 1.0 / 120.0 - square / 2520.0;
-  // The third coefficient loses angle^5 digits, so it needs the series for longer than the others.
+  // The closed form of c cancels to order angle^5, so the series is used up to a larger angle.
   if (angle >= 0.05) {
     const double s = std::sin(angle);
     const double k = std::cos(angle);
     const double chord = 2.0 * std::sin(0.5 * angle);
     a = (angle - s) / (square * angle);
-    // square + 2 k - 2, as a product that does not cancel.
+    // square + 2 k - 2, as a product to avoid cancellation.
     b = (angle - chord) * (angle + chord) / (2.0 * square * square);
     c = (2.0 * angle - 3.0 * s + angle * k) / (2.0 * square * square * angle);
   } else {
@@ -64,7 +64,7 @@ inline Matrix3 coupling_block_se3(const Vector3& rho, const Vector3& phi) {
          c * (P * Q * P * P + P * P * Q * P);
 }
 
-/// exp(xi + d) ~ exp(J d) exp(xi).
+/// Left Jacobian J: exp(xi + d) ~ exp(J d) exp(xi).
 inline Matrix6 left_jacobian_se3(const Twist& xi) {
   const Vector3 rho = xi.head<3>();
   const Vector3 phi = xi.tail<3>();
@@ -75,7 +75,7 @@ inline Matrix6 left_jacobian_se3(const Twist& xi) {
   return out;
 }
 
-/// Inverse of the left Jacobian, |phi| < 2 pi.
+/// Inverse of the left Jacobian, for |phi| < 2 pi.
 inline Matrix6 inverse_left_jacobian_se3(const Twist& xi) {
   const Vector3 rho = xi.head<3>();
   const Vector3 phi = xi.tail<3>();
@@ -87,7 +87,7 @@ inline Matrix6 inverse_left_jacobian_se3(const Twist& xi) {
   return out;
 }
 
-/// exp(xi + d) ~ exp(xi) exp(J d).
+/// Right Jacobian J: exp(xi + d) ~ exp(xi) exp(J d).
 inline Matrix6 right_jacobian_se3(const Twist& xi) { return left_jacobian_se3(-xi); }
 inline Matrix6 inverse_right_jacobian_se3(const Twist& xi) {
   return inverse_left_jacobian_se3(-xi);

@@ -1,4 +1,4 @@
-/// One unit of evaluation: a problem, the answer the judge holds, and where each came from.
+/// A benchmark sequence: the problem, its reference trajectory and their provenance.
 #pragma once
 
 #include <filesystem>
@@ -13,37 +13,38 @@ namespace loopbench {
 /// A file that a dataset read.
 struct InputPath {
   std::filesystem::path path;
-  std::string option = {};  ///< that names it, for example `estimate`; empty: found by the dataset
+  std::string option =
+      {};  ///< option with the path, for example `estimate`; empty: found by the dataset
 };
 
 struct Provenance {
-  std::string sensor;                   ///< "RGB-D", "stereo", "simulated"; empty: unknown
-  std::string closures;                 ///< where the loop closures were taken from
-  bool oracle_closures = false;         ///< the reference measured or selected the closures
-  std::string licence;                  ///< of the data; empty: unknown
-  std::vector<InputPath> inputs;        ///< every file read
-  std::vector<std::string> notes = {};  ///< what a user should know: skipped images, lost tracking
-  /// Where the reference's own body was taken to sit, body_from_reference; empty: nobody could say.
+  std::string sensor;             ///< "RGB-D", "stereo", "simulated"; empty: unknown
+  std::string closures;           ///< source of the loop closures
+  bool oracle_closures = false;   ///< closures were measured in or selected with the reference
+  std::string licence;            ///< licence of the data; empty: unknown
+  std::vector<InputPath> inputs;  ///< every file read
+  std::vector<std::string> notes = {};  ///< remarks for the user: skipped images, tracking losses
+  /// Assumed extrinsic offset of the reference's body; empty: unknown.
   std::optional<Pose> body_from_reference = {};
-  std::filesystem::path reference = {};  ///< which of the inputs is the reference; empty: none
-  std::string noise = {};  ///< simulated data: stream and seed of all draws; empty: measured data
+  std::filesystem::path reference = {};  ///< reference file among `inputs`; empty: none
+  std::string noise = {};  ///< stream and seed of simulated noise; empty: measured data
 };
 
-/// What a place recogniser thought of one pair of keyframes, accepted or not.
+/// Pair of keyframes scored by the place recognition, accepted or rejected.
 struct LoopCandidate {
   std::size_t from = 0;  ///< the earlier keyframe
-  std::size_t to = 0;    ///< the one that asked
-  double score = 0.0;    ///< the higher, the surer; comparable within one sequence
+  std::size_t to = 0;    ///< the later keyframe, which was the query
+  double score = 0.0;    ///< higher is better; comparable within one sequence
   bool accepted = false;
 };
 
 struct Sequence {
   std::string name;
   Problem problem;
-  Trajectory reference;  ///< may be empty: then nothing can be judged against it
+  Trajectory reference;  ///< may be empty: no metric against the reference is available
   Provenance provenance;
-  /// Best candidate of every keyframe that found one, sorted by `to`; empty: nothing was detected
-  /// here. For judging the detector: no method sees it.
+  /// Best candidate of each keyframe that has one, sorted by `to`; empty: the dataset has no loop
+  /// detector. Used to evaluate the detector; methods do not receive it.
   std::vector<LoopCandidate> loop_candidates = {};
 };
 

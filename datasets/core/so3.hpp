@@ -1,4 +1,4 @@
-/// Rotations and their tangent space: exp, log and the Jacobians that tie them together.
+/// SO(3) and its tangent space: exp, log and Jacobians.
 ///
 /// A tangent vector is axis * angle [rad]. Source: Barfoot, State Estimation for Robotics, ch. 7.
 #pragma once
@@ -15,8 +15,8 @@ using Matrix3 = Eigen::Matrix3d;
 /// Unit quaternion without over-alignment, so its layout does not depend on -march.
 using Rotation = Eigen::Quaternion<double, Eigen::DontAlign>;
 
-/// Below this angle the closed forms cancel and the Taylor series is exact to double precision.
-inline constexpr double kSmallAngle = 1e-3;  // [rad]; the first dropped term is below 1e-15
+/// Below this angle the closed forms cancel and the Taylor series is accurate to double precision.
+inline constexpr double kSmallAngle = 1e-3;  // [rad]; the first omitted term is below 1e-15
 
 /// The matrix with hat(a) * b == a.cross(b).
 inline Matrix3 hat(const Vector3& a) {
@@ -25,7 +25,7 @@ inline Matrix3 hat(const Vector3& a) {
   return out;
 }
 
-/// Rotation by |phi| about phi. Exact to rounding for every angle.
+/// Rotation by the angle |phi| about the axis phi. Accurate to rounding for every angle.
 inline Rotation exp_so3(const Vector3& phi) {
   const double square = phi.squaredNorm();
   const double angle = std::sqrt(square);
@@ -37,22 +37,22 @@ inline Rotation exp_so3(const Vector3& phi) {
   return out;
 }
 
-/// Shortest tangent vector, |log| <= pi. At exactly pi either sign is right; one is returned.
+/// Shortest tangent vector, |log| <= pi. At exactly pi both signs are valid; one is returned.
 inline Vector3 log_so3(const Rotation& rotation) {
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;  // q and -q are the same rotation
   const double w = sign * rotation.w();
   const double sine = rotation.vec().norm();
-  // Only 0 / 0 needs care: atan2 itself loses nothing at small angles.
+  // Only 0 / 0 needs a special case: atan2 is accurate at small angles.
   const double angle_over_sine = sine > 0.0 ? 2.0 * std::atan2(sine, w) / sine : 2.0 / w;
   return sign * angle_over_sine * rotation.vec();
 }
 
-/// Angle of the shortest rotation between two attitudes [rad], in 0..pi.
+/// Angle of the relative rotation [rad], in 0..pi.
 inline double angle_between(const Rotation& a, const Rotation& b) {
   return log_so3(a.conjugate() * b).norm();
 }
 
-/// exp(phi + d) ~ exp(J d) exp(phi): the left Jacobian (Barfoot 7.77).
+/// Left Jacobian J: exp(phi + d) ~ exp(J d) exp(phi) (Barfoot 7.77).
 inline Matrix3 left_jacobian_so3(const Vector3& phi) {
   const double square = phi.squaredNorm();
   const double angle = std::sqrt(square);
@@ -67,7 +67,7 @@ inline Matrix3 left_jacobian_so3(const Vector3& phi) {
   return Matrix3::Identity() + a * H + b * H * H;
 }
 
-/// Inverse of the left Jacobian, |phi| < 2 pi.
+/// Inverse of the left Jacobian, for |phi| < 2 pi.
 inline Matrix3 inverse_left_jacobian_so3(const Vector3& phi) {
   const double square = phi.squaredNorm();
   const double angle = std::sqrt(square);
@@ -79,7 +79,7 @@ inline Matrix3 inverse_left_jacobian_so3(const Vector3& phi) {
   return Matrix3::Identity() - 0.5 * H + c * H * H;
 }
 
-/// exp(phi + d) ~ exp(phi) exp(J d): the right Jacobian is the left one at -phi.
+/// Right Jacobian J: exp(phi + d) ~ exp(phi) exp(J d). It equals the left Jacobian at -phi.
 inline Matrix3 right_jacobian_so3(const Vector3& phi) { return left_jacobian_so3(-phi); }
 inline Matrix3 inverse_right_jacobian_so3(const Vector3& phi) {
   return inverse_left_jacobian_so3(-phi);

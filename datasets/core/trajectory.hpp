@@ -1,4 +1,4 @@
-/// A list of poses in time.
+/// Trajectories: lists of stamped poses.
 #pragma once
 
 #include <cmath>
@@ -15,25 +15,27 @@ struct StampedPose {
   double stamp = 0.0;  ///< [s]
   Pose world_from_body;
 };
-static_assert(sizeof(StampedPose) == 64, "one cache line a pose, whatever the compiler flags");
+static_assert(sizeof(StampedPose) == 64,
+              "a stamped pose must fill one cache line for any compiler flags");
 
-/// Stamps strictly increase, quaternions are unit, everything is finite: see check().
+/// Stamps strictly increase, quaternions are unit, all values are finite: see check().
 using Trajectory = std::vector<StampedPose>;
 
-/// Throws InputError naming `name`, the pose index and the rule when the promise is broken. O(n).
+/// Throws InputError with `name`, the pose index and the violated rule if the trajectory is
+/// invalid. O(n).
 inline void check(const Trajectory& trajectory, const std::string& name) {
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const auto refuse = [&](const std::string& what) {
+    const auto invalid = [&](const std::string& what) {
       return InputError(name + ": pose " + std::to_string(i) + ": " + what);
     };
     const auto& [stamp, pose] = trajectory[i];
-    if (!std::isfinite(stamp) || !is_finite(pose)) throw refuse("is not finite");
-    if (std::abs(pose.rotation.norm() - 1.0) > 1e-6) throw refuse("quaternion is not unit");
-    if (i > 0 && !(stamp > trajectory[i - 1].stamp)) throw refuse("stamp does not increase");
+    if (!std::isfinite(stamp) || !is_finite(pose)) throw invalid("is not finite");
+    if (std::abs(pose.rotation.norm() - 1.0) > 1e-6) throw invalid("quaternion is not unit");
+    if (i > 0 && !(stamp > trajectory[i - 1].stamp)) throw invalid("stamp does not increase");
   }
 }
 
-/// Sum of the straight steps [m].
+/// Sum of the distances between consecutive poses [m]. O(n).
 inline double path_length(const Trajectory& trajectory) {
   double length = 0.0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {

@@ -1,4 +1,4 @@
-/// Systems with one band on each side of the diagonal, solved in O(n).
+/// Solver for (block) tridiagonal linear systems.
 #pragma once
 
 #include <Eigen/LU>
@@ -9,8 +9,8 @@
 
 namespace loopbench {
 
-/// Row i reads: lower * x[i - 1] + diagonal * x[i] + upper * x[i + 1] = right.
-/// `Block` is double or Matrix3, `Value` what it multiplies.
+/// Row i of the system: lower * x[i - 1] + diagonal * x[i] + upper * x[i + 1] = right.
+/// `Block` is double or Matrix3, `Value` the type of x[i].
 template <class Block, class Value>
 struct TridiagonalRow {
   Block lower;
@@ -22,9 +22,9 @@ struct TridiagonalRow {
 inline double inverse(double block) { return 1.0 / block; }
 inline Matrix3 inverse(const Matrix3& block) { return block.inverse(); }
 
-/// Elimination without pivoting: backward stable for the totally positive matrices of B-spline
-/// interpolation (de Boor & Pinkus 1977) and for diagonally dominant ones, which is what it is
-/// used for here. Destroys `rows`.
+/// Solves the system by elimination without pivoting, which is backward stable for the matrices
+/// used here: totally positive ones of B-spline interpolation (de Boor & Pinkus 1977) and
+/// diagonally dominant ones. Overwrites `rows`. O(n).
 template <class Block, class Value>
 std::vector<Value> solve_tridiagonal(std::vector<TridiagonalRow<Block, Value>>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -34,7 +34,7 @@ TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& n
     closure.noise = {columns.number("sigma_t"), columns.number("sigma_r")};
     if (!(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0)) {
       throw file.error(line.number,
-                       fmt::format("found sigma_t {} and sigma_r {}, expected more than 0",
+                       fmt::format("found sigma_t {} and sigma_r {}, expected values > 0",
                                    closure.noise.sigma_t,
                                    closure.noise.sigma_r));
     }
@@ -74,7 +74,9 @@ std::vector<Edge> as_edges(const std::vector<TimedClosure>& closures,
               closure.from_from_to,
               isotropic_information(sigma_t * sigma_t, sigma_r * sigma_r)};
     if (edge.from == edge.to) {
-      throw input_error(file.string(), closure.line, "both stamps are the same pose");
+      throw input_error(file.string(),
+                        closure.line,
+                        "both stamps match the same pose, expected two different poses");
     }
     if (edge.from > edge.to) {
       std::swap(edge.from, edge.to);

@@ -1,4 +1,4 @@
-/// Loop closures written as text, by time: they stay right whatever keyframes are chosen.
+/// Text files of loop closures by time, which are independent of the choice of keyframes.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@ struct TimedClosure {
   double stamp_to = 0.0;    ///< [s]
   Pose from_from_to;
   ClosureNoise noise;
-  std::size_t line = 0;  ///< in its file
+  std::size_t line = 0;  ///< line number in the file
 };
 
-/// One closure a line: `stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]`, in [s], [m],
-/// [rad]: the pose of the body at stamp_to, seen from the body at stamp_from. Either may be the
-/// later. Lines that start with `#` are comments; lines without sigmas take `noise`.
-/// Throws InputError `file:line: what`. O(size of the file).
+/// Reads one closure per line: `stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]` in [s],
+/// [m], [rad]. The pose is that of the body at stamp_to in the frame of the body at stamp_from;
+/// either stamp may be the later one. Lines that start with `#` are comments. Lines without sigmas
+/// use `noise`. Throws InputError `file:line: what`. O(size of the file).
 std::vector<TimedClosure> read_closure_file(const std::filesystem::path& file,
                                             const ClosureNoise& noise);
 
-/// The same as edges between the nearest poses, at most `max_diff` [s] away; from < to, in the
-/// order that Problem promises. Throws InputError `file:line:` when there is no such pose or both
-/// ends are the same.
+/// Converts closures to edges between the nearest poses in time, at most `max_diff` [s] away. Edges
+/// have from < to and are sorted by (to, from). Throws InputError `file:line: what` if there is no
+/// such pose or if both stamps match the same pose.
 std::vector<Edge> as_edges(const std::vector<TimedClosure>& closures,
                            const Trajectory& poses,
                            double max_diff,

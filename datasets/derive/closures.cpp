@@ -9,20 +9,23 @@
 namespace loopbench {
 namespace {
 
-struct Seen {
-  Trajectory run;                     ///< the run at those keyframe stamps where it is known
-  std::vector<std::size_t> keyframe;  ///< which keyframe each is
+/// Poses of a run at keyframe stamps, where available.
+struct RunAtKeyframes {
+  Trajectory run;
+  std::vector<std::size_t> keyframe;  ///< keyframe index of each pose
 };
 
-Seen at_keyframes(const Trajectory& keyframes, const Trajectory& run, const Reach& reach) {
+RunAtKeyframes at_keyframes(const Trajectory& keyframes,
+                            const Trajectory& run,
+                            const Reach& reach) {
   const auto poses = poses_at(run, stamps(keyframes), reach);
-  Seen seen;
+  RunAtKeyframes out;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     if (!poses[i]) continue;
-    seen.run.push_back({keyframes[i].stamp, *poses[i]});
-    seen.keyframe.push_back(i);
+    out.run.push_back({keyframes[i].stamp, *poses[i]});
+    out.keyframe.push_back(i);
   }
-  return seen;
+  return out;
 }
 
 }  // namespace
@@ -33,17 +36,18 @@ std::vector<Edge> closures_in_run(const Trajectory& keyframes,
                                   std::size_t max,
                                   const Reach& reach,
                                   const ClosureNoise& noise) {
-  const Seen seen = at_keyframes(keyframes, run, reach);
-  const std::vector<Revisit> revisits = find_revisits(seen.run, rule);
+  const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);
+  const std::vector<Revisit> revisits = find_revisits(shared.run, rule);
   const Matrix6 information =
       isotropic_information(noise.sigma_t * noise.sigma_t, noise.sigma_r * noise.sigma_r);
   std::vector<Edge> closures;
-  for (const std::size_t k : spread(revisits, stamps(seen.run), max == 0 ? revisits.size() : max)) {
+  for (const std::size_t k :
+       spread(revisits, stamps(shared.run), max == 0 ? revisits.size() : max)) {
     const auto [from, to] = revisits[k];
     const Pose from_from_to =
-        seen.run[from].world_from_body.inverse() * seen.run[to].world_from_body;
+        shared.run[from].world_from_body.inverse() * shared.run[to].world_from_body;
     closures.push_back(
-        {seen.keyframe[from], seen.keyframe[to], normalized(from_from_to), information});
+        {shared.keyframe[from], shared.keyframe[to], normalized(from_from_to), information});
   }
   return closures;
 }
@@ -60,43 +64,46 @@ std::vector<Edge> with_noise(std::vector<Edge> edges,
 }
 
 double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reach& reach) {
-  const Seen seen = at_keyframes(keyframes, run, reach);
-  Trajectory shared;
-  for (const std::size_t i : seen.keyframe) shared.push_back(keyframes[i]);
-  const double ours = path_length(shared);
-  return ours > 0.0 ? path_length(seen.run) / ours : 1.0;
+  const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);
+  Trajectory estimate;
+  for (const std::size_t i : shared.keyframe) estimate.push_back(keyframes[i]);
+  const double length = path_length(estimate);
+  return length > 0.0 ? path_length(shared.run) / length : 1.0;
 }
 
 std::vector<Edge> with_local_scale(std::vector<Edge> edges,
                                    const Trajectory& keyframes,
                                    const Trajectory& run,
                                    const Reach& reach) {
-  constexpr std::size_t kAround = 10;  // keyframes: a unit creeps slowly, a step is measured badly
-  const Seen seen = at_keyframes(keyframes, run, reach);
-  std::vector<double> ours{0.0}, theirs{0.0};  // way so far
-  for (std::size_t k = 1; k < seen.keyframe.size(); ++k) {
+  // [keyframes]; scale drifts slowly, while the length of a single step is noisy
+  constexpr std::size_t kHalfWindow = 10;
+  const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);
+  std::vector<double> estimate{0.0}, other{0.0};  // cumulative distance travelled
+  for (std::size_t k = 1; k < shared.keyframe.size(); ++k) {
     const auto step = [](const StampedPose& a, const StampedPose& b) {
       return (b.world_from_body.translation - a.world_from_body.translation).norm();
     };
-    ours.push_back(ours.back() +
-                   step(keyframes[seen.keyframe[k - 1]], keyframes[seen.keyframe[k]]));
-    theirs.push_back(theirs.back() + step(seen.run[k - 1], seen.run[k]));
+    estimate.push_back(estimate.back() +
+                       step(keyframes[shared.keyframe[k - 1]], keyframes[shared.keyframe[k]]));
+    other.push_back(other.back() + step(shared.run[k - 1], shared.run[k]));
   }
-  const auto unit_at = [&](std::size_t keyframe) {
-    const auto place = std::lower_bound(seen.keyframe.begin(), seen.keyframe.end(), keyframe);
-    const auto k = static_cast<std::size_t>(place - seen.keyframe.begin());
-    const std::size_t first = k < kAround ? 0 : k - kAround;
-    const std::size_t last = std::min(k + kAround, seen.keyframe.size() - 1);
-    const double way = ours[last] - ours[first], their_way = theirs[last] - theirs[first];
-    if (!(way > 0.0) || !(their_way > 0.0)) {
-      throw InputError("keyframe " + std::to_string(keyframe) +
-                       ": stands still, so that its unit of length cannot be compared");
+  const auto scale_at = [&](std::size_t keyframe) {
+    const auto found = std::lower_bound(shared.keyframe.begin(), shared.keyframe.end(), keyframe);
+    const auto k = static_cast<std::size_t>(found - shared.keyframe.begin());
+    const std::size_t first = k < kHalfWindow ? 0 : k - kHalfWindow;
+    const std::size_t last = std::min(k + kHalfWindow, shared.keyframe.size() - 1);
+    const double length = estimate[last] - estimate[first];
+    const double other_length = other[last] - other[first];
+    if (!(length > 0.0) || !(other_length > 0.0)) {
+      throw InputError(
+          "keyframe " + std::to_string(keyframe) +
+          ": found no motion around it, expected motion in both runs to compare their scales");
     }
-    return their_way / way;
+    return other_length / length;
   };
   for (Edge& edge : edges) {
-    const double from = unit_at(edge.from);
-    edge.scale = unit_at(edge.to) / from;
+    const double from = scale_at(edge.from);
+    edge.scale = scale_at(edge.to) / from;
     edge.from_from_to.translation /= from;
   }
   return edges;

@@ -14,23 +14,24 @@ Matrix6 inverse(const Matrix6& matrix) {
   return factor.solve(Matrix6::Identity());
 }
 
-/// What joins two kept poses, its uncertainty still a covariance so that it is inverted once.
-struct Stretch {
+/// Composition of consecutive edges. The uncertainty is stored as covariance, so that it is
+/// inverted only once.
+struct ComposedEdge {
   Pose step;
   double scale;
   Matrix6 covariance;
 
-  explicit Stretch(const Edge& edge)
+  explicit ComposedEdge(const Edge& edge)
       : step(edge.from_from_to), scale(edge.scale), covariance(inverse(edge.information)) {}
 
-  /// The edge's lengths, those of its covariance too, are turned into the unit of the first pose.
+  /// Converts translation and covariance of `edge` to the scale of the first pose and appends it.
   void append(const Edge& edge) {
     const Pose next{edge.from_from_to.rotation, scale * edge.from_from_to.translation};
-    const Matrix6 carry = adjoint(next.inverse());
+    const Matrix6 transport = adjoint(next.inverse());
     Matrix6 added = inverse(edge.information);
     added.topRows<3>() *= scale;
     added.leftCols<3>() *= scale;
-    covariance = carry * covariance * carry.transpose() + added;
+    covariance = transport * covariance * transport.transpose() + added;
     step = normalized(step * next);
     scale *= edge.scale;
   }
@@ -45,9 +46,9 @@ struct Stretch {
 }  // namespace
 
 Edge compose(const Edge& a, const Edge& b) {
-  Stretch stretch(a);
-  stretch.append(b);
-  return stretch.edge(a.from, b.to);
+  ComposedEdge composed(a);
+  composed.append(b);
+  return composed.edge(a.from, b.to);
 }
 
 std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::size_t>& kept) {
@@ -60,9 +61,9 @@ std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::
       out.back().to = k + 1;
       continue;
     }
-    Stretch stretch(chain[kept[k]]);
-    for (std::size_t i = kept[k] + 1; i < kept[k + 1]; ++i) stretch.append(chain[i]);
-    out.push_back(stretch.edge(k, k + 1));
+    ComposedEdge composed(chain[kept[k]]);
+    for (std::size_t i = kept[k] + 1; i < kept[k + 1]; ++i) composed.append(chain[i]);
+    out.push_back(composed.edge(k, k + 1));
   }
   return out;
 }

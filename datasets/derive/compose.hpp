@@ -1,4 +1,4 @@
-/// Several odometry edges read as one.
+/// Composition of consecutive odometry edges.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,17 @@
 
 namespace loopbench {
 
-/// a: i -> j, b: j -> k gives i -> k. Covariances add after a's is carried to k by the adjoint:
+/// Composes edges a: i -> j and b: j -> k to i -> k. The covariance of a is transported to k by the
+/// adjoint:
 ///   S_ik = Ad(b^-1) S_ij Ad(b^-1)^T + S_jk,
-/// first order in the noise. Scales multiply, and the lengths of b and of S_jk are turned from the
-/// unit of j into that of i.
-/// Throws std::invalid_argument when an information is not positive definite.
+/// to first order in the noise. Scales are multiplied; the translation of b and S_jk are converted
+/// from the scale of j to that of i. Throws std::invalid_argument if an information matrix is not
+/// positive definite.
 Edge compose(const Edge& a, const Edge& b);
 
-/// The chain's edges between kept poses, renumbered by position in `kept`. `chain[i]` joins i and
-/// i + 1; kept is ascending. An edge that skips nothing is passed on bit for bit. O(chain).
+/// Composes the edges of a chain between the poses `kept` (ascending) and renumbers them by
+/// position in `kept`. chain[i] connects i and i + 1. Edges between consecutive kept poses are
+/// copied unchanged. O(chain).
 std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::size_t>& kept);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Closures that are not: places taken for one another, added on purpose.
+/// Simulated false loop closures, which connect unrelated keyframes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace loopbench {
 
 struct FalseClosures {
-  double share = 0.0;  ///< of all closures afterwards [-]
+  double share = 0.0;  ///< of false closures among all closures after the addition [-]
   std::int64_t seed = 1;
 };
 
@@ -20,22 +20,22 @@ template <class Visit>
 void false_closure_fields(FalseClosures& o, Visit visit) {
   visit("false_closures.share",
         o.share,
-        "false ones among all, added to those of the data [-]",
+        "share of simulated false closures among all closures, after their addition [-]",
         Between{0.0, 0.95});
-  visit("false_closures.seed", o.seed, "which places are confused", Between{0});
+  visit("false_closures.seed", o.seed, "random seed of the false closures", Between{0});
 }
 
-/// Adds false closures until they are `share` of all, rounded to a whole number: two random
-/// keyframes, at least two and at least a twentieth of the chain apart, with measurement and
-/// information of a random closure of the problem. The truth is not used, so a false closure may
-/// join keyframes that are close to each other. Keeps closures sorted; the same stream gives the
-/// same closures with every standard library. Returns their number: 0 where the problem has no
-/// closures. Throws InputError for a chain of fewer than 3 keyframes. O(closures log closures).
+/// Adds false closures until their share (rounded to a whole number) is reached. Each connects two
+/// random keyframes, at least two keyframes and 1/20 of the chain apart, with the measurement and
+/// information of a random closure of the problem. The reference is not used, so a false closure
+/// may connect keyframes that are close to each other. Closures remain sorted. Draws are identical
+/// with every standard library. Returns the number of false closures, 0 for a problem without
+/// closures. Throws InputError for fewer than 3 keyframes. O(closures log closures).
 std::size_t add_false_closures(Problem& problem,
                                const FalseClosures& options,
                                std::uint64_t noise_identity);
 
-/// For provenance: ", 5 of 10 false and added"; empty when none were asked for.
+/// Provenance text: ", 5 of 10 false and added"; empty if options.share is 0.
 std::string false_closures_text(const FalseClosures& options, std::size_t added, std::size_t all);
 
 }  // namespace loopbench

@@ -19,12 +19,12 @@ GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
   std::vector<bool> found(parts.odometry.size(), false);
   for (std::size_t k = 0; k < graph.edges.size(); ++k) {
     const Edge& edge = graph.edges[k];
-    const auto refuse = [&](const std::string& what) {
+    const auto invalid = [&](const std::string& what) {
       return input_error(file.string(), k < graph.lines.size() ? graph.lines[k] : 0, what);
     };
-    if (edge.from == edge.to) throw refuse("the edge joins a pose to itself");
+    if (edge.from == edge.to) throw invalid("the edge connects a pose to itself");
     if (Eigen::LLT<Matrix6>(edge.information).info() != Eigen::Success) {
-      throw refuse("the information matrix is not positive definite");
+      throw invalid("the information matrix is not positive definite");
     }
     if (edge.to == edge.from + 1 && !found[edge.from]) {
       parts.odometry[edge.from] = edge;
@@ -82,16 +82,16 @@ void drop_placeholders(std::vector<Edge>& closures) {
 void keep_listed(std::vector<Edge>& closures,
                  const std::vector<std::int64_t>& ids,
                  const std::filesystem::path& list) {
-  struct Listed {
+  struct ListEntry {
     std::size_t line;
     bool found;
   };
-  std::map<std::pair<std::int64_t, std::int64_t>, Listed> listed;
+  std::map<std::pair<std::int64_t, std::int64_t>, ListEntry> listed;
   TextFile file(list);
   for (Line line; file.next(line);) {
     const std::size_t count = count_columns(file, line);
     if (count != 2) {
-      throw file.error(line.number, fmt::format("has {} columns, expected two ids", count));
+      throw file.error(line.number, fmt::format("has {} columns, expected 2: id id", count));
     }
     Columns columns(file, line);
     const std::int64_t a = columns.integer("id");
@@ -106,8 +106,10 @@ void keep_listed(std::vector<Edge>& closures,
   });
   for (const auto& [pair, entry] : listed) {
     if (entry.found) continue;
-    throw file.error(entry.line,
-                     fmt::format("the graph has no closure {} {}", pair.first, pair.second));
+    throw file.error(
+        entry.line,
+        fmt::format(
+            "the graph has no closure {} {}, expected ids of a closure", pair.first, pair.second));
   }
 }
 

@@ -1,4 +1,4 @@
-/// A pose graph told apart into the odometry chain and what closes it.
+/// Separation of a pose graph into odometry and loop closures.
 #pragma once
 
 #include <filesystem>
@@ -10,39 +10,41 @@
 
 namespace loopbench {
 
-/// Edges name poses by index, as in PoseGraph.
+/// Edges refer to poses by index, as in PoseGraph.
 struct GraphParts {
-  std::vector<Edge> odometry;  ///< each joins a pose and the next, ascending; some may be missing
-  std::vector<Edge> closures;  ///< the others, in file order; a second edge i, i + 1 too
+  std::vector<Edge> odometry;  ///< edges i, i + 1, ascending; some may be missing
+  std::vector<Edge>
+      closures;  ///< all other edges, in file order, including repeated edges i, i + 1
 };
 
-/// Throws InputError `file:line` when an edge's information is not positive definite or it joins a
-/// pose to itself. O(edges).
+/// Separates the edges. Throws InputError `file:line: what` if the information of an edge is not
+/// positive definite or if an edge connects a pose to itself. O(edges).
 GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file);
 
-/// Throws InputError naming the ids when the chain has a gap, and `why` that matters.
+/// Throws InputError with the ids if an edge between consecutive poses is missing. `why` states the
+/// condition under which it is required.
 void refuse_gap(const GraphParts& parts,
                 const PoseGraph& graph,
                 const std::filesystem::path& file,
                 const std::string& why);
 
-/// stamp = id * period [s].
+/// Stamps of all vertices: id * period [s].
 std::vector<double> stamps_of(const PoseGraph& graph, double period);
 
-/// The vertices, or else the chained odometry: see chain().
+/// The vertices of the graph, or the composed odometry (see chain()) if it has none.
 Trajectory initial_poses(const PoseGraph& graph, double period);
 
-/// Drops edges measured as exactly nothing moved: robust_slam writes these for loops that its
-/// detector proposed and nobody measured.
+/// Drops edges with exactly the identity as measurement. robust_slam writes these for loops that
+/// were detected but not measured.
 void drop_placeholders(std::vector<Edge>& closures);
 
-/// Keeps those listed in `list`, a line `id id` each in either order. Throws InputError
-/// `list:line` for anything else, and for a pair the graph does not have.
+/// Keeps the closures listed in the file `list`, one per line as `id id` in either order. Throws
+/// InputError `list:line: what` for an invalid line and for a pair without a closure in the graph.
 void keep_listed(std::vector<Edge>& closures,
                  const std::vector<std::int64_t>& ids,
                  const std::filesystem::path& list);
 
-/// At most `max` well-spread closures; 0 keeps all. Time stands for place: see spread().
+/// Subsamples at most `max` closures, evenly over time (see spread()); 0 keeps all.
 void keep_spread(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max);
 
 }  // namespace loopbench

@@ -8,15 +8,18 @@
 namespace loopbench {
 namespace {
 
-constexpr double kSameStamp = 1e-3;  // [s]; text stamps are rounded, frames are 16 ms or more apart
+constexpr double kSameStamp =
+    1e-3;  // [s]; stamps in text are rounded, frames are at least 16 ms apart
 
-OptionError wrong(const KeyframeChoice& choice, const std::string& wanted) {
-  return {"keyframes.value", "keyframes.value = " + to_text(choice.value) + ": expected " + wanted};
+OptionError invalid_value(const KeyframeChoice& choice, const std::string& expected) {
+  return {"keyframes.value",
+          "keyframes.value = " + to_text(choice.value) + ": expected " + expected};
 }
 
-std::size_t whole_number(const KeyframeChoice& choice, double low, const std::string& wanted) {
+std::size_t whole_number(const KeyframeChoice& choice, double low, const std::string& expected) {
   const double value = choice.value;
-  if (!(value >= low && value <= 1e9) || value != std::floor(value)) throw wrong(choice, wanted);
+  if (!(value >= low && value <= 1e9) || value != std::floor(value))
+    throw invalid_value(choice, expected);
   return static_cast<std::size_t>(value);
 }
 
@@ -34,12 +37,12 @@ std::vector<std::size_t> evenly(std::size_t size, std::size_t count) {
   return kept;
 }
 
-/// Walks on until `distance` from the last kept pose is at least `least`.
+/// Keeps each pose whose `distance` from the last kept pose is at least `minimum`.
 template <class Distance>
-std::vector<std::size_t> apart(const Trajectory& poses, double least, Distance distance) {
+std::vector<std::size_t> by_distance(const Trajectory& poses, double minimum, Distance distance) {
   std::vector<std::size_t> kept = {0};
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    if (distance(poses[kept.back()], poses[i]) >= least) kept.push_back(i);
+    if (distance(poses[kept.back()], poses[i]) >= minimum) kept.push_back(i);
   }
   return kept;
 }
@@ -58,21 +61,22 @@ std::vector<std::size_t> choose_keyframes(const Trajectory& poses, const Keyfram
     case KeyframeRule::count: {
       const std::size_t count = whole_number(choice, 2, "a whole number of keyframes, 2 or more");
       if (count > poses.size()) {
-        throw wrong(choice,
-                    "at most the " + std::to_string(poses.size()) + " poses of the estimate");
+        throw invalid_value(
+            choice, "at most the " + std::to_string(poses.size()) + " poses of the estimate");
       }
       return evenly(poses.size(), count);
     }
     case KeyframeRule::seconds:
-      if (!(choice.value > 0.0)) throw wrong(choice, "more than 0 seconds");
-      // Stamps 0.1 s apart are 0.09999 apart in double; a microsecond forgives them.
-      kept = apart(poses, choice.value - 1e-6, [](const StampedPose& a, const StampedPose& b) {
-        return b.stamp - a.stamp;
-      });
+      if (!(choice.value > 0.0)) throw invalid_value(choice, "more than 0 seconds");
+      // The tolerance of 1 us covers the rounding of stamp differences.
+      kept =
+          by_distance(poses, choice.value - 1e-6, [](const StampedPose& a, const StampedPose& b) {
+            return b.stamp - a.stamp;
+          });
       break;
     case KeyframeRule::metres:
-      if (!(choice.value > 0.0)) throw wrong(choice, "more than 0 metres");
-      kept = apart(poses, choice.value, [](const StampedPose& a, const StampedPose& b) {
+      if (!(choice.value > 0.0)) throw invalid_value(choice, "more than 0 metres");
+      kept = by_distance(poses, choice.value, [](const StampedPose& a, const StampedPose& b) {
         return (b.world_from_body.translation - a.world_from_body.translation).norm();
       });
       break;

@@ -1,4 +1,4 @@
-/// Which poses of an estimate are its keyframes, and what becomes of the others.
+/// Selection of keyframes from the poses of an estimate.
 #pragma once
 
 #include <array>
@@ -21,24 +21,25 @@ inline auto choices(KeyframeRule) {
 
 struct KeyframeChoice {
   KeyframeRule rule = KeyframeRule::all;
-  double value = 1.0;  ///< k poses | at least [s] apart | at least [m] apart | how many
+  double value = 1.0;  ///< interval [poses], minimum spacing [s] or [m], or number of keyframes
 };
 
-/// Ascending indices; first and last pose are always among them, so the last one may be nearer
-/// than the rule asks. `metres` measures the straight line from the keyframe before. `count` is
-/// even in pose index. Throws OptionError when the value does not fit the rule or the poses. O(n).
+/// Returns ascending indices of the keyframes. The first and the last pose are always selected, so
+/// the last spacing may be smaller than required. `metres` uses the Euclidean distance to the
+/// previous keyframe. `count` distributes keyframes evenly by pose index. Throws OptionError if the
+/// value is invalid for the rule or the number of poses. O(n).
 std::vector<std::size_t> choose_keyframes(const Trajectory& poses, const KeyframeChoice& choice);
 
 struct KeyframeSplit {
   Trajectory keyframes;
-  Trajectory frames;  ///< the rest
+  Trajectory frames;  ///< all other poses
 };
 
-/// `kept` ascending and unique.
+/// Separates poses into keyframes and frames. `kept` holds ascending unique indices. O(n).
 KeyframeSplit split(const Trajectory& poses, const std::vector<std::size_t>& kept);
 
-/// Those frames of a run that lie between its first and last keyframe and are no keyframe
-/// themselves (no stamp within a millisecond: cameras are slower). O(n + m).
+/// Returns the frames between the first and the last keyframe that are not keyframes, i.e. differ
+/// by more than 1 ms from all keyframe stamps. O(n + m).
 Trajectory frames_between(const Trajectory& keyframes, const Trajectory& frames);
 
 }  // namespace loopbench

@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-constexpr double kStampRounding = 1e-6;  // [s]; printed stamps, and differences of large ones
+constexpr double kStampRounding = 1e-6;  // [s]; rounding of printed stamps and of their differences
 
 }  // namespace
 
@@ -17,15 +17,15 @@ std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, doub
   const auto after = std::lower_bound(
       run.begin(), run.end(), time, [](const StampedPose& p, double t) { return p.stamp < t; });
   std::optional<std::size_t> best;
-  double least = max_diff;
-  const auto offer = [&](Trajectory::const_iterator pose) {
+  double best_difference = max_diff;
+  const auto compare = [&](Trajectory::const_iterator pose) {
     const double difference = std::abs(pose->stamp - time);
-    if (difference > least || (best && difference == least)) return;
-    least = difference;
+    if (difference > best_difference || (best && difference == best_difference)) return;
+    best_difference = difference;
     best = static_cast<std::size_t>(pose - run.begin());
   };
-  if (after != run.begin()) offer(after - 1);
-  if (after != run.end()) offer(after);
+  if (after != run.begin()) compare(after - 1);
+  if (after != run.end()) compare(after);
   return best;
 }
 

@@ -1,4 +1,4 @@
-/// Where a run was at given times, and where it does not know.
+/// Poses of a run at given times, where available.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 namespace loopbench {
 
 struct Reach {
-  double max_gap = 0.2;    ///< interpolate only between poses at most this far apart [s]
-  double max_diff = 0.02;  ///< else take the nearest pose at most this far away [s]
+  double max_gap = 0.2;    ///< maximum time between interpolated poses [s]
+  double max_diff = 0.02;  ///< otherwise, maximum time difference to the nearest pose [s]
 };
 
-/// One answer per time (ascending or not). Straight line and SLERP between neighbours. Sorted
-/// times cost O(n + m).
+/// Returns one pose per time, interpolated linearly with SLERP between neighbours, or the nearest
+/// pose, or nothing if both are too far away. Times may be in any order. O(n + m) for sorted times.
 std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
                                           const std::vector<double>& times,
                                           const Reach& reach);
 
-/// Index of the pose nearest in time, if at most `max_diff` [s] away. O(log n).
+/// Returns the index of the nearest pose in time, if it is at most `max_diff` [s] away. O(log n).
 std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, double max_diff);
 
 }  // namespace loopbench

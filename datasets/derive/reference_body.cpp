@@ -5,14 +5,14 @@
 namespace loopbench {
 namespace {
 
-constexpr double kUnit = 1e-2;  // as in files
+constexpr double kNormTolerance = 1e-2;  // the same as for quaternions in files
 
 }  // namespace
 
 Pose pose_of(const ReferenceBody& body) {
   const Pose out{{body.qw, body.qx, body.qy, body.qz}, {body.x, body.y, body.z}};
   const double norm = out.rotation.norm();
-  if (!(std::abs(norm - 1.0) <= kUnit)) {
+  if (!(std::abs(norm - 1.0) <= kNormTolerance)) {
     throw OptionError("reference_body.qw",
                       "reference_body: qx, qy, qz, qw have norm " + to_text(norm) +
                           ", expected a unit quaternion");

@@ -1,4 +1,5 @@
-/// A reference that follows another body than the estimate: a marker, an IMU, another camera.
+/// Extrinsic offset of a reference whose poses are of another body than the estimate's: a marker,
+/// an IMU or another camera.
 #pragma once
 
 #include "datasets/core/fields.hpp"
@@ -6,8 +7,8 @@
 
 namespace loopbench {
 
-/// body_from_reference: where the reference's body sits in the estimate's, in the order of TUM's
-/// files. All zero, and one: the same body.
+/// Extrinsic offset body_from_reference: pose of the reference's body in the frame of the
+/// estimate's body, in the order of TUM files. The default is the identity (same body).
 struct ReferenceBody {
   double x = 0.0;  ///< [m]
   double y = 0.0;
@@ -21,25 +22,37 @@ struct ReferenceBody {
 template <class Visit>
 void reference_body_fields(ReferenceBody& o, Visit visit) {
   const Between unit{-1.0, 1.0};
-  visit(
-      "reference_body.x", o.x, "of the reference's body in the estimate's [m]", Between{-1e6, 1e6});
-  visit("reference_body.y", o.y, "likewise [m]", Between{-1e6, 1e6});
-  visit("reference_body.z", o.z, "likewise [m]", Between{-1e6, 1e6});
-  visit("reference_body.qx", o.qx, "how it is turned there: a unit quaternion [-]", unit);
-  visit("reference_body.qy", o.qy, "likewise [-]", unit);
-  visit("reference_body.qz", o.qz, "likewise [-]", unit);
-  visit("reference_body.qw", o.qw, "likewise [-]", unit);
+  visit("reference_body.x",
+        o.x,
+        "x of the reference's body in the frame of the estimate's body [m]",
+        Between{-1e6, 1e6});
+  visit("reference_body.y",
+        o.y,
+        "y of the reference's body in the frame of the estimate's body [m]",
+        Between{-1e6, 1e6});
+  visit("reference_body.z",
+        o.z,
+        "z of the reference's body in the frame of the estimate's body [m]",
+        Between{-1e6, 1e6});
+  visit("reference_body.qx",
+        o.qx,
+        "x of the unit quaternion of the reference's body in the frame of the estimate's body [-]",
+        unit);
+  visit("reference_body.qy", o.qy, "y of the unit quaternion, see reference_body.qx [-]", unit);
+  visit("reference_body.qz", o.qz, "z of the unit quaternion, see reference_body.qx [-]", unit);
+  visit("reference_body.qw", o.qw, "w of the unit quaternion, see reference_body.qx [-]", unit);
 }
 
-/// body_from_reference. Throws OptionError when the quaternion is off unit by more than 0.01.
+/// Returns body_from_reference. Throws OptionError if the norm of the quaternion differs from 1 by
+/// more than 0.01.
 Pose pose_of(const ReferenceBody& body);
 
-/// Not at the estimate's body itself.
+/// Whether the offset is not the identity.
 bool is_elsewhere(const ReferenceBody& body);
 
-/// The reference as the estimate's body would have gone, world_from_reference *
-/// body_from_reference^-1; to the bit what it was when they are the same body. Throws as pose_of.
-/// O(n).
+/// Converts the reference to poses of the estimate's body: world_from_reference *
+/// body_from_reference^-1. The reference is returned unchanged if the offset is the identity.
+/// Throws OptionError like pose_of(). O(n).
 Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Vertices for a pose graph that has only edges.
+/// Initial poses for a pose graph without VERTEX lines.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace loopbench {
 
-/// One pose per id by chaining the edges that join neighbours in `ids`, the first at the origin.
-/// Where two edges join the same neighbours the first in the file counts. Scales of a similarity
-/// graph are carried along: the result is in the first vertex's unit.
-/// Throws InputError, `name: ...` with the ids, when neighbours have no edge. O(edges + ids).
+/// Returns one pose per id, composed from the edges between consecutive ids; the first pose is the
+/// identity. If several edges connect the same vertices, the first in the file is used.
+/// Translations of a similarity graph are converted to the scale of the first vertex. Throws
+/// InputError (`name: ...` with the ids) if consecutive ids have no edge. O(edges + ids).
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name = "pose graph");
 
 }  // namespace loopbench

@@ -7,25 +7,24 @@
 namespace loopbench {
 
 InputError Columns::refusal(const char* what, const std::string& why) const {
-  // A file may hold one endless line; a message must not.
-  constexpr std::size_t kLongest = 40;
-  const std::string_view all = peek();
-  const char* const cut = all.size() > kLongest ? "..." : "";
-  // A tag where a number was due: the whole file is another one.
+  constexpr std::size_t kMaxShown = 40;
+  const std::string_view column = peek();
+  const char* const ellipsis = column.size() > kMaxShown ? "..." : "";
+  // A tag in place of a number means that the file has another format.
   const bool tag = index_ == 0 && guess(file_, line_) == Format::g2o;
   return file_.error(line_.number,
                      fmt::format("column {} ({}): '{}{}' {}{}",
                                  index_ + 1,
                                  what,
-                                 all.substr(0, kLongest),
-                                 cut,
+                                 column.substr(0, kMaxShown),
+                                 ellipsis,
                                  why,
                                  tag ? " (looks like g2o)" : ""));
 }
 
 void Columns::refuse_number(const char* what, std::errc error, const char* stop) const {
   if (error == std::errc::result_out_of_range && ends_column(stop)) {
-    throw refusal(what, "is beyond the range of a double");
+    throw refusal(what, "is out of the range of a double");
   }
   if (error == std::errc{} && ends_column(stop) && peek().substr(0, 2) != "+-") {
     throw refusal(what, "is not finite, expected a number");
@@ -35,7 +34,7 @@ void Columns::refuse_number(const char* what, std::errc error, const char* stop)
 
 void Columns::refuse_integer(const char* what, std::errc error, const char* stop) const {
   if (error == std::errc::result_out_of_range && ends_column(stop)) {
-    throw refusal(what, "is beyond the range of a 64-bit whole number");
+    throw refusal(what, "is out of the range of a 64-bit whole number");
   }
   throw refusal(what, "is not a whole number");
 }

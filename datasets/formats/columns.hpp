@@ -1,4 +1,4 @@
-/// Walks the columns of one line: numbers are parsed in place, nothing is copied.
+/// Parser for the columns of one line, without copies.
 #pragma once
 
 #include <charconv>
@@ -24,26 +24,26 @@ class Columns {
   bool done() const { return at_ == end_; }
   std::size_t index() const { return index_; }  ///< columns read so far
 
-  /// The next column as text; empty when there is none.
+  /// Returns the next column as text; empty at the end of the line.
   std::string_view word() {
     const std::string_view out = peek();
     advance(at_ + out.size());
     return out;
   }
 
-  /// The next column as a finite number. `what` names it in the refusal.
+  /// Returns the next column as a finite number. Throws InputError with the column name `what`.
   double number(const char* what) {
     double value = 0.0;
     const char* const first = at_ + (at_ != end_ && *at_ == '+' ? 1 : 0);
     const auto [stop, error] = std::from_chars(first, end_, value);
     const bool signed_twice = first != at_ && first != end_ && *first == '-';
-    const bool good = error == std::errc{} && ends_column(stop) && !signed_twice;
-    if (!good || !std::isfinite(value)) refuse_number(what, error, stop);
+    const bool valid = error == std::errc{} && ends_column(stop) && !signed_twice;
+    if (!valid || !std::isfinite(value)) refuse_number(what, error, stop);
     advance(stop);
     return value;
   }
 
-  /// The next column as a whole number of 64 bits.
+  /// Returns the next column as a 64-bit integer. Throws InputError with the column name `what`.
   std::int64_t integer(const char* what) {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(at_, end_, value);
@@ -52,7 +52,7 @@ class Columns {
     return value;
   }
 
-  /// The next column without moving on.
+  /// Returns the next column without advancing.
   std::string_view peek() const {
     const char* stop = at_;
     while (!ends_column(stop)) ++stop;
@@ -84,11 +84,11 @@ class Columns {
   std::size_t index_ = 0;
 };
 
-/// How many columns a line has.
+/// Returns the number of columns of a line.
 std::size_t count_columns(const TextFile& file, const Line& line);
 
-/// "has 7 columns, expected `expected`", with a word on truncation, or on the format it looks like
-/// when that is not the one being read.
+/// Error "has 7 columns, expected `expected`", with a hint if the line is truncated or looks like
+/// another format than `reading`.
 InputError wrong_columns(const TextFile& file,
                          const Line& line,
                          Format reading,

@@ -13,8 +13,8 @@ constexpr std::array kEurocColumns{"px", "py", "pz", "qw", "qx", "qy", "qz"};
 
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kPerSecond = 1'000'000'000;
-  const std::int64_t whole = nanoseconds / kPerSecond;
-  return static_cast<double>(whole) +
+  const std::int64_t seconds = nanoseconds / kPerSecond;
+  return static_cast<double>(seconds) +
          static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
 }
 

@@ -1,4 +1,4 @@
-/// EuRoC state csv: `timestamp [ns], p xyz [m], q wxyz, ...`, world_from_body.
+/// EuRoC state csv: `timestamp [ns], p xyz [m], q wxyz, ...` of world_from_body.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 
 namespace loopbench {
 
-/// Needs at least 8 columns, as many on every line; those past the attitude are not looked at.
-/// Source: EuRoC MAV dataset, ASL format. Throws InputError.
+/// Requires at least 8 columns and the same number on every line; columns after the quaternion are
+/// ignored. Throws InputError. Source: EuRoC MAV dataset, ASL format.
 Trajectory read_euroc(TextFile& file, const ReadOptions& options);
 
-/// [s]. Whole seconds apart from the rest, because nanoseconds since 1970 do not fit 53 bits.
+/// Converts to [s]. Seconds and remainder are converted separately, because nanoseconds since 1970
+/// exceed 53 bits.
 double seconds_of(std::int64_t nanoseconds);
 
 }  // namespace loopbench

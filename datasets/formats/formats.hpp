@@ -1,4 +1,4 @@
-/// Reading and writing trajectory files: strict, and each refusal names file, line and rule.
+/// Reading and writing of trajectory files. Errors state the file, the line and the violated rule.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace loopbench {
 
-/// `automatic` recognises the format by content, never by extension. Stamps of tum are seconds, or
-/// nanoseconds where they are 1e16 or more, or where the first two are whole numbers at least 1e5
-/// apart (clocks of simulators start at 0).
+/// `automatic` detects the format from the content, not from the file extension. Stamps of tum are
+/// seconds, or nanoseconds if they are 1e16 or more or if the first two are whole numbers at least
+/// 1e5 apart (clocks of simulators start at 0).
 enum class Format { automatic, tum, kitti, euroc, g2o };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},
@@ -24,9 +24,9 @@ inline auto choices(Format) {
                     std::pair{"g2o", Format::g2o}};
 }
 
-/// What to do with a pose whose stamp equals the one before it, which some published files hold:
-/// TUM's and evo's own readers keep the last.
-/// Stamps that go back are always refused, and so are repeats in a times file.
+/// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
+/// readers of TUM and evo keep the last. Decreasing stamps, and repeated stamps in a times file,
+/// are always rejected.
 enum class Repeats { refuse, keep_first, keep_last };
 inline auto choices(Repeats) {
   return std::array{std::pair{"refuse", Repeats::refuse},
@@ -34,37 +34,40 @@ inline auto choices(Repeats) {
                     std::pair{"keep_last", Repeats::keep_last}};
 }
 
-/// What a reader mended silently, of tum and euroc.
+/// Corrections made by the readers of tum and euroc.
 struct ReadFindings {
-  double off_unit = 0.0;     ///< largest | |q| - 1 | before normalising
-  std::size_t repeated = 0;  ///< poses left out for another of the same stamp
+  double off_unit = 0.0;     ///< maximum | |q| - 1 | before normalisation
+  std::size_t repeated = 0;  ///< poses dropped because of a repeated stamp
 };
 
 struct ReadOptions {
   Format format = Format::automatic;
-  /// Seconds, one per line, for KITTI poses; without it KITTI and g2o poses are `period` apart.
+  /// Times file for KITTI poses, one time per line [s]. Without it stamps are multiples of
+  /// `period`.
   std::optional<std::filesystem::path> times;
-  double period = 0.1;  ///< [s], KITTI's 10 Hz
+  double period = 0.1;  ///< between poses of KITTI and consecutive ids of g2o [s]
   Repeats repeats = Repeats::refuse;
-  ReadFindings* findings = nullptr;  ///< filled when given
+  ReadFindings* findings = nullptr;  ///< written unless null
 };
 
-/// A trajectory from any known format. For g2o: its vertices, or its consecutive edges chained when
-/// it has none; stamp = id * period. Quaternions within 1e-2 of unit length are normalised.
-/// Throws InputError `file:line: what and what was expected`. O(n).
+/// Reads a trajectory in any known format. For g2o these are the vertices, or the composed edges of
+/// a file without vertices, with stamp = id * period. Quaternions within 1e-2 of unit norm are
+/// normalised. Throws InputError `file:line: what was found, what was expected`. O(n).
 Trajectory read_trajectory(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// The format a file's content shows, or InputError.
+/// Detects the format from the content. Throws InputError if it is unknown.
 Format recognise(const std::filesystem::path& file);
 
-/// Writers print every double so that it reads back as the same bits; `comments` become `# ` lines
-/// on top. They throw InputError for a file that cannot be written and for a broken trajectory.
+/// Writes a TUM file. Doubles are printed so that reading them is bit-identical; `comments` become
+/// `# ` lines at the top. Throws InputError for an invalid trajectory and if the file cannot be
+/// written.
 void write_tum(const std::filesystem::path& file,
                const Trajectory& trajectory,
                const std::vector<std::string>& comments = {});
 
-/// 12 columns a pose; stamps go to `times`, one a line, when it is given. Rotations travel as
-/// matrices, so they read back to rounding (1e-15), not to the bit.
+/// Writes a KITTI file with 12 columns per pose, and the stamps to `times`, one per line, if given.
+/// Rotations are written as matrices, so reading them is exact to rounding (1e-15) only. Throws
+/// InputError like write_tum().
 void write_kitti(const std::filesystem::path& file,
                  const Trajectory& trajectory,
                  const std::optional<std::filesystem::path>& times = std::nullopt);

@@ -1,4 +1,4 @@
-/// Pose graphs in g2o text: SE2, SE3:QUAT, RST3 (Sim(3) chains) and TORO's EDGE3.
+/// Pose graphs in g2o text format: SE2, SE3:QUAT, RST3:QUAT (Sim(3)) and TORO's EDGE3.
 #pragma once
 
 #include <cstdint>
@@ -9,41 +9,44 @@
 
 namespace loopbench {
 
-/// Edges name vertices by their index in `ids`, not by id. from < to always: an edge written the
-/// other way round is inverted and its information carried along by the adjoint.
+/// Edges refer to vertices by their index in `ids`, not by id. from < to always: other edges are
+/// inverted on reading, and their information is transformed by the adjoint.
 struct PoseGraph {
   std::vector<std::int64_t> ids;   ///< ascending
-  std::vector<Pose> vertices;      ///< one per id; empty when the file has no VERTEX lines
+  std::vector<Pose> vertices;      ///< one per id; empty if the file has no VERTEX lines
   std::vector<Edge> edges;         ///< in file order; information in twist order [rho; phi]
-  std::vector<std::size_t> lines;  ///< line of each edge, for messages
+  std::vector<std::size_t> lines;  ///< line number of each edge, for error messages
   bool planar = false;             ///< SE2 lines, lifted to z = roll = pitch = 0
-  bool similarity = false;         ///< RST3 lines; edge.scale is then meaningful
+  bool similarity = false;         ///< RST3 lines, with edge.scale
 };
 
-/// What the rotation part of a :QUAT edge's information is about. g2o minimises the quaternion's
-/// vector part, half angles; GTSAM, SE-Sync and the papers that use them take the same numbers for
-/// angles, four times as sure.
+/// Convention of the rotation block of the information of :QUAT edges. g2o minimises the vector
+/// part of the quaternion (half angles). GTSAM and SE-Sync, and papers that use them, interpret the
+/// same numbers as information of angles, which is four times larger.
 enum class TurnInformation { half_angles, angles };
 
-/// How each kind of line is read (g2o's wiki and sources; TORO; COP-SLAM):
-/// - information of :QUAT edges is stored for the quaternion's vector part (half angles) and is
-///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (unless told that it
-///   is about angles);
-/// - SE2 is lifted: x, y, yaw from the file, z, roll, pitch with a positive diagonal of their own,
-///   which a planar problem never feels;
-/// - VERTEX3, EDGE3 hold x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll), information in
-///   that order, taken as that of the twist. sphere2500.g2o agrees with its EDGE3 original; iSAM,
-///   though, writes square roots of information there, which no reader can tell;
-/// - the scale column of RST3 edges is the length unit of the first id over that of the second, the
-///   other way round than edge.scale; vertices' scales are checked and not kept;
-/// - FIX and # lines are passed over; any other tag is refused.
+/// Reads a g2o file. Conventions (g2o wiki and sources; TORO; COP-SLAM):
+/// - Information of :QUAT edges refers to the vector part of the quaternion (half angles) and is
+///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (except for
+///   TurnInformation::angles).
+/// - SE2 is lifted to SE(3): x, y, yaw are from the file; z, roll, pitch get positive diagonal
+///   information, which does not affect the solution of a planar problem.
+/// - VERTEX3 and EDGE3 contain x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll) and
+/// information
+///   in that order, used as information of the twist. sphere2500.g2o agrees with its EDGE3
+///   original. iSAM writes square roots of information in the same format, which cannot be
+///   detected.
+/// - The scale column of RST3 edges is the inverse of edge.scale. Scales of vertices are checked
+/// and
+///   discarded.
+/// - FIX lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file,
                    TurnInformation turns = TurnInformation::half_angles);
 
-/// Writes vertices and edges so that read_g2o returns them: SE2 lines when `planar`, RST3 when
-/// `similarity`, else SE3:QUAT. Yaw angles and scales come back to rounding, the rest to the bit.
-/// Throws InputError when the file cannot be written.
+/// Writes vertices and edges as SE2 lines if `planar`, as RST3 if `similarity`, else as SE3:QUAT.
+/// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws
+/// InputError if the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
 
 }  // namespace loopbench

@@ -1,12 +1,13 @@
-/// Information matrices between g2o's error vectors and the twists used everywhere else.
+/// Conversion of information matrices between g2o's error vectors and twists.
 #pragma once
 
 #include "datasets/core/se3.hpp"
 
 namespace loopbench {
 
-/// g2o's error of a measured Z is the vector [t; q_xyz] of Delta = Z^-1 Xi^-1 Xj with q_w >= 0, so
-/// near zero q_xyz = phi / 2 and t = rho: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2.
+/// g2o's error of a measurement Z is the vector [t; q_xyz] of Delta = Z^-1 Xi^-1 Xj with q_w >= 0.
+/// Near zero q_xyz = phi / 2 and t = rho, so
+/// Omega_phi = Omega_q / 4 and Omega_t,phi = Omega_tq / 2.
 inline Matrix6 from_half_angles(const Matrix6& half) {
   Matrix6 out = half;
   out.topRightCorner<3, 3>() *= 0.5;
@@ -23,12 +24,13 @@ inline Matrix6 to_half_angles(const Matrix6& twist_information) {
   return out;
 }
 
-/// Where x, y and yaw stand in a twist.
+/// Indices of x, y and yaw in a twist.
 inline constexpr int kPlanarAxes[] = {0, 1, 5};
 
-/// (x, y, yaw) into a twist. Out of the plane: z as sure as x and y on average, roll and pitch as
-/// sure as yaw. Any positive numbers would do: planar poses and measurements leave z, roll and
-/// pitch residuals exactly zero, and the adjoint of a planar motion never mixes them with the rest.
+/// Lifts information of (x, y, yaw) to a twist. z gets the mean information of x and y; roll and
+/// pitch get that of yaw. These values do not affect the solution: z, roll and pitch residuals of
+/// planar poses are exactly zero, and the adjoint of a planar motion does not mix them with the
+/// others.
 inline Matrix6 lift_planar(const Matrix3& planar) {
   Matrix6 out = Matrix6::Zero();
   out(2, 2) = 0.5 * (planar(0, 0) + planar(1, 1));
@@ -47,8 +49,8 @@ inline Matrix3 in_plane(const Matrix6& lifted) {
   return out;
 }
 
-/// Information of the inverse measurement. (Z exp(e))^-1 = Z^-1 exp(-Ad(Z) e), so with
-/// e = -Ad(Z^-1) e' the quadratic form stays the same number.
+/// Information of the inverse measurement: (Z exp(e))^-1 = Z^-1 exp(-Ad(Z) e), so e = -Ad(Z^-1) e'
+/// leaves the quadratic form unchanged.
 inline Matrix6 information_of_inverse(const Pose& a_from_b, const Matrix6& information) {
   const Matrix6 A = adjoint(a_from_b.inverse());
   const Matrix6 out = A.transpose() * information * A;

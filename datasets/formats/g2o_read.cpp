@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-void place_vertices(const TextFile& file, std::vector<VertexRecord> vertices, PoseGraph& out) {
+void sort_vertices(const TextFile& file, std::vector<VertexRecord> vertices, PoseGraph& out) {
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   if (!std::is_sorted(vertices.begin(), vertices.end(), by_id)) {
     std::stable_sort(vertices.begin(), vertices.end(), by_id);
@@ -20,7 +20,7 @@ void place_vertices(const TextFile& file, std::vector<VertexRecord> vertices, Po
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i > 0 && vertices[i].id == vertices[i - 1].id) {
       throw file.error(vertices[i].line,
-                       "vertex " + std::to_string(vertices[i].id) + " is already on line " +
+                       "vertex " + std::to_string(vertices[i].id) + " is already defined on line " +
                            std::to_string(vertices[i - 1].line));
     }
     out.ids.push_back(vertices[i].id);
@@ -45,24 +45,23 @@ std::size_t index_of(const TextFile& file,
   const auto found = std::lower_bound(graph.ids.begin(), graph.ids.end(), id);
   if (found == graph.ids.end() || *found != id) {
     throw file.error(line,
-                     "edge names vertex " + std::to_string(id) +
-                         ", which has no VERTEX line, though others have");
+                     "edge refers to vertex " + std::to_string(id) + ", which has no VERTEX line");
   }
   return static_cast<std::size_t>(found - graph.ids.begin());
 }
 
-/// Makes the edge lead from the smaller index to the larger. Translations of a similarity edge keep
-/// their unit, as COP-SLAM, where these files come from, keeps it.
-void turn_round(const TextFile& file, std::size_t line, Edge& edge) {
+/// Inverts an edge, so that `from` is the smaller index. Translations of a similarity edge keep
+/// their scale, as in COP-SLAM, the source of these files.
+void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
   std::swap(edge.from, edge.to);
   edge.information = information_of_inverse(edge.from_from_to, edge.information);
   edge.from_from_to = edge.from_from_to.inverse();
   edge.scale = 1.0 / edge.scale;
-  const bool is_sound = is_finite(edge.from_from_to) && std::isfinite(edge.scale) &&
+  const bool is_valid = is_finite(edge.from_from_to) && std::isfinite(edge.scale) &&
                         edge.information.allFinite() &&
                         edge.information.llt().info() == Eigen::Success;
-  if (!is_sound) {
-    throw file.error(line, "information is not positive definite once the edge is turned round");
+  if (!is_valid) {
+    throw file.error(line, "information is not positive definite after inversion of the edge");
   }
 }
 
@@ -77,7 +76,7 @@ PoseGraph read_g2o(const std::filesystem::path& path, TurnInformation turns) {
   if (records.vertices.empty()) {
     ids_of_edges(records.ends, out);
   } else {
-    place_vertices(file, std::move(records.vertices), out);
+    sort_vertices(file, std::move(records.vertices), out);
   }
   out.edges = std::move(records.edges);
   out.lines.reserve(out.edges.size());
@@ -86,7 +85,7 @@ PoseGraph read_g2o(const std::filesystem::path& path, TurnInformation turns) {
     const EdgeEnds& ends = records.ends[i];
     edge.from = index_of(file, out, ends.from, ends.line);
     edge.to = index_of(file, out, ends.to, ends.line);
-    if (edge.from > edge.to) turn_round(file, ends.line, edge);
+    if (edge.from > edge.to) invert_edge(file, ends.line, edge);
     out.lines.push_back(ends.line);
   }
   return out;

@@ -20,7 +20,7 @@ struct Tag {
   bool is_edge;
   GraphKind kind;
   Layout pose;
-  const char* columns;  ///< for messages
+  const char* columns;  ///< for error messages
 };
 
 constexpr std::array kTags{
@@ -72,7 +72,7 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
                                                          : std::string()));
 }
 
-/// One line being read: every missing column is a refusal that says what the tag needs.
+/// Parser for one line. Throws InputError with the columns required by the tag if one is missing.
 class Record {
  public:
   Record(const TextFile& file, const Line& line, const Tag& tag, TurnInformation turns)
@@ -96,7 +96,7 @@ class Record {
     if (!done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
   }
 
-  /// Position and attitude, and the scale where there is one.
+  /// Parses position and rotation, and `scale` if the tag has one.
   Pose pose(double& scale) {
     Pose out;
     out.translation.x() = number("x");
@@ -125,13 +125,14 @@ class Record {
         throw file_.error(line_.number, "scale is " + to_text(scale) + ", expected scale > 0");
       }
       if (!std::isfinite(1.0 / scale)) {
-        throw file_.error(line_.number, "scale is " + to_text(scale) + ", too small to divide by");
+        throw file_.error(line_.number,
+                          "scale is " + to_text(scale) + ", too small to be inverted");
       }
     }
     return out;
   }
 
-  /// The rest of the line, as information of a twist.
+  /// Parses the rest of the line as information of a twist.
   Matrix6 information() {
     switch (tag_.pose) {
       case Layout::se2:
@@ -156,7 +157,7 @@ class Record {
     if (done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
   }
 
-  /// The upper triangle row by row, checked.
+  /// Parses an upper triangle row by row. Throws InputError unless it is positive definite.
   template <int N>
   Eigen::Matrix<double, N, N> upper() {
     Eigen::Matrix<double, N, N> out;
@@ -180,8 +181,8 @@ class Record {
 VertexRecord read_vertex(Record record, const Line& line) {
   VertexRecord out;
   out.id = record.id("id");
-  double checked_only = 1.0;
-  out.world_from_body = record.pose(checked_only);
+  double unused_scale = 1.0;
+  out.world_from_body = record.pose(unused_scale);
   record.end();
   out.line = line.number;
   return out;
@@ -192,18 +193,19 @@ void read_edge(const TextFile& file, Record record, const Line& line, Records& o
   ends.from = record.id("i");
   ends.to = record.id("j");
   ends.line = line.number;
-  double from_unit_over_to = 1.0;
+  double inverse_scale = 1.0;
   Edge& edge = out.edges.emplace_back();
-  edge.from_from_to = record.pose(from_unit_over_to);
-  edge.scale = 1.0 / from_unit_over_to;
+  edge.from_from_to = record.pose(inverse_scale);
+  edge.scale = 1.0 / inverse_scale;
   edge.information = record.information();
   if (ends.from == ends.to) {
-    throw file.error(line.number, "edge joins vertex " + std::to_string(ends.from) + " to itself");
+    throw file.error(line.number,
+                     "edge connects vertex " + std::to_string(ends.from) + " to itself");
   }
   out.ends.push_back(ends);
 }
 
-/// Of a file or a part of one, and how many lines that has.
+/// Records of a part of a file, and its number of lines.
 struct Part {
   Records records;
   std::size_t lines = 0;
@@ -214,20 +216,21 @@ Part read_g2o_part(TextFile& file, TurnInformation turns) {
   Part part;
   Records& out = part.records;
   const Tag* first = nullptr;
-  std::size_t first_at = 0;
+  std::size_t first_line_number = 0;
   for (Line line; file.next(line);) {
     const std::string_view word = Columns(file, line).peek();
     if (word == "FIX") continue;
     const Tag& tag = find_tag(file, line, word);
     if (first == nullptr) {
       first = &tag;
-      first_at = line.number;
+      first_line_number = line.number;
       out.kind = tag.kind;
     }
     if (tag.kind != out.kind) {
       throw file.error(line.number,
-                       std::string(tag.word) + " in a file that began with " + first->word +
-                           " on line " + std::to_string(first_at) + ", expected one kind of pose");
+                       "found " + std::string(tag.word) + " in a file with " + first->word +
+                           " on line " + std::to_string(first_line_number) +
+                           ", expected one kind of pose");
     }
     const Record record(file, line, tag, turns);
     if (tag.is_edge) {
@@ -241,7 +244,7 @@ Part read_g2o_part(TextFile& file, TurnInformation turns) {
       out.vertices.push_back(read_vertex(record, line));
     }
   }
-  if (first == nullptr) throw file.error(0, "holds neither vertices nor edges");
+  if (first == nullptr) throw file.error(0, "contains no vertices and no edges");
   part.lines = file.lines();
   return part;
 }

@@ -1,4 +1,4 @@
-/// The lines of a g2o file, one by one, before they become a graph.
+/// Parsed lines of a g2o file, before they are converted to a PoseGraph.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace loopbench {
 
-/// What a file measures in; one file has one kind.
+/// Kind of poses of a file: SE(2), SE(3) or Sim(3). Files with several kinds are rejected.
 enum class GraphKind { planar, spatial, similarity };
 
 struct VertexRecord {
@@ -19,7 +19,7 @@ struct VertexRecord {
   std::size_t line = 0;
 };
 
-/// As written: `to` may come before `from`.
+/// Vertex ids as written in the file; `to` may be smaller than `from`.
 struct EdgeEnds {
   std::int64_t from = 0;
   std::int64_t to = 0;
@@ -30,12 +30,12 @@ struct Records {
   GraphKind kind = GraphKind::spatial;
   std::vector<VertexRecord> vertices;
   std::vector<EdgeEnds> ends;
-  std::vector<Edge> edges;  ///< one per `ends`; indices not set, information that of a twist
+  std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
 };
 
-/// Every VERTEX and EDGE line; FIX lines are passed over. Throws InputError: unknown tags, wrong
-/// columns, kinds mixed, quaternions not unit, scales not positive, information not positive
-/// definite, edges from a vertex to itself.
+/// Reads every VERTEX and EDGE line; FIX lines are skipped. Throws InputError for unknown tags, a
+/// wrong number of columns, mixed kinds, quaternions that are not unit, scales that are not
+/// positive, information that is not positive definite, and edges from a vertex to itself.
 Records read_records(TextFile& file, TurnInformation turns);
 
 }  // namespace loopbench

@@ -22,18 +22,20 @@ PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
   PoseMatrix out;
   out.matrix() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
   const Matrix3 R = out.linear();
-  const double off = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(off <= kTolerance)) {
+  const double deviation = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(deviation <= kTolerance)) {
     throw file.error(
-        line, fmt::format("rotation is off orthonormal by {:.3g}, expected at most 0.001", off));
+        line,
+        fmt::format("rotation deviates from orthonormal by {:.3g}, expected at most 0.001",
+                    deviation));
   }
   if (R.determinant() < 0.0) {
-    throw file.error(line, "rotation has determinant -1: a reflection, expected a rotation");
+    throw file.error(line, "determinant is -1 (a reflection), expected a rotation");
   }
   return out;
 }
 
-/// visit(matrix) of every line, in order.
+/// Calls visit(matrix) for every line, in order.
 template <class Visit>
 void each_row(TextFile& file, Visit visit) {
   Row v;
@@ -50,7 +52,7 @@ void each_row(TextFile& file, Visit visit) {
   }
 }
 
-/// Without stamps.
+/// Reads the poses of a part of a file; stamps are not set.
 Trajectory read_kitti_part(TextFile& file) {
   Trajectory out;
   out.reserve(file.lines_like(first_line(file)));
@@ -88,7 +90,7 @@ Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
     throw file.error(0,
                      "has " + std::to_string(out.size()) + " poses, but " +
                          options.times->string() + " has " + std::to_string(times.size()) +
-                         " times, expected as many");
+                         " times, expected equal numbers");
   }
   for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = times[i];
   return out;

@@ -1,4 +1,4 @@
-/// KITTI odometry poses: the upper 3 x 4 of world_from_camera, row by row, 12 columns.
+/// KITTI odometry poses: the upper 3 x 4 block of world_from_camera row by row, 12 columns.
 #pragma once
 
 #include "datasets/core/pose_matrix.hpp"
@@ -7,16 +7,15 @@
 
 namespace loopbench {
 
-/// Stamps come from options.times, else options.period apart from 0. Rotations must be orthonormal
-/// within 1e-3 and become the unit quaternion nearest to them. Source: KITTI odometry devkit.
-/// Throws InputError, also when poses and times differ in number.
+/// Reads poses. Stamps are read from options.times or, if it is not set, are multiples of
+/// options.period. Rotations must be orthonormal within 1e-3 and are converted to unit quaternions.
+/// Throws InputError, also if the numbers of poses and times differ. Source: KITTI odometry devkit.
 Trajectory read_kitti(TextFile& file, const ReadOptions& options);
 
-/// The matrices with the digits of the file, by the same rules and as many as read_kitti gives
-/// poses. Throws InputError. O(n).
+/// Reads the same poses as matrices with the digits of the file. Throws InputError. O(n).
 std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& file);
 
-/// Strictly increasing seconds, one a line. Throws InputError.
+/// Reads strictly increasing times [s], one per line. Throws InputError.
 std::vector<double> read_times(const std::filesystem::path& file);
 
 }  // namespace loopbench

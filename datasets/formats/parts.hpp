@@ -1,4 +1,4 @@
-/// Large files are read in parts, a thread each; what comes out is as if it were read by one.
+/// Parallel parsing of large files. The result is the same as with a single thread.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,17 @@
 
 namespace loopbench {
 
-/// parse(TextFile&) of each part of `file`, in order. Whatever one part alone cannot judge (an
-/// error, whose line number needs the parts before; neighbours a, b for which fits(a, b) is false)
-/// is left to parse(file): then there is one part, or the error that a single thread finds.
+/// Splits `file` into parts and returns the results of parse(TextFile&) for each, in order. Falls
+/// back to a single parse(file) if a part throws InputError (its line numbers would be relative to
+/// the part) or if fits(a, b) is false for two neighbouring results.
 template <class Parse, class Fits>
 auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
   using Part = decltype(parse(file));
-  constexpr std::size_t kSmallest = std::size_t{1} << 20;  // [bytes]
+  constexpr std::size_t kMinPartSize = std::size_t{1} << 20;  // [bytes]
   std::vector<Part> parts;
-  if (file.bytes() >= 2 * kSmallest && cores() > 1) {
+  if (file.bytes() >= 2 * kMinPartSize && cores() > 1) {
     try {
-      std::vector<TextFile> texts = file.cut(std::min(cores(), file.bytes() / kSmallest));
+      std::vector<TextFile> texts = file.cut(std::min(cores(), file.bytes() / kMinPartSize));
       parts.resize(texts.size());
       in_parallel(texts.size(), [&](std::size_t i) { parts[i] = parse(texts[i]); });
       bool all_fit = true;
@@ -33,7 +33,7 @@ auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
         return parts;
       }
     } catch (const InputError&) {
-      // said again below, with the right line
+      // Thrown again below, with the line number in the whole file.
     }
   }
   parts.clear();
@@ -41,13 +41,13 @@ auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
   return parts;
 }
 
-/// At the end of `list`, which should have reserved room for it.
+/// Appends `more` to `list`, which should have reserved capacity.
 template <class T>
 void append(std::vector<T>& list, std::vector<T> more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The parts as one list, in order.
+/// Concatenates the parts in order.
 template <class T>
 std::vector<T> joined(std::vector<std::vector<T>> parts) {
   std::vector<T> out = std::move(parts.front());

@@ -12,14 +12,15 @@ namespace loopbench {
 
 Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
   constexpr double kTolerance = 1e-2;
-  // A quaternion written by us is unit to rounding; leaving it alone makes round trips exact.
+  // Quaternions that are unit up to rounding are not changed, so that round trips are
+  // bit-identical.
   constexpr double kRounding = 4e-15;
   const double square = given.squaredNorm();
   if (std::abs(square - 1.0) <= kRounding) return given;
   const double norm = std::sqrt(square);
-  if (norm < 1e-12) throw file.error(line, "quaternion is zero, expected unit length");
+  if (norm < 1e-12) throw file.error(line, "quaternion is zero, expected norm 1");
   if (!(std::abs(norm - 1.0) <= kTolerance)) {
-    throw file.error(line, fmt::format("quaternion has length {:.6g}, expected 1 +- 0.01", norm));
+    throw file.error(line, fmt::format("quaternion has norm {:.6g}, expected 1 +- 0.01", norm));
   }
   file.mended.off_unit = std::max(file.mended.off_unit, std::abs(norm - 1.0));
   given.coeffs() /= norm;
@@ -27,15 +28,15 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
 }
 
 void InOrder::refuse_or_drop(double stamp, std::size_t line) const {
-  const std::string before = " on line " + std::to_string(last_line_);
+  const std::string on_line = " on line " + std::to_string(last_line_);
   if (stamp < last_stamp_) {
     throw file_.error(line,
-                      "stamp " + to_text(stamp) + " is before stamp " + to_text(last_stamp_) +
-                          before + ", expected increasing stamps");
+                      "stamp " + to_text(stamp) + " is smaller than stamp " + to_text(last_stamp_) +
+                          on_line + ", expected increasing stamps");
   }
   if (repeats_ == Repeats::refuse) {
     throw file_.error(line,
-                      "stamp " + to_text(stamp) + " is already" + before +
+                      "stamp " + to_text(stamp) + " is already" + on_line +
                           ", expected increasing stamps" + hint_);
   }
   ++file_.mended.repeated;

@@ -1,4 +1,4 @@
-/// Rules that hold for every trajectory format: unit attitudes and increasing stamps.
+/// Checks common to all trajectory formats: unit quaternions and increasing stamps.
 #pragma once
 
 #include "datasets/core/trajectory.hpp"
@@ -7,21 +7,21 @@
 
 namespace loopbench {
 
-/// The quaternion as a unit one. Throws InputError when it is zero, or further than 1e-2 from unit
-/// length: printed digits explain less, and another column order or format explains more.
+/// Normalises a quaternion. Throws InputError if it is zero or its norm differs from 1 by more than
+/// 1e-2: rounding in the file causes smaller deviations, a wrong column order larger ones.
 Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given);
 
-/// Keeps stamps in strictly increasing order of stamps, or says which two lines break that.
+/// Enforces strictly increasing stamps. Errors state both lines.
 class InOrder {
  public:
-  /// `hint` ends the refusal of a repeat: what the reader may do about it.
+  /// `hint` is appended to the error for a repeated stamp.
   InOrder(const TextFile& file,
           Repeats repeats,
           const char* hint = " (or repeats: keep_first, keep_last)")
       : file_(file), repeats_(repeats), hint_(hint) {}
 
-  /// Puts a pose into `poses`: at its end, in the place of the last one whose stamp it repeats, or
-  /// nowhere.
+  /// Appends a pose to `poses`. A pose with a repeated stamp replaces the last one or is dropped,
+  /// depending on `repeats`. Throws InputError.
   void put(double stamp, std::size_t line, const Pose& pose, Trajectory& poses) {
     if (accepts(stamp, line)) {
       poses.push_back({stamp, pose});
@@ -30,7 +30,7 @@ class InOrder {
     }
   }
 
-  /// False when this stamp repeats the last one and is not refused.
+  /// Returns false if `stamp` repeats the last one and repeats are allowed. Throws InputError.
   bool accepts(double stamp, std::size_t line) {
     if (last_line_ != 0 && !(stamp > last_stamp_)) {
       refuse_or_drop(stamp, line);

@@ -10,15 +10,15 @@ namespace loopbench {
 namespace {
 
 Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double period) {
-  std::vector<Pose> chained;
-  if (graph.vertices.empty()) chained = chain(graph, name);
-  const std::vector<Pose>& poses = graph.vertices.empty() ? chained : graph.vertices;
+  std::vector<Pose> composed;
+  if (graph.vertices.empty()) composed = chain(graph, name);
+  const std::vector<Pose>& poses = graph.vertices.empty() ? composed : graph.vertices;
   Trajectory out;
   out.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     out.push_back({static_cast<double>(graph.ids[i]) * period, poses[i]});
   }
-  check(out, name);  // chains may overflow, and ids beyond 2^53 may become one stamp
+  check(out, name);  // composed poses may overflow; ids above 2^53 may give equal stamps
   return out;
 }
 
@@ -26,13 +26,13 @@ Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double
 
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   if (!Above{0.0}.holds(options.period)) {
-    throw OptionError("period", "period = " + to_text(options.period) + " breaks period > 0");
+    throw OptionError("period", "period = " + to_text(options.period) + ": expected period > 0");
   }
   TextFile file(path);
   const Format format = options.format == Format::automatic ? recognise(file) : options.format;
   if (options.times && format != Format::kitti) {
     throw file.error(
-        0, "is " + to_text(format) + ", whose stamps are its own, expected no times file");
+        0, "has format " + to_text(format) + ", which contains stamps, expected no times file");
   }
   if (format == Format::kitti) return read_kitti(file, options);
   if (format == Format::g2o) return trajectory_of(read_g2o(path), file.name(), options.period);

@@ -11,14 +11,14 @@ bool is_tag(std::string_view word) {
   return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
 }
 
-/// EuRoC's clock counts nanoseconds since 1970: 16 digits or more and no point.
+/// EuRoC stamps are nanoseconds since 1970: at least 16 digits and no decimal point.
 bool is_nanoseconds(std::string_view word) {
-  constexpr std::size_t kFewestDigits = 16;
-  return word.size() >= kFewestDigits &&
+  constexpr std::size_t kMinDigits = 16;
+  return word.size() >= kMinDigits &&
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
-/// `50000000`, or `50000000.000000` as ORB-SLAM3 prints it.
+/// Parses a whole number, also with zero decimals as printed by ORB-SLAM3: `50000000.000000`.
 std::optional<std::int64_t> whole_stamp(std::string_view word) {
   std::int64_t out = 0;
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), out);
@@ -30,16 +30,16 @@ std::optional<std::int64_t> whole_stamp(std::string_view word) {
 }  // namespace
 
 bool has_small_nanoseconds(const TextFile& file) {
-  constexpr std::int64_t kShortestStep = 100'000;  // [ns]
-  TextFile again(file.name());
-  std::optional<std::int64_t> before;
+  constexpr std::int64_t kMinStep = 100'000;  // [ns]
+  TextFile reopened(file.name());
+  std::optional<std::int64_t> previous;
   for (int i = 0; i < 2; ++i) {
     Line line;
-    if (!again.next(line)) return false;
-    const auto stamp = whole_stamp(Columns(again, line).word());
+    if (!reopened.next(line)) return false;
+    const auto stamp = whole_stamp(Columns(reopened, line).word());
     if (!stamp || *stamp < 0) return false;
-    if (before) return *stamp - *before >= kShortestStep;
-    before = stamp;
+    if (previous) return *stamp - *previous >= kMinStep;
+    previous = stamp;
   }
   return false;
 }
@@ -57,7 +57,7 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
 
 Line first_line(TextFile& file) {
   Line line;
-  if (!file.next(line)) throw file.error(0, "holds no data, only comments and blank lines");
+  if (!file.next(line)) throw file.error(0, "contains no data, only comments and blank lines");
   file.put_back(line);
   return line;
 }
@@ -71,17 +71,16 @@ Format recognise(TextFile& file) {
       line.text.find(',') == std::string_view::npos) {
     throw file.error(
         line.number,
-        "has whole nanoseconds and columns parted by blanks: their quaternions may be "
-        "qx qy qz qw (ORB-SLAM3's) or qw qx qy qz (EuRoC's), expected to be told format "
-        "tum or euroc");
+        "has whole nanoseconds and columns separated by blanks, so that quaternions may be "
+        "qx qy qz qw (ORB-SLAM3) or qw qx qy qz (EuRoC); set the format to tum or euroc");
   }
   if (is_small && count_columns(file, line) >= 8) return Format::euroc;
   if (const auto format = guess(file, line)) return *format;
-  constexpr std::size_t kShown = 40;
+  constexpr std::size_t kShownText = 40;
   const std::size_t count = count_columns(file, line);
   std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
-                     " and starts '" + std::string(line.text.substr(0, kShown)) + "'";
-  if (count == 4) what += " (stamp x y z? positions without attitude are not supported)";
+                     " and starts '" + std::string(line.text.substr(0, kShownText)) + "'";
+  if (count == 4) what += " (stamp x y z? positions without rotation are not supported)";
   throw file.error(line.number,
                    what +
                        ", expected tum (8 columns), kitti (12 columns), euroc (whole nanoseconds "

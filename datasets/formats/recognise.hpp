@@ -1,4 +1,4 @@
-/// Which format a line of data shows.
+/// Detection of trajectory formats.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,19 @@
 
 namespace loopbench {
 
-/// By its column count and first word: g2o tags, 12 numbers, nanoseconds first, 8 numbers.
+/// Guesses the format from the number of columns and the first word: g2o tags, nanoseconds and at
+/// least 8 columns, 12 numbers, 8 numbers.
 std::optional<Format> guess(const TextFile& file, const Line& line);
 
-/// The format of the first line of data, which is put back. Throws InputError when the line
-/// shows none, saying what it looks like and what is known.
+/// Detects the format from the first line of data, without consuming it. Throws InputError with the
+/// line and the known formats if none matches.
 Format recognise(TextFile& file);
 
 /// Whether the first two stamps are whole numbers at least 1e5 apart: nanoseconds of a clock that
-/// starts near 0, as simulators write them, at 10 kHz or less. In seconds that is more than a day.
+/// starts near 0, as in simulators, at 10 kHz or less. In seconds this would be more than a day.
 bool has_small_nanoseconds(const TextFile& file);
 
-/// The line that next() will give. Refuses a file without one.
+/// Returns the first line of data without consuming it. Throws InputError if there is none.
 Line first_line(TextFile& file);
 
 }  // namespace loopbench

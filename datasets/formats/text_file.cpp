@@ -11,8 +11,8 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{8} << 30;   // [bytes]; 1e6 poses are 0.1 GB
-constexpr std::size_t kWindow = std::size_t{256} << 10;  // [bytes], a share of the L2 cache
+constexpr std::size_t kMaxSize = std::size_t{8} << 30;   // [bytes]; 1e6 poses need 0.1 GB
+constexpr std::size_t kWindow = std::size_t{256} << 10;  // [bytes], fits into the L2 cache
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::size_t size_of_plain_file(const std::filesystem::path& file, const std::string& name) {
@@ -26,16 +26,16 @@ std::size_t size_of_plain_file(const std::filesystem::path& file, const std::str
     throw input_error(name, 0, "is a directory, expected a text file");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    throw input_error(name, 0, "is not a plain file, expected a text file");
+    throw input_error(name, 0, "is not a regular file, expected a text file");
   }
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw input_error(name, 0, "cannot be read: " + error.message());
   if (size == 0) throw input_error(name, 0, "is empty");
-  if (size > kLargest) {
+  if (size > kMaxSize) {
     throw input_error(
         name,
         0,
-        "has " + std::to_string(size) + " bytes, expected at most " + std::to_string(kLargest));
+        "has " + std::to_string(size) + " bytes, expected at most " + std::to_string(kMaxSize));
   }
   return static_cast<std::size_t>(size);
 }
@@ -43,7 +43,7 @@ std::size_t size_of_plain_file(const std::filesystem::path& file, const std::str
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& file)
-    : TextFile(file.string(), size_of_plain_file(file, file.string()), 0, kLargest) {}
+    : TextFile(file.string(), size_of_plain_file(file, file.string()), 0, kMaxSize) {}
 
 TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin, std::size_t end)
     : name_(name),
@@ -65,35 +65,36 @@ TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin,
   }
 }
 
-/// Makes room by dropping the lines that were read, or by doubling when one line fills it all.
+/// Reads the next bytes into the window. Drops the lines already read, or doubles the window if a
+/// single line fills it.
 void TextFile::refill() {
   filled_ -= position_;
   if (filled_ == capacity_) {
-    auto wider = std::make_unique_for_overwrite<char[]>(2 * capacity_);
-    std::memcpy(wider.get(), window_.get(), filled_);
-    window_ = std::move(wider);
+    auto larger = std::make_unique_for_overwrite<char[]>(2 * capacity_);
+    std::memcpy(larger.get(), window_.get(), filled_);
+    window_ = std::move(larger);
     capacity_ *= 2;
   } else if (filled_ > 0) {
     std::memmove(window_.get(), window_.get() + position_, filled_);
   }
   position_ = 0;
-  char* const fresh = window_.get() + filled_;
-  const std::size_t wanted = std::min(capacity_ - filled_, end_ - unread_);
-  if (std::fread(fresh, 1, wanted, handle_.get()) != wanted) {
-    throw error(0, "cannot be read to its end");
+  char* const free_space = window_.get() + filled_;
+  const std::size_t count = std::min(capacity_ - filled_, end_ - unread_);
+  if (std::fread(free_space, 1, count, handle_.get()) != count) {
+    throw error(0, "cannot be read completely");
   }
-  if (const void* nul = std::memchr(fresh, '\0', wanted)) {
-    const auto offset = static_cast<std::size_t>(static_cast<const char*>(nul) - fresh);
+  if (const void* nul = std::memchr(free_space, '\0', count)) {
+    const auto offset = static_cast<std::size_t>(static_cast<const char*>(nul) - free_space);
     throw error(
         0,
         "is binary (NUL at byte " + std::to_string(unread_ + offset) + "), expected a text file");
   }
-  filled_ += wanted;
-  unread_ += wanted;
+  filled_ += count;
+  unread_ += count;
 }
 
 bool TextFile::next(Line& line) {
-  std::size_t searched = 0;  // bytes after position_ known to hold no newline
+  std::size_t searched = 0;  // number of bytes after position_ without a newline
   while (position_ < filled_ || unread_ < end_) {
     const char* const begin = window_.get() + position_;
     const std::size_t left = filled_ - position_;
@@ -131,7 +132,7 @@ std::vector<TextFile> TextFile::cut(std::size_t count) const {
   for (std::size_t k = 1; k <= count && begin < size_; ++k) {
     std::size_t end = size_;
     if (k < count) {
-      // From anywhere in a line, what follows the next line read is the start of another.
+      // Reading one line from an arbitrary offset ends at the start of a line.
       TextFile rest(name_, size_, std::max(begin, size_ / count * k), size_);
       if (Line line; rest.next(line)) end = rest.unread_ - rest.filled_ + rest.position_;
     }

@@ -1,4 +1,4 @@
-/// A text file and its lines of data: the layer every reader stands on.
+/// Line-by-line input of text files, used by all readers.
 #pragma once
 
 #include <cstddef>
@@ -15,50 +15,50 @@ namespace loopbench {
 
 /// One line of data. Columns are separated by blanks, tabs or commas.
 struct Line {
-  std::string_view text;      ///< without line end; never blank, never a comment
-  std::size_t number = 0;     ///< from 1
+  std::string_view text;      ///< without line ending; not blank and not a comment
+  std::size_t number = 0;     ///< starts at 1
   bool unterminated = false;  ///< the last line of a file that does not end in a newline
 };
 
-/// Reads a file through a window that stays in the cache: no more of it is in memory than the
-/// window, or its longest line. Both line ends and a UTF-8 byte order mark are accepted. Throws
-/// InputError: missing, not a plain file, unreadable, empty, larger than 8 GiB, binary (holds a NUL
-/// byte; a line refused before it comes first).
+/// Reads a file through a small window, which grows to the longest line. Unix and Windows line
+/// endings and a UTF-8 byte order mark are accepted. Throws InputError for a file that is missing,
+/// not a regular file, unreadable, empty, larger than 8 GiB or binary (contains a NUL byte, which
+/// is detected when the window reaches it).
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& file);
 
-  /// The next line of data, skipping blank lines and lines that start with '#'. Its text lives
-  /// until the next call.
+  /// Reads the next line of data, skipping blank lines and lines that start with '#'. Returns false
+  /// at the end of the file. line.text is valid until the next call.
   bool next(Line& line);
 
-  /// Puts back the line that next() gave last.
+  /// Puts back the last line returned by next().
   void put_back(const Line& line);
 
-  /// The whole file as `count` or fewer files of about one size, cut at line ends. Each counts its
-  /// lines from 1.
+  /// Splits the file at line endings into at most `count` parts of similar size. Each part counts
+  /// its lines from 1.
   std::vector<TextFile> cut(std::size_t count) const;
 
-  /// Read so far, blank ones and comments too.
+  /// Number of lines read, including blank lines and comments.
   std::size_t lines() const { return line_; }
 
   const std::string& name() const { return name_; }
   std::size_t bytes() const { return size_; }
 
-  /// `file:line: what`.
+  /// Error `file:line: what`.
   InputError error(std::size_t line, const std::string& what) const {
     return input_error(name_, line, what);
   }
 
-  /// Noted by whoever judges a line of this part.
+  /// Corrections made by the readers in this part.
   struct Mended {
     double off_unit = 0.0;
     std::size_t repeated = 0;
   };
   mutable Mended mended;
 
-  /// How many lines fit if all were as long as `line`: a hint for reserve(), capped by the file.
-  /// The first part counts the whole file, for what is read from the others is put behind.
+  /// Estimated number of lines, assuming that all are as long as `line`; a hint for reserve(). The
+  /// first part counts the whole file, because the results of other parts are appended to it.
   std::size_t lines_like(const Line& line) const {
     return (begin_ == 0 ? size_ : end_ - begin_) / (line.text.size() + 1) + 1;
   }
@@ -73,10 +73,10 @@ class TextFile {
 
   std::string name_;
   std::size_t size_ = 0;      ///< of the whole file [bytes]
-  std::size_t begin_ = 0;     ///< offset in the file where this part begins
-  std::size_t unread_ = 0;    ///< offset in the file of what the window will take next
-  std::size_t end_ = 0;       ///< offset in the file where this part ends
-  std::size_t capacity_ = 0;  ///< of the window
+  std::size_t begin_ = 0;     ///< file offset of the start of this part
+  std::size_t unread_ = 0;    ///< file offset of the next bytes to read into the window
+  std::size_t end_ = 0;       ///< file offset of the end of this part
+  std::size_t capacity_ = 0;  ///< of the window [bytes]
   std::size_t filled_ = 0;    ///< bytes in the window
   std::size_t position_ = 0;  ///< of the next line in the window
   std::size_t line_ = 0;

@@ -52,14 +52,14 @@ void TextWriter::row(std::initializer_list<double> values) {
 
 void TextWriter::save(const std::filesystem::path& file) const {
   const std::string name = file.string();
-  const auto refuse = [&] {
+  const auto failure = [&] {
     return input_error(name, 0, std::string("cannot be written: ") + std::strerror(errno));
   };
   std::FILE* const handle = std::fopen(name.c_str(), "wb");
-  if (handle == nullptr) throw refuse();
+  if (handle == nullptr) throw failure();
   const bool written = std::fwrite(text_.data(), 1, text_.size(), handle) == text_.size();
-  // A full disk may show only when the last buffer goes out.
-  if (std::fclose(handle) != 0 || !written) throw refuse();
+  // A full disk may be reported only when the last buffer is flushed.
+  if (std::fclose(handle) != 0 || !written) throw failure();
 }
 
 }  // namespace loopbench

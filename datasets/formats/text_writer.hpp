@@ -1,4 +1,5 @@
-/// Text put together in memory and written at once, numbers by shortest round trip.
+/// Text output buffered in memory. Numbers are printed in the shortest form that parses to the same
+/// value.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace loopbench {
 
 class TextWriter {
  public:
-  /// A `# ` line; line breaks inside `text` begin further comment lines.
+  /// Appends a `# ` line; line breaks in `text` start further comment lines.
   void comment(std::string_view text);
 
   TextWriter& word(std::string_view text);
@@ -19,10 +20,10 @@ class TextWriter {
   TextWriter& integer(std::int64_t value);
   void end_line();
 
-  /// One line of numbers.
+  /// Appends one line of numbers.
   void row(std::initializer_list<double> values);
 
-  /// Throws InputError when the file cannot be written whole.
+  /// Writes the file. Throws InputError if it cannot be written completely.
   void save(const std::filesystem::path& file) const;
 
  private:

@@ -15,16 +15,17 @@ constexpr std::array kTumColumns{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "q
 InputError wrong_row(const TextFile& file, const Line& line) {
   if (count_columns(file, line) == 4 && !line.unterminated) {
     return file.error(line.number,
-                      "has 4 columns (stamp x y z?): positions without attitude are not supported, "
+                      "has 4 columns (stamp x y z?): positions without rotation are not supported, "
                       "expected 8: stamp tx ty tz qx qy qz qw");
   }
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
-/// Nanoseconds, as ORB-SLAM3 writes them in place of seconds, are whole or end in zeros.
+/// Converts to seconds. Nanoseconds, as written by ORB-SLAM3, are whole numbers or have zero
+/// decimals.
 double stamp_of(const TextFile& file, const Line& line, double number, bool small_nanoseconds) {
-  constexpr double kNanoseconds = 1e16, kBeyond = 9e18;  // 1970 + 115 days, + 285 years
-  if (number > kBeyond || (number < kNanoseconds && !small_nanoseconds)) return number;
+  constexpr double kNanoseconds = 1e16, kMaxNanoseconds = 9e18;  // 1970 + 115 days, + 285 years
+  if (number > kMaxNanoseconds || (number < kNanoseconds && !small_nanoseconds)) return number;
   const std::string_view word = Columns(file, line).word();
   std::int64_t whole = 0;
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);

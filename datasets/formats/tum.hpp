@@ -1,4 +1,4 @@
-/// TUM RGB-D text: `stamp tx ty tz qx qy qz qw`, world_from_body, seconds (or nanoseconds, see
+/// TUM RGB-D text: `stamp tx ty tz qx qy qz qw` of world_from_body, in seconds (or nanoseconds, see
 /// Format) and metres.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// Source: TUM RGB-D benchmark, file formats. Throws InputError.
+/// Throws InputError. Source: TUM RGB-D benchmark, file formats.
 Trajectory read_tum(TextFile& file, const ReadOptions& options);
 
 }  // namespace loopbench

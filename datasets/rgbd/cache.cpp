@@ -13,13 +13,14 @@
 namespace loopbench {
 namespace {
 
-constexpr std::uint64_t kSeal = 0x6c6f6f7062656e63u;  // another layout of the files gets another
-constexpr std::size_t kSealBytes = sizeof(std::uint64_t);
+// Seed of the checksum; change it with the file layout.
+constexpr std::uint64_t kChecksumSeed = 0x6c6f6f7062656e63u;
+constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 
-std::string seal(const std::string& bytes) {
-  const std::uint64_t sum = mixed(kSeal, bytes);
-  std::string out(kSealBytes, '\0');
-  std::memcpy(out.data(), &sum, kSealBytes);
+std::string checksum(const std::string& bytes) {
+  const std::uint64_t sum = mixed(kChecksumSeed, bytes);
+  std::string out(kChecksumBytes, '\0');
+  std::memcpy(out.data(), &sum, kChecksumBytes);
   return out;
 }
 
@@ -29,23 +30,23 @@ std::optional<std::string> load_cached(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   std::string all((std::istreambuf_iterator<char>(in)), {});
-  if (all.size() < kSealBytes) return std::nullopt;
-  std::string bytes = all.substr(kSealBytes);
-  if (all.compare(0, kSealBytes, seal(bytes)) != 0) return std::nullopt;
+  if (all.size() < kChecksumBytes) return std::nullopt;
+  std::string bytes = all.substr(kChecksumBytes);
+  if (all.compare(0, kChecksumBytes, checksum(bytes)) != 0) return std::nullopt;
   return bytes;
 }
 
 void store_cached(const std::filesystem::path& file, const std::string& bytes) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  const std::filesystem::path beside = fmt::format("{}.{}.tmp", file.string(), getpid());
+  const std::filesystem::path temporary = fmt::format("{}.{}.tmp", file.string(), getpid());
   {
-    std::ofstream out(beside, std::ios::binary);
-    out << seal(bytes) << bytes;
+    std::ofstream out(temporary, std::ios::binary);
+    out << checksum(bytes) << bytes;
     if (!out.flush()) error = std::make_error_code(std::errc::io_error);
   }
-  if (!error) std::filesystem::rename(beside, file, error);
-  if (error) std::filesystem::remove(beside, error);
+  if (!error) std::filesystem::rename(temporary, file, error);
+  if (error) std::filesystem::remove(temporary, error);
 }
 
 CacheLock::CacheLock(const std::filesystem::path& file) {

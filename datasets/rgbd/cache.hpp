@@ -1,4 +1,4 @@
-/// What was worked out before, kept in files that are whole or not there.
+/// File cache of intermediate results, with atomic writes and checksums.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace loopbench {
 
-/// Numbers, texts and lists of numbers, one after the other.
+/// Binary serialisation of numbers, strings and vectors of numbers.
 class Pack {
  public:
   template <class Number>
@@ -40,7 +40,7 @@ class Pack {
   std::string bytes_;
 };
 
-/// Reads back what was put, in the same order. Throws std::runtime_error past the end.
+/// Deserialisation in the order of serialisation. Throws std::runtime_error past the end.
 class Unpack {
  public:
   explicit Unpack(const std::string& bytes) : bytes_(bytes) {}
@@ -64,14 +64,15 @@ class Unpack {
 
  private:
   const char* take(std::size_t count) {
-    if (count > bytes_.size() - at_) throw std::runtime_error("cache: file ends too early");
+    if (count > bytes_.size() - at_) throw std::runtime_error("cache: unexpected end of file");
     at_ += count;
     return bytes_.data() + at_ - count;
   }
-  std::size_t size(std::size_t unit) {
+  std::size_t size(std::size_t item_bytes) {
     std::size_t count = 0;
     get(count);
-    if (count > (bytes_.size() - at_) / unit) throw std::runtime_error("cache: list too long");
+    if (count > (bytes_.size() - at_) / item_bytes)
+      throw std::runtime_error("cache: list length exceeds the file size");
     return count;
   }
 
@@ -79,15 +80,15 @@ class Unpack {
   std::size_t at_ = 0;
 };
 
-/// The bytes kept in `file`; nothing when it is not there, cut off or changed.
+/// Returns the bytes stored in `file`, or nothing if it is missing, truncated or corrupt.
 std::optional<std::string> load_cached(const std::filesystem::path& file);
 
-/// Writes beside and renames, so that a run that is killed leaves no half a file. What cannot be
-/// written (a full or read-only disk) is not kept, and that is all.
+/// Writes to a temporary file and renames it, so that an interrupted run leaves no partial file.
+/// Write errors (full or read-only disk) are ignored.
 void store_cached(const std::filesystem::path& file, const std::string& bytes);
 
-/// Whoever holds it is the only one at work on `file`, on this machine; others wait. What cannot be
-/// locked is not: then the same may be worked out twice, to the same bits.
+/// Exclusive lock for work on `file` between processes of one machine; blocks until it is acquired.
+/// If locking fails, work may be done twice with bit-identical results.
 class CacheLock {
  public:
   explicit CacheLock(const std::filesystem::path& file);
@@ -99,7 +100,7 @@ class CacheLock {
   int handle_;
 };
 
-/// `folder / stage-KEY`, KEY in hexadecimal.
+/// Path `folder / stage-KEY`, with KEY in hexadecimal.
 std::filesystem::path cached_path(const std::filesystem::path& folder,
                                   const std::string& stage,
                                   std::uint64_t key);

@@ -34,7 +34,7 @@ class Reader {
     const std::string_view text = line_.text.substr(0, line_.text.find(" #"));
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) {
-      throw file_.error(line_.number, fmt::format("'{}': expected 'key: value'", text));
+      throw file_.error(line_.number, fmt::format("found '{}', expected 'key: value'", text));
     }
     return {trimmed(text.substr(0, colon)), trimmed(text.substr(colon + 1))};
   }
@@ -54,14 +54,14 @@ class Reader {
     const double value = number(entry);
     if (value > 0.0) return value;
     throw file_.error(line_.number,
-                      fmt::format("{} = {} breaks {} > 0", entry.key, value, entry.key));
+                      fmt::format("{} = {}: expected {} > 0", entry.key, value, entry.key));
   }
 
   std::vector<double> list(const Entry& entry) const {
     std::string_view rest = entry.value;
     if (rest.size() < 2 || rest.front() != '[' || rest.back() != ']') {
       throw file_.error(line_.number,
-                        fmt::format("{}: expected a list, [k1, k2, p1, p2, k3]", entry.key));
+                        fmt::format("{}: expected a list [k1, k2, p1, p2, k3]", entry.key));
     }
     rest = rest.substr(1, rest.size() - 2);
     std::vector<double> out;
@@ -83,13 +83,14 @@ class Reader {
 Camera read_camera(const std::filesystem::path& path) {
   TextFile file(path);
   Camera camera;
-  std::set<std::string, std::less<>> seen;
+  std::set<std::string, std::less<>> keys;
   Line line;
   while (file.next(line)) {
     const Reader reader(file, line);
     const Entry entry = reader.entry();
-    if (!seen.emplace(entry.key).second) {
-      throw file.error(line.number, fmt::format("{} is given twice", entry.key));
+    if (!keys.emplace(entry.key).second) {
+      throw file.error(line.number,
+                       fmt::format("key {} is repeated, expected each key once", entry.key));
     }
     if (entry.key == "width") camera.width = static_cast<int>(reader.positive(entry));
     if (entry.key == "height") camera.height = static_cast<int>(reader.positive(entry));
@@ -106,11 +107,12 @@ Camera read_camera(const std::filesystem::path& path) {
     }
   }
   for (const char* key : {"fx", "fy", "cx", "cy"}) {
-    if (!seen.contains(key)) throw file.error(0, fmt::format("has no {}", key));
+    if (!keys.contains(key))
+      throw file.error(0, fmt::format("has no key {}, expected fx, fy, cx and cy", key));
   }
   if (camera.cx >= camera.width || camera.cy >= camera.height) {
     throw file.error(0,
-                     fmt::format("principal point ({}, {}) lies outside the image of {} x {}",
+                     fmt::format("principal point ({}, {}) is outside the image of {} x {} pixels",
                                  camera.cx,
                                  camera.cy,
                                  camera.width,
@@ -140,7 +142,7 @@ Camera tum_camera(int freiburg) {
       set(535.4, 539.2, 320.1, 247.6);
       return out;
     default:
-      throw std::invalid_argument("tum_camera: there are fr1, fr2 and fr3");
+      throw std::invalid_argument("tum_camera: expected 1, 2 or 3");
   }
 }
 

@@ -1,11 +1,11 @@
-/// Time that a thread has worked.
+/// CPU time of the current thread.
 #pragma once
 
 #include <ctime>
 
 namespace loopbench {
 
-/// Of the calling thread [s]: what others do on the machine does not count.
+/// CPU time of the calling thread [s], independent of the load of the machine.
 inline double cpu_seconds() {
   std::timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

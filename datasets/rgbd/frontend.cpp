@@ -14,31 +14,33 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kFewestToTemper = 8;  // gaps whose median says something
+constexpr std::size_t kMinGaps = 8;  // minimum number of gaps for a meaningful median
 
-double since(double begin) { return cpu_seconds() - begin; }
+double cpu_since(double begin) { return cpu_seconds() - begin; }
 
-struct Seconds {
+/// CPU time of the stages [s] and the number of items they processed.
+struct StageTimes {
   double read = 0.0;
   double features = 0.0;
   double track = 0.0;
   double loops = 0.0;
   double refine = 0.0;
-  std::size_t frames_read = 0;  ///< the rest came from the cache
+  std::size_t frames_read = 0;  ///< other frames were cached
   std::size_t frames_tracked = 0;
   std::size_t keyframes_searched = 0;
   std::size_t edges_refined = 0;
 };
 
-struct Timed {
+/// Features of a frame and the time to compute them.
+struct TimedFeatures {
   FrameFeatures frame = {};
-  double read = 0.0;  ///< [s]
-  double find = 0.0;  ///< [s]
-  bool fresh = false;
+  double read = 0.0;      ///< [s]
+  double find = 0.0;      ///< [s]
+  bool computed = false;  ///< false: from the cache
 };
 
-/// The frames that could not be read, said in a line or four.
-class Skipped {
+/// Counts unreadable frames and formats notes about them, with the reasons of the first three.
+class SkippedFrames {
  public:
   void add(const std::string& why) {
     ++count_;
@@ -62,37 +64,37 @@ Tracked track(const RgbdSource& source,
               const FrontendOptions& options,
               const FrontendHooks& hooks,
               const StageCache& cache,
-              Seconds& seconds) {
+              StageTimes& seconds) {
   const Camera camera = source.camera();
   Tracker tracker(camera, source.size(), options.track);
-  Skipped skipped;
+  SkippedFrames skipped;
   const auto make = [&](std::size_t i) {
-    Timed out;
+    TimedFeatures out;
     const auto describe_frame = [&] {
       FrameFeatures made;
-      out.fresh = true;
+      out.computed = true;
       const double begin = cpu_seconds();
       const std::optional<RgbdFrame> images = source.read(i, made.why);
       const double middle = cpu_seconds();
       out.read = middle - begin;
       if (images) made.features = find_features(*images, camera, options.features);
-      out.find = since(middle);
+      out.find = cpu_since(middle);
       return made;
     };
     const auto pack = [](const FrameFeatures& frame) { return packed(frame); };
     out.frame = cache.get(cache.frame(i), unpacked_frame, describe_frame, pack);
     return out;
   };
-  ordered_pipeline<Timed>(
-      source.size(), cores(), 4 * cores(), make, [&](std::size_t i, Timed timed) {
+  ordered_pipeline<TimedFeatures>(
+      source.size(), cores(), 4 * cores(), make, [&](std::size_t i, TimedFeatures timed) {
         seconds.read += timed.read;
         seconds.features += timed.find;
-        seconds.frames_read += timed.fresh ? 1 : 0;
+        seconds.frames_read += timed.computed ? 1 : 0;
         if (hooks.progress) hooks.progress("tracking", i + 1, source.size());
         if (!timed.frame.features) return skipped.add(timed.frame.why);
         const double begin = cpu_seconds();
         tracker.add(i, source.stamp(i), std::move(*timed.frame.features));
-        seconds.track += since(begin);
+        seconds.track += cpu_since(begin);
       });
   seconds.frames_tracked = source.size();
   Tracked out = tracker.finish();
@@ -104,12 +106,12 @@ Tracked track(const RgbdSource& source,
   return out;
 }
 
-std::string told(const Seconds& s) {
+std::string throughput_note(const StageTimes& s) {
   std::string out;
   const auto rate = [&](std::size_t count, double seconds, const char* what) {
     if (count == 0) return;
-    const double a_second = static_cast<double>(count) / std::max(seconds, 1e-9);
-    out += fmt::format("{}{:.1f} {}", out.empty() ? "" : ", ", a_second, what);
+    const double per_second = static_cast<double>(count) / std::max(seconds, 1e-9);
+    out += fmt::format("{}{:.1f} {}", out.empty() ? "" : ", ", per_second, what);
   };
   rate(s.frames_read, s.read, "frames read or rendered");
   rate(s.frames_read, s.features, "described");
@@ -125,7 +127,7 @@ DetectedLoops find_loops(const Tracked& tracked,
                          const FrontendOptions& options,
                          const FrontendHooks& hooks,
                          const StageCache& cache,
-                         Seconds& seconds) {
+                         StageTimes& seconds) {
   const auto make = [&] {
     seconds.keyframes_searched = options.loops.enabled ? tracked.keyframes.size() : 0;
     DetectedLoops out = detect_loops(tracked,
@@ -142,15 +144,16 @@ DetectedLoops find_loops(const Tracked& tracked,
   return cache.get(cache.loops(), unpacked_loops, make, pack);
 }
 
-/// Measures odometry and closures again; keyframes and frames follow. Gives the factor by which
-/// steps seen by features and by depth disagree more than both say.
+/// Refines odometry and closures by depth and updates keyframes and frames. Returns the factor by
+/// which the differences between feature-based and depth-based edges exceed their stated
+/// uncertainty.
 double refine(Tracked& tracked,
               DetectedLoops& loops,
               const RgbdSource& source,
               const FrontendOptions& options,
               const FrontendHooks& hooks,
               const StageCache& cache,
-              Seconds& seconds) {
+              StageTimes& seconds) {
   const auto make = [&] {
     RefinedEdges out = refine_by_depth(source,
                                        tracked,
@@ -172,16 +175,17 @@ double refine(Tracked& tracked,
                                       edges.odometry.size(),
                                       edges.closures_refined,
                                       edges.closures.size()));
-  const double excess = remeasured_excess(tracked.odometry, edges.odometry, kFewestToTemper);
+  const double excess = remeasured_excess(tracked.odometry, edges.odometry, kMinGaps);
   follow_odometry(tracked, edges.odometry);
   loops.closures = std::move(edges.closures);
   return excess;
 }
 
-/// Where loops disagree with odometry, or depth with features, by more than both say, all are
-/// believed so much less. Never more: what they have in common no such test shows.
-void temper(Tracked& tracked, DetectedLoops& loops, double depth_excess) {
-  const double loop_excess = information_excess(tracked.odometry, loops.closures, kFewestToTemper);
+/// Divides all information matrices by the factor by which loops disagree with odometry, or depth
+/// with features, more than expected. Information is never increased, because errors common to both
+/// cannot be detected.
+void scale_information(Tracked& tracked, DetectedLoops& loops, double depth_excess) {
+  const double loop_excess = information_excess(tracked.odometry, loops.closures, kMinGaps);
   const double excess = std::max(loop_excess, depth_excess);
   if (!(excess > 1.0)) return;
   for (Edge& edge : tracked.odometry) edge.information /= excess;
@@ -198,19 +202,20 @@ Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
                       const FrontendHooks& hooks) {
-  // Frames are spread over the cores already.
+  // Frames are already processed in parallel.
   cv::setNumThreads(1);
   const StageCache cache(hooks.cache, source, options);
-  std::optional<CacheLock> alone;  // workers of one sweep ask for the same sequence at once
-  if (!hooks.cache.empty()) alone.emplace(cache.tracked());
-  Seconds seconds;
+  std::optional<CacheLock> lock;  // workers of one sweep may load the same sequence concurrently
+  if (!hooks.cache.empty()) lock.emplace(cache.tracked());
+  StageTimes seconds;
   const auto make = [&] { return track(source, options, hooks, cache, seconds); };
   const auto pack = [](const Tracked& tracked) { return packed(tracked); };
   Tracked tracked = cache.get(cache.tracked(), unpacked_tracked, make, pack);
-  const double unread = static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
-  if (unread > options.skipped_max) {
+  const double skipped_share =
+      static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
+  if (skipped_share > options.skipped_max) {
     throw InputError(
-        fmt::format("{}: {} of {} frames cannot be read, more than skipped_max = {}; {}",
+        fmt::format("{}: {} of {} frames cannot be read, expected at most skipped_max = {}; {}",
                     name,
                     tracked.skipped,
                     source.size(),
@@ -219,7 +224,8 @@ Sequence run_frontend(const RgbdSource& source,
   }
   if (tracked.keyframes.size() < 2) {
     throw InputError(fmt::format(
-        "{}: nothing could be tracked in {} frames: do camera and depth_scale fit the images?",
+        "{}: tracked fewer than 2 keyframes in {} frames; check the camera intrinsics and "
+        "depth_scale",
         name,
         source.size()));
   }
@@ -228,7 +234,7 @@ Sequence run_frontend(const RgbdSource& source,
   if (options.refine.depth) {
     depth_excess = refine(tracked, loops, source, options, hooks, cache, seconds);
   }
-  temper(tracked, loops, depth_excess);
+  scale_information(tracked, loops, depth_excess);
 
   Sequence out;
   out.name = name;
@@ -241,7 +247,7 @@ Sequence run_frontend(const RgbdSource& source,
                               tracked.lost,
                               tracked.keyframes.size(),
                               loops.closures.size()));
-  notes.push_back(told(seconds));
+  notes.push_back(throughput_note(seconds));
   for (const Keyframe& keyframe : tracked.keyframes) {
     out.problem.keyframes.push_back({keyframe.stamp, keyframe.world_from_camera});
   }

@@ -1,4 +1,4 @@
-/// From images to a problem: features, tracking, keyframes, loops.
+/// RGB-D front end: from images to a problem by features, tracking, keyframes and loop detection.
 #pragma once
 
 #include <filesystem>
@@ -27,24 +27,28 @@ void fields(FrontendOptions& o, Visit visit) {
   fields(o.track, visit);
   fields(o.loops, visit);
   fields(o.refine, visit);
-  visit("skipped_max", o.skipped_max, "share of frames that may be unreadable [-]", Between{0, 1});
+  visit("skipped_max",
+        o.skipped_max,
+        "maximum share of frames that cannot be read [-]",
+        Between{0, 1});
 }
 
-/// What a slow load may use of its surroundings.
+/// Progress callback and cache folder of a front-end run.
 struct FrontendHooks {
-  /// Called as it goes, from one thread: stage, done, of how many.
+  /// Called from one thread with stage, completed items and total number of items.
   std::function<void(const std::string&, std::size_t, std::size_t)> progress = {};
-  /// Where stages keep what they have worked out (see StageCache); empty: nowhere.
+  /// Folder for the results of stages (see StageCache); empty: no cache.
   std::filesystem::path cache = {};
 };
 
-/// Images are read and features found on all cores, a few frames ahead of the tracker; no more
-/// images than that are in memory. Kept are the features of keyframes (60 kB each) and poses.
-/// Frames that cannot be read are skipped and said in the provenance's notes; more than
-/// skipped_max of them, or fewer than two tracked keyframes, throw InputError. With refine.depth,
-/// odometry and closures are measured again by refine_by_depth(), and keyframes and frames follow.
-/// Noted too: focal lengths that the images contradict (check_focal), and information divided by
-/// information_excess() or remeasured_excess(), the larger, where that is above 1.
+/// Runs the front end on all frames of `source`. Images are read and features detected on all
+/// cores, a few frames ahead of the tracker; only these images are in memory, together with the
+/// features of keyframes (60 kB each) and all poses. With refine.depth, odometry and closures are
+/// refined by refine_by_depth(), and keyframes and frames are updated. If information_excess() or
+/// remeasured_excess() is above 1, all information matrices are divided by the larger one.
+/// Provenance notes report skipped frames, tracking losses, focal lengths that disagree with the
+/// images (check_focal) and the divisor of the information. Throws InputError if more than
+/// skipped_max of the frames cannot be read or if fewer than two keyframes are tracked.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,

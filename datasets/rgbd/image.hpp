@@ -1,4 +1,4 @@
-/// Images as plain rows of numbers, so that no header here needs an image library.
+/// Image container independent of image libraries.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// Row after row without padding.
+/// Pixels in row-major order without padding.
 template <class Pixel>
 struct Image {
   int width = 0;
@@ -31,7 +31,7 @@ struct Image {
 };
 
 using GreyImage = Image<std::uint8_t>;
-using DepthImage = Image<float>;  ///< along the optical axis [m]; 0: not measured
+using DepthImage = Image<float>;  ///< depth along the optical axis [m]; 0: not measured
 
 struct RgbdFrame {
   GreyImage grey;

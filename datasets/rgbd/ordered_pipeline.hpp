@@ -1,4 +1,4 @@
-/// Work done out of order on all cores, taken in order by one.
+/// Parallel pipeline with results consumed in order.
 #pragma once
 
 #include <condition_variable>
@@ -13,38 +13,39 @@
 
 namespace loopbench {
 
-/// take(i, make(i)) for i = 0 .. count - 1: `make` on `workers` threads, no more than `ahead` items
-/// before the one that is taken next; `take` on the caller's thread, in order. Results do not
-/// depend on the number of threads. Throws the first of what either threw, after all have ended.
+/// Calls take(i, make(i)) for i = 0 .. count - 1. `make` runs on `workers` threads, at most `ahead`
+/// items before the next item to be taken; `take` runs on the calling thread, in order. Results do
+/// not depend on the number of threads. Waits for all threads and rethrows the first exception of
+/// either.
 template <class Item, class Make, class Take>
 void ordered_pipeline(
     std::size_t count, std::size_t workers, std::size_t ahead, const Make& make, const Take& take) {
   std::mutex mutex;
   std::condition_variable changed;
   std::map<std::size_t, Item> made;
-  std::size_t next = 0;   // to be made
-  std::size_t taken = 0;  // items taken so far
+  std::size_t next = 0;   // next item to be made
+  std::size_t taken = 0;  // number of items taken
   bool stop = false;
-  std::exception_ptr thrown;
+  std::exception_ptr error;
   const auto fail = [&] {
     const std::lock_guard lock(mutex);
-    if (!thrown) thrown = std::current_exception();
+    if (!error) error = std::current_exception();
     stop = true;
     changed.notify_all();
   };
   const auto work = [&] {
     try {
       while (true) {
-        std::size_t mine = 0;
+        std::size_t item_index = 0;
         {
           std::unique_lock lock(mutex);
           changed.wait(lock, [&] { return stop || next >= count || next < taken + ahead; });
           if (stop || next >= count) return;
-          mine = next++;
+          item_index = next++;
         }
-        Item item = make(mine);
+        Item item = make(item_index);
         const std::lock_guard lock(mutex);
-        made.emplace(mine, std::move(item));
+        made.emplace(item_index, std::move(item));
         changed.notify_all();
       }
     } catch (...) {
@@ -70,7 +71,7 @@ void ordered_pipeline(
       fail();
     }
   }
-  if (thrown) std::rethrow_exception(thrown);
+  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace loopbench

@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-// One list of members each for writing and reading: `io(member)` does either.
+// Lists of members, used for both writing and reading: io(member) does either.
 template <class Io, class T>
 void each(Io&& io, T& pose, const Pose*) {
   for (int i = 0; i < 4; ++i) io(pose.rotation.coeffs()[i]);
@@ -97,7 +97,8 @@ struct Read {
     } else {
       std::size_t count = 0;
       pack.get(count);
-      for (std::size_t i = 0; i < count; ++i) {  // grown: a wrong count ends with the bytes
+      for (std::size_t i = 0; i < count;
+           ++i) {  // grown step by step: a wrong count throws at the end
         list.emplace_back();
         (*this)(list.back());
       }
@@ -106,7 +107,7 @@ struct Read {
 };
 
 template <class T>
-std::string written(const T& value) {
+std::string serialised(const T& value) {
   Write write;
   write(value);
   return write.pack.bytes();
@@ -140,11 +141,11 @@ FrameFeatures unpacked_frame(const std::string& bytes) {
   return out;
 }
 
-std::string packed(const Tracked& tracked) { return written(tracked); }
+std::string packed(const Tracked& tracked) { return serialised(tracked); }
 Tracked unpacked_tracked(const std::string& bytes) { return read<Tracked>(bytes); }
-std::string packed(const DetectedLoops& loops) { return written(loops); }
+std::string packed(const DetectedLoops& loops) { return serialised(loops); }
 DetectedLoops unpacked_loops(const std::string& bytes) { return read<DetectedLoops>(bytes); }
-std::string packed(const RefinedEdges& edges) { return written(edges); }
+std::string packed(const RefinedEdges& edges) { return serialised(edges); }
 RefinedEdges unpacked_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
 
 }  // namespace loopbench

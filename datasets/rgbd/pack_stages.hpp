@@ -1,4 +1,4 @@
-/// What the stages make, as bytes and back.
+/// Serialisation of the results of front-end stages.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace loopbench {
 
-/// A frame's features, or why there are none.
+/// Features of a frame, or the reason why it could not be read.
 struct FrameFeatures {
   std::optional<Features> features = std::nullopt;
   std::string why = {};
 };
 
-/// Each throws std::runtime_error for bytes that it did not write.
+/// The unpacked_* functions throw std::runtime_error for bytes in another layout.
 std::string packed(const FrameFeatures& frame);
 FrameFeatures unpacked_frame(const std::string& bytes);
 std::string packed(const Tracked& tracked);

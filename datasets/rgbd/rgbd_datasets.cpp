@@ -21,17 +21,17 @@ Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root, const Front
 std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
   std::vector<DatasetEntry> out{
       dataset<RenderedRoomOptions>("rendered_room",
-                                   "images of a room that does not exist, tracked",
+                                   "RGB-D front end on rendered images of a synthetic room",
                                    [hooks](const RenderedRoomOptions& options, const DataRoot&) {
                                      return load_rendered_room(options, hooks);
                                    }),
       dataset<RgbdOptions>("rgbd",
-                           "a folder of RGB-D images, tracked",
+                           "RGB-D front end on a folder of images",
                            [hooks](const RgbdOptions& options, const DataRoot& root) {
                              return load_rgbd(options, root, hooks);
                            }),
   };
-  // Tracking takes minutes: the lists of images and the intrinsics tell enough.
+  // Tracking takes minutes; reading the image lists and the intrinsics is sufficient.
   out[0].inspect = [](const Params&, const DataRoot&) {};
   out[1].inspect = [](const Params& given, const DataRoot& root) {
     const RgbdOptions options = with(RgbdOptions{}, given);

@@ -1,4 +1,4 @@
-/// The datasets that begin with images: `rendered_room` and `rgbd`.
+/// The datasets from images: `rendered_room` and `rgbd`.
 #pragma once
 
 #include <string>
@@ -32,27 +32,29 @@ struct RgbdOptions {
 
 template <class Visit>
 void fields(RgbdOptions& o, Visit visit) {
-  visit("path", o.path, "folder of the recording: TUM RGB-D, 7-Scenes or ICL-NUIM layout");
-  visit("name", o.name, "of the sequence; empty: the folder's");
-  visit("licence", o.licence, "of the data");
+  visit("path", o.path, "folder of the recording in TUM RGB-D, 7-Scenes or ICL-NUIM layout");
+  visit("name", o.name, "name of the sequence; empty: name of the folder");
+  visit("licence", o.licence, "licence of the data, free text copied to the results");
   fields(o.folder, visit);
   fields(o.frontend, visit);
 }
 
 /// Throws OptionError.
 inline void check_combination(const RgbdOptions& options) {
-  if (options.path.empty()) throw OptionError("path", "path: names no folder");
+  if (options.path.empty())
+    throw OptionError("path", "path: is empty, expected the folder of a recording");
 }
 
-/// Images of a room that does not exist, tracked. Throws InputError when nothing can be tracked.
+/// Renders images of a synthetic room and runs the front end. Throws InputError, see
+/// run_frontend().
 Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks = {});
 
-/// A recording on disk, tracked. Throws InputError: see open_rgbd_folder() and run_frontend().
+/// Runs the front end on a recording. Throws InputError, see open_rgbd_folder() and run_frontend().
 Sequence load_rgbd(const RgbdOptions& options,
                    const DataRoot& root,
                    const FrontendHooks& hooks = {});
 
-/// Both, for the catalogue.
+/// Entries of both datasets.
 std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks);
 
 }  // namespace loopbench

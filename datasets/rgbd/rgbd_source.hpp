@@ -1,4 +1,4 @@
-/// Where frames come from: a folder and a renderer are the same to whoever tracks.
+/// Interface of RGB-D frame sources: a folder or a renderer.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class RgbdSource {
   virtual std::size_t size() const = 0;
   virtual double stamp(std::size_t index) const = 0;  ///< [s], strictly increasing
 
-  /// Frame `index`, or nothing with the reason in `why` when its images are missing or broken.
-  /// Thread-safe. Same bits every time. O(pixels).
+  /// Returns frame `index`. Returns nothing and writes the reason to `why` if an image is missing
+  /// or corrupt. Thread-safe and bit-identical for repeated calls. O(pixels).
   virtual std::optional<RgbdFrame> read(std::size_t index, std::string& why) const = 0;
 
-  /// Changes with everything that read() depends on: key of what is cached.
+  /// Hash of everything that read() depends on, used as cache key.
   virtual std::uint64_t content() const = 0;
 
-  virtual const Trajectory& reference() const = 0;  ///< of the camera; may be empty
+  virtual const Trajectory& reference() const = 0;  ///< world_from_camera; may be empty
   virtual Provenance provenance() const = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-// Raise with any change of what a stage computes from the same input.
+// Increment with any change of the result of a stage for the same input.
 constexpr std::uint64_t kCacheVersion = 2;
 
 }  // namespace

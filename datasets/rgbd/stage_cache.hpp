@@ -1,4 +1,4 @@
-/// Which file each stage's result is kept in.
+/// Cache of the results of front-end stages.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace loopbench {
 
-/// Keys follow what goes in: images and feature options; then tracking options too; then those of
-/// the loops; then those of the refinement by depth. An empty folder keeps nothing.
+/// The key of a stage depends on the images and on the options of this and all previous stages:
+/// features, tracking, loops, refinement by depth. An empty folder disables the cache.
 class StageCache {
  public:
   StageCache(const std::filesystem::path& folder,
@@ -22,14 +22,15 @@ class StageCache {
   const std::filesystem::path& loops() const { return loops_; }
   const std::filesystem::path& refined() const { return refined_; }
 
-  /// What `file` holds, by `unpack`; otherwise what `make` gives, kept there by `pack`.
+  /// Returns unpack(content of `file`) if it is valid; otherwise calls make() and stores its
+  /// result.
   template <class Unpack, class Make, class Pack>
   auto get(const std::filesystem::path& file, Unpack unpack, Make make, Pack pack) const {
     if (folder_.empty()) return make();
     if (const std::optional<std::string> bytes = load_cached(file)) {
       try {
         return unpack(*bytes);
-      } catch (const std::runtime_error&) {  // another build's layout: worked out again
+      } catch (const std::runtime_error&) {  // layout of another build: recompute
       }
     }
     auto out = make();

@@ -9,10 +9,10 @@
 namespace loopbench {
 namespace {
 
-constexpr int kTries = 1000;  // pairs looked at before a path is said to stay in one place
+constexpr int kMaxAttempts = 1000;  // rejected pairs after which a path counts as stationary
 
-/// `count` of them at even distances in the list, the last one among them.
-std::vector<Revisit> evenly(const std::vector<Revisit>& pairs, std::size_t count) {
+/// Subsamples `count` pairs evenly by index, always including the last one.
+std::vector<Revisit> subsampled(const std::vector<Revisit>& pairs, std::size_t count) {
   if (pairs.size() <= count) return pairs;
   std::vector<Revisit> out;
   for (std::size_t k = 1; k <= count; ++k) out.push_back(pairs[k * pairs.size() / count - 1]);
@@ -28,21 +28,22 @@ Matrix6 information(const SimulatedClosures& options) {
   return out;
 }
 
-/// A pair far apart in time and clearly not in the same place.
-std::pair<std::size_t, std::size_t> strangers(const Trajectory& truth,
-                                              const RevisitRule& same,
-                                              Random& random) {
-  for (int attempt = 0; attempt < kTries; ++attempt) {
+/// Draws a pair of keyframes at different places, at least min_gap apart in time.
+std::pair<std::size_t, std::size_t> unrelated_pair(const Trajectory& truth,
+                                                   const RevisitRule& same,
+                                                   Random& random) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     auto [from, to] = std::minmax({random.index(truth.size()), random.index(truth.size())});
     if (truth[to].stamp - truth[from].stamp < same.min_gap) continue;
-    const Pose& there = truth[from].world_from_body;
-    const Pose& here = truth[to].world_from_body;
-    if (is_close(there, here, 2.0 * same.radius, 2.0 * same.angle)) continue;
+    const Pose& earlier = truth[from].world_from_body;
+    const Pose& later = truth[to].world_from_body;
+    if (is_close(earlier, later, 2.0 * same.radius, 2.0 * same.angle)) continue;
     return {from, to};
   }
-  throw OptionError("closures.false_share",
-                    "closures.false_share: no false closure exists on a path that stays where it "
-                    "is (or is shorter than closures.min_gap)");
+  throw OptionError(
+      "closures.false_share",
+      "closures.false_share: found no two different places, expected a path that moves "
+      "and is longer than closures.min_gap");
 }
 
 }  // namespace
@@ -51,28 +52,28 @@ std::vector<Edge> measure_closures(const Trajectory& truth,
                                    const RevisitRule& same,
                                    const SimulatedOptions& options) {
   const SimulatedClosures& closures = options.closures;
-  const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
+  const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
   std::vector<Edge> out;
 
   Random noise(noise_stream(options), Purpose::closures);
   const std::vector<Revisit> pairs =
-      evenly(find_revisits(truth, same), static_cast<std::size_t>(closures.max));
+      subsampled(find_revisits(truth, same), static_cast<std::size_t>(closures.max));
   for (const auto& [from, to] : pairs) {
-    const Pose true_one = truth[from].world_from_body.inverse() * truth[to].world_from_body;
-    const Twist error = kept.cwiseProduct(noise.normal_twist(closures.sigma_t, closures.sigma_r));
-    out.push_back({from, to, true_one * exp_se3(error), information(closures)});
+    const Pose exact = truth[from].world_from_body.inverse() * truth[to].world_from_body;
+    const Twist error = mask.cwiseProduct(noise.normal_twist(closures.sigma_t, closures.sigma_r));
+    out.push_back({from, to, exact * exp_se3(error), information(closures)});
   }
 
   const double share = closures.false_share;
-  const auto wrong = static_cast<std::size_t>(
+  const auto false_count = static_cast<std::size_t>(
       std::llround(static_cast<double>(pairs.size()) * share / (1.0 - share)));
-  Random confusion(noise_stream(options), Purpose::false_closures);
-  for (std::size_t k = 0; k < wrong; ++k) {
-    const auto [from, to] = strangers(truth, same, confusion);
-    // What a recogniser believes: here again, about as far off as true revisits are.
-    const Twist seen =
-        kept.cwiseProduct(confusion.normal_twist(0.5 * same.radius, 0.5 * same.angle));
-    out.push_back({from, to, exp_se3(seen), information(closures)});
+  Random false_noise(noise_stream(options), Purpose::false_closures);
+  for (std::size_t k = 0; k < false_count; ++k) {
+    const auto [from, to] = unrelated_pair(truth, same, false_noise);
+    // A false measurement has the same size as the relative pose of a true revisit.
+    const Twist measured =
+        mask.cwiseProduct(false_noise.normal_twist(0.5 * same.radius, 0.5 * same.angle));
+    out.push_back({from, to, exp_se3(measured), information(closures)});
   }
   std::sort(out.begin(), out.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.to, a.from) < std::tie(b.to, b.from);

@@ -1,4 +1,4 @@
-/// Loop closures as a place recogniser would report them, true and false.
+/// Simulated loop closures, true and false.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace loopbench {
 
-/// True closures: at most options.max revisits, evenly spread over all that there are and always
-/// with the last one, each measured as truth * exp(noise); then false_share of the result false:
-/// two places that are not the same taken for the same. Sorted by (to, from). `truth` are the
-/// keyframes' true poses. Throws OptionError when false ones are asked for on a path that never
-/// leaves its place. O(poses).
+/// Returns at most closures.max true closures, subsampled evenly from all revisits and including
+/// the last one, each measured as truth * exp(noise). Adds false closures, which connect different
+/// places, until their share is closures.false_share. Sorted by (to, from). `truth` holds the true
+/// poses of the keyframes. Throws OptionError if false closures are requested for a path that stays
+/// at one place. O(poses).
 std::vector<Edge> measure_closures(const Trajectory& truth,
                                    const RevisitRule& same,
                                    const SimulatedOptions& options);

@@ -1,5 +1,5 @@
-// Straight streets, quarter turns, red lights. Within a piece the distance is a cubic of time
-// that meets the speeds at both ends.
+// Path of straight streets, 90 degree corners and stops. Within a piece the distance travelled is a
+// cubic polynomial of time that matches the speeds at both ends.
 #include <algorithm>
 #include <memory>
 #include <numbers>
@@ -10,20 +10,20 @@
 namespace loopbench {
 namespace {
 
-constexpr double kRadius = 8.0;       // of a corner [m]
-constexpr double kCornerSpeed = 4.0;  // [m/s]: 2 m/s^2 sideways
-constexpr double kFromStop = 2.5;     // mean speed of a corner taken from standstill [m/s]
+constexpr double kRadius = 8.0;       // radius of a corner [m]
+constexpr double kCornerSpeed = 4.0;  // [m/s]; lateral acceleration 2 m/s^2
+constexpr double kFromStop = 2.5;     // mean speed in a corner after a stop [m/s]
 
 struct Leg {
-  double street;  // from crossing to crossing, or to the lap's end [m]
-  double speed;   // mean on the straight [m/s]
-  double red;     // standing before the turn [s]; 0: no stop
-  int turn;       // +1 left, -1 right, 0 the lap ends here
+  double street;  // length from crossing to crossing or to the end of the lap [m]
+  double speed;   // mean speed on the straight [m/s]
+  double red;     // duration of the stop before the corner [s]; 0: no stop
+  int turn;       // +1 left, -1 right, 0 end of the lap
 };
 
-// Streets on a grid of 100 m x 80 m; the lap starts and ends in the middle of the first street.
-// The first street's far half and the next one are driven twice (legs 5 and 6 after 1 and 2), leg 8
-// passes the crossing where leg 3 ended, leg 11 runs into the start.
+// Streets lie on a grid of 100 m x 80 m. The lap starts and ends in the middle of the first street.
+// The second half of the first street and the second street are driven twice (legs 5 and 6 repeat 1
+// and 2), leg 8 passes the crossing at the end of leg 3, leg 11 ends at the start.
 constexpr Leg kRoute[] = {{160, 11, 0, +1},
                           {80, 6, 4, +1},
                           {100, 7, 0, +1},
@@ -40,17 +40,18 @@ struct Piece {
   double begin, duration;  // [s]
   double length;           // [m]
   double entry, exit;      // speeds [m/s]
-  double x, y, yaw;        // pose at its begin
+  double x, y, yaw;        // pose at the start
   double curvature;        // [1/m], positive to the left
 
-  double travelled(double time) const {
+  /// Distance travelled [m].
+  double distance_at(double time) const {
     const double u = (time - begin) / duration;
     return length * u * u * (3.0 - 2.0 * u) + duration * entry * u * (1.0 - u) * (1.0 - u) -
            duration * exit * u * u * (1.0 - u);
   }
 
-  /// x, y, yaw after `s` metres.
-  Vector3 after(double s) const {
+  /// x, y [m] and yaw [rad] after `s` metres.
+  Vector3 pose_after(double s) const {
     const double half = 0.5 * curvature * s;
     const double chord = half == 0.0 ? s : s * std::sin(half) / half;
     return {x + chord * std::cos(yaw + half), y + chord * std::sin(yaw + half), yaw + 2.0 * half};
@@ -61,9 +62,9 @@ class Route {
  public:
   Route() {
     double speed = 0.0;
-    double back = 0.0;  // part of the street that the last corner took [m]
+    double in_corner = 0.0;  // part of the street that belongs to the previous corner [m]
     for (const auto& [street, mean, red, turn] : kRoute) {
-      const double straight = street - back - (turn == 0 ? 0.0 : kRadius);
+      const double straight = street - in_corner - (turn == 0 ? 0.0 : kRadius);
       const double end_speed = red > 0.0 ? 0.0 : kCornerSpeed;
       add(straight, straight / mean, speed, end_speed, 0.0);
       if (red > 0.0) add(0.0, red, 0.0, 0.0, 0.0);
@@ -76,7 +77,7 @@ class Route {
             turn / kRadius);
       }
       speed = turn == 0 ? end_speed : kCornerSpeed;
-      back = kRadius;
+      in_corner = kRadius;
     }
   }
 
@@ -85,12 +86,12 @@ class Route {
   Pose at(double time) const {
     const double in_lap = std::fmod(time, duration());
     const auto above = std::upper_bound(
-        pieces_.begin(), pieces_.end(), in_lap, [](double wanted, const Piece& piece) {
-          return wanted < piece.begin;
+        pieces_.begin(), pieces_.end(), in_lap, [](double value, const Piece& piece) {
+          return value < piece.begin;
         });
     const Piece& piece = *std::prev(above);
-    const Vector3 place = piece.after(piece.travelled(in_lap));
-    return on_ground(place.x(), place.y(), place.z());
+    const Vector3 planar = piece.pose_after(piece.distance_at(in_lap));
+    return on_ground(planar.x(), planar.y(), planar.z());
   }
 
  private:
@@ -98,7 +99,7 @@ class Route {
     Piece next{0.0, duration, length, entry, exit, 0.0, 0.0, 0.0, curvature};
     if (!pieces_.empty()) {
       const Piece& last = pieces_.back();
-      const Vector3 end = last.after(last.length);
+      const Vector3 end = last.pose_after(last.length);
       next.begin = last.begin + last.duration;
       next.x = end.x();
       next.y = end.y();
@@ -107,7 +108,8 @@ class Route {
     pieces_.push_back(next);
   }
 
-  /// Gentle hills, a function of the place so that a street has the same height every time.
+  /// Lifts a planar pose onto smooth hills. Height depends on the position only, so that a street
+  /// has the same height in every pass.
   static Pose on_ground(double x, double y, double yaw) {
     const double z = 0.6 * std::sin(0.03 * x) + 0.5 * std::sin(0.025 * y);
     const double slope_x = 0.018 * std::cos(0.03 * x);

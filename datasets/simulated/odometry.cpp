@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// What one step's errors depend on.
+/// Magnitude of one step, on which its errors depend.
 struct Motion {
   double seconds;
   double metres;
@@ -21,14 +21,15 @@ double sigma(const StepVariance& variance, double gain, const Motion& step) {
                           variance.per_speed * speed * speed * step.seconds);
 }
 
-/// Right perturbation of the step that the systematic errors make.
+/// Systematic error of a step, as right perturbation.
 Twist drift_of(const SystematicDrift& drift, const Pose& before_from_after, const Motion& step) {
   const double pitch = drift.pitch_per_second * step.seconds + drift.pitch_per_metre * step.metres +
                        drift.pitch_per_radian * step.radians;
   const double yaw = drift.yaw_per_second * step.seconds + drift.yaw_per_metre * step.metres +
                      drift.yaw_per_radian * step.radians;
-  const Vector3 along = before_from_after.rotation.conjugate() * before_from_after.translation;
-  return twist(drift.scale * along, Vector3(0.0, pitch, yaw));
+  const Vector3 step_in_after =
+      before_from_after.rotation.conjugate() * before_from_after.translation;
+  return twist(drift.scale * step_in_after, Vector3(0.0, pitch, yaw));
 }
 
 Matrix6 isotropic(double sigma_t, double sigma_r) {
@@ -50,13 +51,13 @@ Odometry measure_odometry(const Trajectory& truth,
                           const SimulatedOptions& options) {
   const OdometryNoise& noise = options.noise;
   Random random(noise_stream(options), Purpose::odometry);
-  const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
+  const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
 
   Odometry out;
   out.frames.reserve(truth.size());
   out.frames.push_back(truth.front());
   out.edges.reserve(keyframes.size() - 1);
-  std::size_t reached = 0;  // keyframe that the running edge starts from
+  std::size_t from = 0;  // keyframe at the start of the current edge
   Pose edge;
   Matrix6 covariance = isotropic(kSigmaFloor, kSigmaFloor);
   for (std::size_t i = 1; i < truth.size(); ++i) {
@@ -67,8 +68,8 @@ Odometry measure_odometry(const Trajectory& truth,
                       log_so3(before_from_after.rotation).norm()};
     const double sigma_t = sigma(noise.translation, noise.gain, step);
     const double sigma_r = sigma(noise.rotation, noise.gain, step);
-    const Twist error = kept.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
-    const Twist bias = kept.cwiseProduct(drift_of(options.drift, before_from_after, step));
+    const Twist error = mask.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
+    const Twist bias = mask.cwiseProduct(drift_of(options.drift, before_from_after, step));
     const Pose measured = before_from_after * exp_se3(bias) * exp_se3(error);
 
     const Pose& before = out.frames.back().world_from_body;
@@ -77,9 +78,9 @@ Odometry measure_odometry(const Trajectory& truth,
     const Matrix6 after_from_before = adjoint(before_from_after.inverse());
     covariance = after_from_before * covariance * after_from_before.transpose() +
                  isotropic(sigma_t, sigma_r);
-    if (reached + 1 < keyframes.size() && keyframes[reached + 1] == i) {
-      out.edges.push_back({reached, reached + 1, edge, inverted(covariance)});
-      ++reached;
+    if (from + 1 < keyframes.size() && keyframes[from + 1] == i) {
+      out.edges.push_back({from, from + 1, edge, inverted(covariance)});
+      ++from;
       edge = Pose{};
       covariance = isotropic(kSigmaFloor, kSigmaFloor);
     }

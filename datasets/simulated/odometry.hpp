@@ -1,4 +1,4 @@
-/// Walking a path with an odometer that errs.
+/// Simulated odometry with random and systematic errors.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,18 @@
 namespace loopbench {
 
 struct Odometry {
-  Trajectory frames;        ///< the drifting world; its first pose is the true one
+  Trajectory frames;        ///< integrated odometry; the first pose is the true one
   std::vector<Edge> edges;  ///< between consecutive keyframes
 };
 
-/// A standard deviation [m], [rad] too small to matter, so that a noiseless edge has finite
-/// information.
+/// Lower bound of standard deviations [m], [rad], so that a noise-free edge has finite information.
 inline constexpr double kSigmaFloor = 1e-6;
 
-/// Each step of `truth` is measured as step * exp(drift) * exp(noise). An edge's information is
-/// the inverse of its steps' noise covariances, each carried by the adjoint to the edge's end and
-/// summed; exact to first order in the noise. `keyframes` are ascending indices into `truth`.
-/// When `planar`, noise has x, y and yaw only; the information keeps the rest so that it stays
-/// positive definite. O(frames).
+/// Measures each step of `truth` as step * exp(drift) * exp(noise). The covariance of an edge is
+/// the sum of the noise covariances of its steps, each transported by the adjoint to the end of the
+/// edge; exact to first order in the noise. `keyframes` are ascending indices into `truth`. If
+/// options.planar is set, noise affects x, y and yaw only; the information stays positive definite
+/// in all axes. O(frames).
 Odometry measure_odometry(const Trajectory& truth,
                           const std::vector<std::size_t>& keyframes,
                           const SimulatedOptions& options);

@@ -3,7 +3,7 @@
 namespace loopbench {
 namespace {
 
-std::string own_text(const SimulatedOptions& options) {
+std::string option_identity(const SimulatedOptions& options) {
   return identity_text("simulated", options, [](const std::string&) { return false; });
 }
 
@@ -18,22 +18,24 @@ void check_combination(const SimulatedOptions& o) {
     if (!o.planar || value == 0.0) continue;
     throw OptionError(name,
                       std::string(name) + " = " + to_text(value) +
-                          ": leaves the plane, expected 0 with planar = true");
+                          ": causes motion out of the plane, expected 0 with planar = true");
   }
   if (o.closures.max == 0 && o.closures.false_share > 0.0) {
-    throw OptionError("closures.false_share",
-                      "closures.false_share = " + to_text(o.closures.false_share) +
-                          ": is a share of no closures, expected 0 with closures.max = 0");
+    throw OptionError(
+        "closures.false_share",
+        "closures.false_share = " + to_text(o.closures.false_share) +
+            ": has no effect without true closures, expected 0 with closures.max = 0");
   }
 }
 
 NoiseStream noise_stream(const SimulatedOptions& o) {
-  return {o.seed, o.stream.empty() ? noise_identity(own_text(o), {}) : noise_identity(o.stream)};
+  return {o.seed,
+          o.stream.empty() ? noise_identity(option_identity(o), {}) : noise_identity(o.stream)};
 }
 
 std::string noise_text(const SimulatedOptions& o) {
-  const std::string what = o.stream.empty() ? own_text(o) : "stream " + o.stream;
-  return what + "; seed " + std::to_string(o.seed);
+  const std::string stream = o.stream.empty() ? option_identity(o) : "stream " + o.stream;
+  return stream + "; seed " + std::to_string(o.seed);
 }
 
 }  // namespace loopbench

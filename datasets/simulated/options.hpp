@@ -1,4 +1,4 @@
-/// Settings of the simulated dataset.
+/// Options of the simulated dataset.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline auto choices(SimulatedPath) {
                     std::pair{"spin", SimulatedPath::spin}};
 }
 
-/// variance of a step = gain^2 * (per_second dt + per_metre d + per_radian |dtheta| +
+/// Variance of a step = gain^2 * (per_second dt + per_metre d + per_radian |dtheta| +
 /// per_speed (d / dt)^2 dt), on each of the three axes.
 struct StepVariance {
   double per_second;  ///< [unit^2/s]
@@ -27,45 +27,46 @@ struct StepVariance {
   double per_speed;   ///< [unit^2 s/m^2]
 };
 
-/// Defaults: `room` drifts like open ORB-SLAM2 on fr1_room (ATE about 0.1 m), `driving` by metres.
+/// With the defaults `room` drifts like ORB-SLAM2 without loop closing on fr1_room (ATE about 0.1
+/// m), and `driving` by several metres.
 struct OdometryNoise {
-  double gain = 1.0;  ///< on every standard deviation [-]
+  double gain = 1.0;  ///< factor on every standard deviation [-]
   StepVariance translation{1e-4, 1.5e-3, 2e-4, 0.0};
   StepVariance rotation{5e-6, 1e-6, 6e-5, 0.0};
 };
 
-/// The same in every run: what a badly calibrated sensor does. Not in any edge's information.
+/// Deterministic errors, as of a badly calibrated sensor. Not included in the information of edges.
 struct SystematicDrift {
-  double scale = 0.0;             ///< too long by this share along the motion [-]
+  double scale = 0.0;             ///< relative scale error of translations [-]
   double yaw_per_second = 0.0;    ///< about the body's z axis [rad/s]
   double yaw_per_metre = 0.0;     ///< [rad/m]
-  double yaw_per_radian = 0.0;    ///< of turn either way [rad/rad]
+  double yaw_per_radian = 0.0;    ///< per rotation angle of any sign [rad/rad]
   double pitch_per_second = 0.0;  ///< about the body's y axis [rad/s]
   double pitch_per_metre = 0.0;   ///< [rad/m]
-  double pitch_per_radian = 0.0;  ///< of turn either way [rad/rad]
+  double pitch_per_radian = 0.0;  ///< per rotation angle of any sign [rad/rad]
 };
 
-/// White noise on every tracked frame, keyframes among them: what smoothing can remove. Odometry is
-/// measured without it.
+/// White noise on every tracked frame, including keyframes, which smoothing can remove. Odometry
+/// edges do not contain it.
 struct Shake {
   double sigma_t = 0.0;  ///< [m]
   double sigma_r = 0.0;  ///< [rad]
 };
 
 struct SimulatedClosures {
-  double radius = 0.0;       ///< [m]; 0: the path's own
+  double radius = 0.0;       ///< [m]; 0: default of the path
   double angle = 30.0;       ///< [deg]
   double min_gap = 10.0;     ///< [s]
-  std::int64_t max = 10;     ///< true ones kept
+  std::int64_t max = 10;     ///< maximum number of true closures
   double sigma_t = 0.02;     ///< [m]
   double sigma_r = 0.005;    ///< [rad]
-  double false_share = 0.0;  ///< of all closures [-]
+  double false_share = 0.0;  ///< false closures among all closures [-]
 };
 
 struct SimulatedOptions {
   SimulatedPath path = SimulatedPath::room;
   std::int64_t seed = 1;
-  std::string stream;  ///< shared noise; empty: noise of its own
+  std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::int64_t laps = 1;
   std::int64_t keyframes = 0;
   double frame_rate = 0.0;
@@ -79,59 +80,136 @@ struct SimulatedOptions {
 
 template <class Visit>
 void fields(SimulatedOptions& o, Visit visit) {
-  visit("path", o.path, "closed-form path to follow");
+  visit("path", o.path, "closed-form path");
   visit("seed", o.seed, "seed of all random draws", Between{0});
   noise_stream_field(o.stream, visit);
-  visit("laps", o.laps, "how often the path is run through", Between{1});
-  visit("keyframes", o.keyframes, "how many, evenly in time; 0: the path's own a lap", Between{0});
-  visit("frame_rate", o.frame_rate, "of tracked frames [Hz]; 0: the path's own", Between{0, 1e4});
-  visit("reference_rate", o.reference_rate, "[Hz]; 0: four times frame_rate", Between{0, 1e5});
-  visit("planar", o.planar, "flatten path and noise to SE(2)");
+  visit("laps", o.laps, "number of laps along the path", Between{1});
+  visit("keyframes",
+        o.keyframes,
+        "number of keyframes, evenly spaced in time; 0: default of the path, per lap",
+        Between{0});
+  visit("frame_rate",
+        o.frame_rate,
+        "rate of tracked frames [Hz]; 0: default of the path",
+        Between{0, 1e4});
+  visit("reference_rate",
+        o.reference_rate,
+        "rate of reference poses [Hz]; 0: four times frame_rate",
+        Between{0, 1e5});
+  visit("planar", o.planar, "restriction of path and noise to SE(2)");
 
   OdometryNoise& n = o.noise;
   const Between variance{0, 1};
-  visit("noise.gain", n.gain, "on all odometry standard deviations [-]", Between{0, 1e3});
-  visit("noise.t.per_second", n.translation.per_second, "variance a step [m^2/s]", variance);
-  visit("noise.t.per_metre", n.translation.per_metre, "variance a step [m^2/m]", variance);
-  visit("noise.t.per_radian", n.translation.per_radian, "variance a step [m^2/rad]", variance);
-  visit("noise.t.per_speed", n.translation.per_speed, "times speed^2 dt [m^2 s/m^2]", variance);
-  visit("noise.r.per_second", n.rotation.per_second, "variance a step [rad^2/s]", variance);
-  visit("noise.r.per_metre", n.rotation.per_metre, "variance a step [rad^2/m]", variance);
-  visit("noise.r.per_radian", n.rotation.per_radian, "variance a step [rad^2/rad]", variance);
-  visit("noise.r.per_speed", n.rotation.per_speed, "times speed^2 dt [rad^2 s/m^2]", variance);
+  visit("noise.gain", n.gain, "factor on all odometry standard deviations [-]", Between{0, 1e3});
+  visit("noise.t.per_second",
+        n.translation.per_second,
+        "translation variance per time [m^2/s]",
+        variance);
+  visit("noise.t.per_metre",
+        n.translation.per_metre,
+        "translation variance per distance travelled [m^2/m]",
+        variance);
+  visit("noise.t.per_radian",
+        n.translation.per_radian,
+        "translation variance per rotation angle [m^2/rad]",
+        variance);
+  visit("noise.t.per_speed",
+        n.translation.per_speed,
+        "translation variance per squared speed and time [m^2 s/m^2]",
+        variance);
+  visit("noise.r.per_second",
+        n.rotation.per_second,
+        "rotation variance per time [rad^2/s]",
+        variance);
+  visit("noise.r.per_metre",
+        n.rotation.per_metre,
+        "rotation variance per distance travelled [rad^2/m]",
+        variance);
+  visit("noise.r.per_radian",
+        n.rotation.per_radian,
+        "rotation variance per rotation angle [rad^2/rad]",
+        variance);
+  visit("noise.r.per_speed",
+        n.rotation.per_speed,
+        "rotation variance per squared speed and time [rad^2 s/m^2]",
+        variance);
 
   SystematicDrift& d = o.drift;
   const Between some{-1, 1};
-  visit("drift.scale", d.scale, "odometry too long by this share [-]", Between{-0.9, 9});
-  visit("drift.yaw_per_second", d.yaw_per_second, "steady turn about body z [rad/s]", some);
-  visit("drift.yaw_per_metre", d.yaw_per_metre, "turn about body z [rad/m]", some);
-  visit("drift.yaw_per_radian", d.yaw_per_radian, "turn about body z [rad/rad]", some);
-  visit("drift.pitch_per_second", d.pitch_per_second, "steady turn about body y [rad/s]", some);
-  visit("drift.pitch_per_metre", d.pitch_per_metre, "turn about body y [rad/m]", some);
-  visit("drift.pitch_per_radian", d.pitch_per_radian, "turn about body y [rad/rad]", some);
+  visit("drift.scale",
+        d.scale,
+        "relative scale error of odometry translations [-]",
+        Between{-0.9, 9});
+  visit("drift.yaw_per_second",
+        d.yaw_per_second,
+        "systematic yaw error per time, about body z [rad/s]",
+        some);
+  visit("drift.yaw_per_metre",
+        d.yaw_per_metre,
+        "systematic yaw error per distance travelled [rad/m]",
+        some);
+  visit("drift.yaw_per_radian",
+        d.yaw_per_radian,
+        "systematic yaw error per rotation angle [rad/rad]",
+        some);
+  visit("drift.pitch_per_second",
+        d.pitch_per_second,
+        "systematic pitch error per time, about body y [rad/s]",
+        some);
+  visit("drift.pitch_per_metre",
+        d.pitch_per_metre,
+        "systematic pitch error per distance travelled [rad/m]",
+        some);
+  visit("drift.pitch_per_radian",
+        d.pitch_per_radian,
+        "systematic pitch error per rotation angle [rad/rad]",
+        some);
 
-  visit("shake.sigma_t", o.shake.sigma_t, "white noise on every frame [m]", Between{0, 1e3});
-  visit("shake.sigma_r", o.shake.sigma_r, "white noise on every frame [rad]", Between{0, 1});
+  visit("shake.sigma_t",
+        o.shake.sigma_t,
+        "standard deviation of white position noise on every frame [m]",
+        Between{0, 1e3});
+  visit("shake.sigma_r",
+        o.shake.sigma_r,
+        "standard deviation of white rotation noise on every frame [rad]",
+        Between{0, 1});
 
   SimulatedClosures& c = o.closures;
-  visit(
-      "closures.radius", c.radius, "how near a revisit is [m]; 0: the path's own", Between{0, 1e6});
-  visit("closures.angle", c.angle, "how alike a revisit looks [deg]", Between{0, 180});
-  visit("closures.min_gap", c.min_gap, "shortest loop [s]", Above{0});
-  visit("closures.max", c.max, "true closures kept, well spread", Between{0});
-  visit("closures.sigma_t", c.sigma_t, "noise [m]", Between{0, 1e3});
-  visit("closures.sigma_r", c.sigma_r, "noise [rad]", Between{0, 1});
-  visit("closures.false_share", c.false_share, "false ones among all [-]", Between{0, 0.95});
+  visit("closures.radius",
+        c.radius,
+        "maximum distance between the two poses of a revisit [m]; 0: default of the path",
+        Between{0, 1e6});
+  visit("closures.angle",
+        c.angle,
+        "maximum rotation angle between the two poses of a revisit [deg]",
+        Between{0, 180});
+  visit("closures.min_gap",
+        c.min_gap,
+        "minimum time between the two poses of a revisit [s]",
+        Above{0});
+  visit("closures.max", c.max, "maximum number of true closures, subsampled evenly", Between{0});
+  visit("closures.sigma_t",
+        c.sigma_t,
+        "translation standard deviation of a closure [m]",
+        Between{0, 1e3});
+  visit("closures.sigma_r",
+        c.sigma_r,
+        "rotation standard deviation of a closure [rad]",
+        Between{0, 1});
+  visit("closures.false_share",
+        c.false_share,
+        "share of false closures among all closures [-]",
+        Between{0, 0.95});
 }
 
-/// Throws OptionError for options of which one disables another.
+/// Throws OptionError if an option has no effect or is invalid because of another option.
 void check_combination(const SimulatedOptions& options);
 
-/// Where all noise of the dataset comes from. Datasets that differ in any option but the seed draw
-/// independent noise, unless they name the same `stream`.
+/// Random stream of all noise of the dataset. Datasets that differ in any option other than the
+/// seed draw independent noise, unless they have the same `stream`.
 NoiseStream noise_stream(const SimulatedOptions& options);
 
-/// The same in words: datasets with equal text share their noise.
+/// Description of the stream for provenance: datasets with equal text share their noise.
 std::string noise_text(const SimulatedOptions& options);
 
 }  // namespace loopbench

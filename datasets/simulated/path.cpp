@@ -13,7 +13,7 @@ Rotation heading(double yaw, double pitch, double roll) {
 namespace {
 
 constexpr double kLineSpeed = 0.5;                           // [m/s]
-constexpr double kSpinRate = 2.0 * std::numbers::pi / 20.0;  // [rad/s], one turn a lap
+constexpr double kSpinRate = 2.0 * std::numbers::pi / 20.0;  // [rad/s], one rotation per lap
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Path path_of(SimulatedPath which) {
                 return Pose{heading(kSpinRate * t, 0.0, 0.0), Vector3::Zero()};
               }};
   }
-  throw std::logic_error("a path without a formula");
+  throw std::logic_error("unknown simulated path");
 }
 
 }  // namespace loopbench

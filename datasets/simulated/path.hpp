@@ -1,6 +1,6 @@
-/// Closed-form paths: a pose for any time, no state, nothing random.
+/// Deterministic closed-form paths, which return a pose for any time.
 ///
-/// The body looks along x, y is to its left, z up.
+/// Body axes: x forward, y left, z up.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,23 @@ struct Path {
   double duration;         ///< of one lap [s]
   std::int64_t keyframes;  ///< of one lap
   double frame_rate;       ///< [Hz]
-  double closure_radius;   ///< how near a revisit is [m]
-  /// world_from_body at any time >= 0 [s]; laps follow each other without a jump. O(1).
+  double closure_radius;   ///< maximum distance between the two poses of a revisit [m]
+  /// Returns world_from_body at any time >= 0 [s]; continuous between laps. O(1).
   std::function<Pose(double)> at;
 };
 
-/// Turned by yaw, then pitch (nose down), then roll (left side up) [rad].
+/// Rotation Rz(yaw) Ry(pitch) Rx(roll) [rad]; positive pitch is nose down, positive roll left side
+/// up.
 Rotation heading(double yaw, double pitch, double roll);
 
-/// Hand-held once around a small room looking outwards. Duration, keyframes, length, speeds and
-/// box of TUM RGB-D fr1_room as the paper reports them.
+/// Hand-held loop through a small room, looking outwards. Duration, number of keyframes, length,
+/// speeds and bounding box are those of TUM RGB-D fr1_room reported in the paper.
 Path room_path();
 
-/// Hand-held once around a group of desks looking inwards: fr3_long_office_household.
+/// Hand-held loop around a group of desks, looking inwards, like fr3_long_office_household.
 Path office_path();
 
-/// A kilometre through town blocks with stops; some streets are driven twice, both lap ends meet.
+/// Closed loop of one kilometre through town blocks with stops; some streets are driven twice.
 Path driving_path();
 
 Path path_of(SimulatedPath which);

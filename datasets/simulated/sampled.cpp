@@ -12,8 +12,8 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMostPoses = 1e8;                // 6.4 GB: more is a slip of the pen
-constexpr std::size_t kMostRemembered = 100'000;  // [poses], 6.4 MB
+constexpr double kMaxPoses = 1e8;            // 6.4 GB
+constexpr std::size_t kMaxCached = 100'000;  // [poses], 6.4 MB
 
 Pose flattened(const Pose& pose) {
   const Vector3 ahead = pose.rotation * Vector3::UnitX();
@@ -21,11 +21,12 @@ Pose flattened(const Pose& pose) {
           {pose.translation.x(), pose.translation.y(), 0.0}};
 }
 
-Trajectory made(SimulatedPath which, double rate, double seconds, bool planar) {
-  // A tail of rounding must not cost the last pose.
+Trajectory sample_path(SimulatedPath which, double rate, double seconds, bool planar) {
+  // The factor prevents that rounding drops the last pose.
   const double steps = std::floor(seconds * rate * (1.0 + 1e-12));
-  if (steps >= kMostPoses) {
-    throw OptionError("laps", fmt::format("laps: {} s at {} Hz are too many poses", seconds, rate));
+  if (steps >= kMaxPoses) {
+    throw OptionError("laps",
+                      fmt::format("laps: {} s at {} Hz exceed {} poses", seconds, rate, kMaxPoses));
   }
   const Path path = path_of(which);
   Trajectory out(static_cast<std::size_t>(steps) + 1);
@@ -37,31 +38,31 @@ Trajectory made(SimulatedPath which, double rate, double seconds, bool planar) {
   return out;
 }
 
-using Asked = std::tuple<SimulatedPath, double, double, bool>;
+using Arguments = std::tuple<SimulatedPath, double, double, bool>;
 
-struct Remembered {
+struct LastResult {
   std::mutex mutex;
-  Asked asked{};
+  Arguments arguments{};
   std::shared_ptr<const Trajectory> poses;
 };
 
 }  // namespace
 
 Trajectory sampled(SimulatedPath which, double rate, double seconds, bool planar) {
-  static Remembered last;
-  const Asked asked{which, rate, seconds, planar};
-  std::shared_ptr<const Trajectory> known;
+  static LastResult last;
+  const Arguments arguments{which, rate, seconds, planar};
+  std::shared_ptr<const Trajectory> cached;
   {
     const std::lock_guard lock(last.mutex);
-    if (last.poses && last.asked == asked) known = last.poses;
+    if (last.poses && last.arguments == arguments) cached = last.poses;
   }
-  if (known) return *known;
-  Trajectory out = made(which, rate, seconds, planar);
-  if (out.size() > kMostRemembered) return out;
-  known = std::make_shared<const Trajectory>(out);
+  if (cached) return *cached;
+  Trajectory out = sample_path(which, rate, seconds, planar);
+  if (out.size() > kMaxCached) return out;
+  cached = std::make_shared<const Trajectory>(out);
   const std::lock_guard lock(last.mutex);
-  last.asked = asked;
-  last.poses = std::move(known);
+  last.arguments = arguments;
+  last.poses = std::move(cached);
   return out;
 }
 

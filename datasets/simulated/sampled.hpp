@@ -1,4 +1,4 @@
-/// A path as a list of poses, evenly in time.
+/// Sampling of a simulated path at a constant rate.
 #pragma once
 
 #include "datasets/core/trajectory.hpp"
@@ -6,10 +6,9 @@
 
 namespace loopbench {
 
-/// Poses at k / rate from 0 to `seconds`, flattened to z = 0 and a heading when `planar`. Repeats
-/// of a sequence differ in their noise, not in where they went, and a path's sines cost more than
-/// all noise: so the list asked for last is remembered. Thread-safe. Throws OptionError for too
-/// many.
+/// Returns poses at k / rate from 0 to `seconds`, projected to x, y, yaw if `planar`. The last
+/// result is cached, because repetitions with other noise use the same path and its evaluation
+/// dominates the run time. Thread-safe. Throws OptionError for more than 1e8 poses. O(poses).
 Trajectory sampled(SimulatedPath which, double rate, double seconds, bool planar);
 
 }  // namespace loopbench

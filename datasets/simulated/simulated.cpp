@@ -14,24 +14,24 @@
 namespace loopbench {
 namespace {
 
-/// The reference is sampled so much finer than the frames, unless told otherwise. A power of two,
-/// so k / frame_rate and 4 k / (4 frame_rate) are the same bits and every frame has a reference
-/// pose.
-constexpr std::size_t kFiner = 4;
+/// Default ratio of reference rate and frame rate. With a power of two, k / frame_rate and
+/// 4 k / (4 frame_rate) are bit-identical and every frame has a reference pose at its stamp.
+constexpr std::size_t kReferencePerFrame = 4;
 
-Trajectory every_finer_one(const Trajectory& reference) {
+Trajectory frames_of(const Trajectory& reference) {
   Trajectory out;
-  out.reserve(reference.size() / kFiner + 1);
-  for (std::size_t i = 0; i < reference.size(); i += kFiner) out.push_back(reference[i]);
+  out.reserve(reference.size() / kReferencePerFrame + 1);
+  for (std::size_t i = 0; i < reference.size(); i += kReferencePerFrame)
+    out.push_back(reference[i]);
   return out;
 }
 
-/// `count` indices below `size`, even, both ends among them.
-std::vector<std::size_t> chosen(std::size_t count, std::size_t size) {
+/// Returns `count` evenly spaced indices from 0 to size - 1. Throws OptionError if count > size.
+std::vector<std::size_t> even_indices(std::size_t count, std::size_t size) {
   if (count > size) {
     throw OptionError(
         "keyframes",
-        fmt::format("keyframes = {} breaks keyframes <= {}, the number of frames", count, size));
+        fmt::format("keyframes = {}: expected keyframes <= {}, the number of frames", count, size));
   }
   std::vector<std::size_t> out(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
@@ -47,14 +47,14 @@ Trajectory at(const std::vector<std::size_t>& indices, const Trajectory& poses) 
   return out;
 }
 
-/// Each pose moved on its own, in the plane when `planar`.
-void shake(Trajectory& poses, const SimulatedOptions& options) {
+/// Adds independent noise to each pose, in x, y and yaw only if `planar`.
+void add_white_noise(Trajectory& poses, const SimulatedOptions& options) {
   const auto [sigma_t, sigma_r] = options.shake;
   if (sigma_t == 0.0 && sigma_r == 0.0) return;
-  const Twist kept = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
+  const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
   Random random(noise_stream(options), Purpose::shake);
   for (auto& [stamp, pose] : poses) {
-    const Twist noise = kept.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
+    const Twist noise = mask.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
     pose = normalized(pose * exp_se3(noise));
   }
 }
@@ -66,18 +66,20 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   const Path path = path_of(options.path);
   const double seconds = path.duration * static_cast<double>(options.laps);
   const double frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
-  const bool finer = options.reference_rate == 0.0;
+  const bool default_rate = options.reference_rate == 0.0;
   const double reference_rate =
-      finer ? static_cast<double>(kFiner) * frame_rate : options.reference_rate;
-  const std::int64_t wanted =
+      default_rate ? static_cast<double>(kReferencePerFrame) * frame_rate : options.reference_rate;
+  const std::int64_t keyframe_count =
       options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps;
 
   Trajectory reference = sampled(options.path, reference_rate, seconds, options.planar);
-  const Trajectory truth = finer ? every_finer_one(reference)
-                                 : sampled(options.path, frame_rate, seconds, options.planar);
-  const std::vector<std::size_t> keyframes = chosen(static_cast<std::size_t>(wanted), truth.size());
+  const Trajectory truth = default_rate
+                               ? frames_of(reference)
+                               : sampled(options.path, frame_rate, seconds, options.planar);
+  const std::vector<std::size_t> keyframes =
+      even_indices(static_cast<std::size_t>(keyframe_count), truth.size());
   Odometry odometry = measure_odometry(truth, keyframes, options);
-  shake(odometry.frames, options);
+  add_white_noise(odometry.frames, options);
   const SimulatedClosures& closures = options.closures;
   const RevisitRule same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
                          closures.angle * std::numbers::pi / 180.0,

@@ -1,4 +1,4 @@
-/// A sequence made from a closed-form path, an odometer that errs and a place recogniser.
+/// The dataset `simulated`: a closed-form path with simulated odometry and loop closures.
 #pragma once
 
 #include "datasets/dataset.hpp"
@@ -6,10 +6,10 @@
 
 namespace loopbench {
 
-/// Frames lie at k / frame_rate, keyframes are an even choice of them with both ends, so frames
-/// and keyframes share one drifting world; the world of the first frame is the reference's.
-/// `frames` holds every tracked frame, keyframes included. Closures are legitimate measurements:
-/// truth + noise with matching information. Throws OptionError. O(frames + reference poses).
+/// Frames have stamps k / frame_rate. Keyframes are evenly spaced frames, including the first and
+/// the last. `frames` contains all tracked frames, including keyframes; the first one has its true
+/// pose. Closures are true relative poses with noise of the stated information. Throws OptionError.
+/// O(frames + reference poses).
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot& root = {});
 
 }  // namespace loopbench

@@ -51,7 +51,8 @@ TEST(Problem, CheckNamesTheTrajectory) {
 TEST(Problem, CheckNamesTheEdgeAndTheRule) {
   EXPECT_EQ(refusal([](Problem& p) { p.closures[0] = edge(2, 2); }),
             "p: closure 0: from is not before to");
-  EXPECT_EQ(refusal([](Problem& p) { p.closures[3].to = 4; }), "p: closure 3: names no keyframe");
+  EXPECT_EQ(refusal([](Problem& p) { p.closures[3].to = 4; }),
+            "p: closure 3: refers to a keyframe that does not exist");
   EXPECT_EQ(refusal([](Problem& p) { p.odometry[1].from_from_to.translation.x() = std::nan(""); }),
             "p: odometry edge 1: is not finite");
   EXPECT_EQ(refusal([](Problem& p) { p.closures[1].scale = 0.0; }), "p: closure 1: is not finite");
@@ -65,7 +66,7 @@ TEST(Problem, CheckNamesTheEdgeAndTheRule) {
 
 TEST(Problem, CheckNamesTheOrder) {
   EXPECT_EQ(refusal([](Problem& p) { p.odometry[1].to = 3; }),
-            "p: odometry edge 1: does not join consecutive keyframes");
+            "p: odometry edge 1: does not connect consecutive keyframes");
   EXPECT_EQ(refusal([](Problem& p) { p.odometry[1] = edge(0, 1); }),
             "p: odometry edge 1: is not sorted by from");
   EXPECT_EQ(refusal([](Problem& p) { std::swap(p.closures[0], p.closures[1]); }),

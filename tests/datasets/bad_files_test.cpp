@@ -1,4 +1,4 @@
-/// Every file in tests/data/bad/ is refused with the words its line of the manifest promises.
+/// Checks that every file in tests/data/bad/ is rejected with the error message in the manifest.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -33,14 +33,14 @@ std::vector<Case> cases() {
 TEST(BadFiles, AreRefusedInTheWordsOfTheManifest) {
   for (const Case& one : cases()) {
     const auto file = sample("bad/" + one.file);
-    const std::string said = refusal([&] {
+    const std::string text = refusal([&] {
       if (one.reader == "g2o") {
         read_g2o(file);
       } else {
         read_trajectory(file);
       }
     });
-    EXPECT_EQ(said, file.string() + one.message) << one.file;
+    EXPECT_EQ(text, file.string() + one.message) << one.file;
   }
 }
 
@@ -66,7 +66,7 @@ TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
 TEST(BadFiles, AbsurdSizesAreRefusedUnread) {
   const Scratch scratch;
   const auto file = scratch.file("huge.txt", "0 0 0 0 0 0 0 1\n");
-  std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse: takes no room
+  std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse file
   EXPECT_EQ(refusal([&] { read_trajectory(file); }),
             file.string() + ": has 9663676416 bytes, expected at most 8589934592");
 }
@@ -80,10 +80,10 @@ TEST(BadFiles, TimesMustMatchThePoses) {
   };
   EXPECT_EQ(refuse("times_two.txt"),
             poses.string() + ": has 3 poses, but " + sample("bad/times_two.txt").string() +
-                " has 2 times, expected as many");
+                " has 2 times, expected equal numbers");
   EXPECT_EQ(refuse("times_unsorted.txt"),
             sample("bad/times_unsorted.txt").string() +
-                ":3: stamp 0.1 is before stamp 0.2 on line 2, expected increasing stamps");
+                ":3: stamp 0.1 is smaller than stamp 0.2 on line 2, expected increasing stamps");
   EXPECT_EQ(refuse("times_two_columns.txt"),
             sample("bad/times_two_columns.txt").string() +
                 ":1: has 2 columns, expected 1: a time in seconds");
@@ -95,8 +95,8 @@ TEST(BadFiles, AFormatGivenByHandIsHeldTo) {
     ReadOptions options;
     options.format = format;
     const std::string path = sample("good/" + name).string();
-    const std::string said = refusal([&] { read_trajectory(path, options); });
-    return said.starts_with(path) ? said.substr(path.size()) : said;
+    const std::string text = refusal([&] { read_trajectory(path, options); });
+    return text.starts_with(path) ? text.substr(path.size()) : text;
   };
   EXPECT_EQ(refuse("kitti.txt", Format::tum),
             ":1: has 12 columns, expected 8: stamp tx ty tz qx qy qz qw (looks like kitti)");
@@ -115,7 +115,7 @@ TEST(BadFiles, TimesBesideAFormatWithStampsAreRefused) {
   options.times = sample("good/kitti_times.txt");
   const auto file = sample("good/tum.txt");
   EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
-            file.string() + ": is tum, whose stamps are its own, expected no times file");
+            file.string() + ": has format tum, which contains stamps, expected no times file");
   options = {};
   options.period = 0.0;
   EXPECT_THROW(read_trajectory(file, options), OptionError);

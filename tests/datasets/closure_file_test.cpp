@@ -67,7 +67,7 @@ TEST(ClosureFile, BecomesEdgesBetweenNearestPosesInOrder) {
 }
 
 TEST(ClosureFile, TurnedRoundKeepsWhatANoiseMeans) {
-  // The same error on the measurement, seen either way, costs the same.
+  // The same error has the same cost for the edge and its inverse.
   const Trajectory poses = on_a_line({0, 1});
   const Pose pose{exp_so3({0.1, 0.2, 0.3}), {1.0, 2.0, 3.0}};
   const auto edges = as_edges({{1.0, 0.0, pose, {0.1, 0.3}, 1}}, poses, 0.02, "f");

@@ -59,7 +59,8 @@ TEST(ComposeEdges, DoNotCareWhereTheyAreCut) {
 }
 
 TEST(ComposeEdges, AddVariancesOnAStraightLine) {
-  // Two steps of 1 m along x: the first one's yaw error swings the end sideways by its lever.
+  // Two steps of 1 m along x: the yaw error of the first one moves the end sideways by its lever
+  // arm.
   Edge step{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
   const Matrix6 covariance = compose(step, step).information.inverse();
   EXPECT_NEAR(covariance(0, 0), 0.02, 1e-12);
@@ -103,14 +104,14 @@ TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
 }
 
 TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {
-  // Scale 2: a length of 0.1 in the second pose's unit is 0.2 in the first's.
+  // Scale 2: a length of 0.1 in the scale of the second pose is 0.2 in that of the first.
   Edge exact{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(1e-16, 1e-16)};
   exact.scale = 2.0;
   Edge noisy{1, 2, {Rotation::Identity(), {1.0, 0.0, 0.0}}, isotropic_information(0.01, 0.04)};
   Matrix6 covariance = compose(exact, noisy).information.inverse();
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.2, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(5, 5)), 0.2, 1e-9);
-  // The lever of the first edge's rotation is the second edge in the first one's unit: 2.
+  // The lever arm of the first edge's rotation is the second edge in the scale of the first: 2.
   std::swap(exact.information, noisy.information);
   covariance = compose(exact, noisy).information.inverse();
   EXPECT_NEAR(covariance(1, 1), 0.01 + 0.04 * 4.0, 1e-9);
@@ -135,7 +136,7 @@ TEST(OdometryEdges, StateTheirModel) {
 }
 
 TEST(OdometryEdges, DefaultCovariancesDoNotDependOnHowTheWayIsCut) {
-  // 40 m with one full rotation, as one edge or as 8: the same variances but for the floor.
+  // 40 m with one full rotation, as 1 or 8 edges: equal variances except for the constant term.
   const auto total = [](std::size_t edges, int axis) {
     Trajectory poses;
     for (std::size_t i = 0; i <= edges; ++i) {

@@ -35,7 +35,7 @@ TEST(DisabledOptions, OfMeasuredClosuresAreRejectedForClosuresFromAFile) {
   const Params file{
       {"estimate", "a.txt"}, {"closures.source", "file"}, {"closures.file", "loops.txt"}};
   EXPECT_THAT(refusal("trajectory", file), IsEmpty());
-  // The default, too: a config that states it expects it to act.
+  // Also rejected with the default value, because the config sets it.
   EXPECT_EQ(refusal("trajectory", with(file, "closures.max", std::int64_t{20})),
             "closures.max: has no effect with closures.source = file, expected closures.source = "
             "reference or estimate");
@@ -71,7 +71,7 @@ TEST(DisabledOptions, OfClosuresAreRejectedWithoutClosures) {
 TEST(DisabledOptions, OfTheReferenceAreRejectedWithoutOne) {
   const Params alone{{"estimate", "a.txt"}};
   EXPECT_EQ(refusal("trajectory", with(alone, "reference_body.x", 0.1)),
-            "reference_body.x: has no effect without reference, which names no file");
+            "reference_body.x: has no effect without reference, which is empty");
   EXPECT_THAT(refusal("trajectory", with(alone, "reference_format", "tum")),
               HasSubstr("without reference"));
   const Params graph{{"path", "a.g2o"}};
@@ -90,7 +90,8 @@ TEST(DisabledOptions, KeyframeValueIsRejectedWithRuleAll) {
 
 TEST(DisabledOptions, PitchDriftIsRejectedInThePlane) {
   EXPECT_EQ(refusal("simulated", {{"planar", true}, {"drift.pitch_per_metre", 0.01}}),
-            "drift.pitch_per_metre = 0.01: leaves the plane, expected 0 with planar = true");
+            "drift.pitch_per_metre = 0.01: causes motion out of the plane, expected 0 with planar "
+            "= true");
   EXPECT_THAT(refusal("simulated", {{"planar", true}, {"drift.yaw_per_metre", 0.01}}), IsEmpty());
   EXPECT_THAT(
       refusal("simulated", {{"closures.max", std::int64_t{0}}, {"closures.false_share", 0.5}}),

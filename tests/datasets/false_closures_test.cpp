@@ -78,7 +78,8 @@ TEST(FalseClosures, ProvenanceCountsWhatWasAdded) {
   };
   EXPECT_EQ(closures(0.0), "file: loops.txt (3)");
   EXPECT_EQ(closures(0.5), "file: loops.txt (6), 3 of 6 false and added");
-  EXPECT_EQ(closures(0.1), "file: loops.txt (3), 0 of 3 false and added");  // a third of one
+  EXPECT_EQ(closures(0.1),
+            "file: loops.txt (3), 0 of 3 false and added");  // 1/3 closure, rounded to 0
 }
 
 }  // namespace

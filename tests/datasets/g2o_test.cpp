@@ -83,7 +83,8 @@ TEST(G2o, EdgesWrittenBackwardsAreInverted) {
   const Edge& loop = graph.edges[2];
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 2u);
-  // Vertex 10 seen from 30 is (1, 1) behind a half turn, so 30 seen from 10 is at (1, 1) as well.
+  // Vertex 10 in the frame of 30 is (1, 1) with a rotation of pi, so 30 in the frame of 10 is (1,
+  // 1).
   EXPECT_TRUE(is_close(loop.from_from_to, planar(1, 1, M_PI), 1e-15, 1e-15));
 }
 
@@ -94,7 +95,7 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (const Edge& edge : forward.edges) {
-    // The same line with its ids exchanged says where `from` is, seen from `to`.
+    // With exchanged ids the line contains the pose of `from` in the frame of `to`.
     PoseGraph one;
     one.ids = {0, 1};
     one.edges = {edge};
@@ -103,15 +104,15 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
     write_g2o(scratch.path("one.g2o"), one);
     const Edge back = read_g2o(scratch.path("one.g2o")).edges[0];
     const Twist small = 1e-6 * Twist::NullaryExpr([&] { return normal(random); });
-    const Pose seen = edge.from_from_to * exp_se3(small);
-    const Twist other = log_se3(back.from_from_to.inverse() * seen.inverse());
+    const Pose perturbed = edge.from_from_to * exp_se3(small);
+    const Twist other = log_se3(back.from_from_to.inverse() * perturbed.inverse());
     const double cost = small.dot(edge.information * small);
     EXPECT_NEAR(other.dot(back.information * other), cost, 1e-4 * cost);
   }
 }
 
 TEST(G2o, HalfAnglesBecomeAngles) {
-  // The file says 4, 8, ..., 24 on the diagonal and 2 between x and q_x.
+  // The file has 4, 8, ..., 24 on the diagonal and 2 between x and q_x.
   const Edge edge = read_g2o(sample("good/se3.g2o")).edges[0];
   Matrix6 expected = Matrix6::Zero();
   expected.diagonal() << 4, 8, 12, 4, 5, 6;
@@ -136,7 +137,8 @@ TEST(G2o, SimilarityScaleIsUnitOfFirstOverSecondId) {
   const PoseGraph graph = read_g2o(sample("good/rst3.g2o"));
   EXPECT_TRUE(graph.similarity);
   EXPECT_EQ(graph.edges[0].scale, 1.0);
-  const Edge& loop = graph.edges[2];  // written 2 -> 0 with scale 4: unit of 2 is 4 units of 0
+  const Edge& loop =
+      graph.edges[2];  // written as 2 -> 0 with scale 4: scale of 2 is 4 times that of 0
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 2u);
   EXPECT_EQ(loop.scale, 4.0);
@@ -210,9 +212,10 @@ TEST(Chain, CarriesScaleAlong) {
 
 TEST(Chain, MissingStepsAreNamed) {
   const auto graph = read_g2o(sample("bad/g2o_chain_gap.g2o"));
-  EXPECT_EQ(refusal([&] { chain(graph, "odd.g2o"); }),
-            "odd.g2o: no edge joins vertices 1 and 2, expected one between neighbours to chain "
-            "poses from");
+  EXPECT_EQ(
+      refusal([&] { chain(graph, "odd.g2o"); }),
+      "odd.g2o: no edge between vertices 1 and 2, expected one between consecutive vertices of "
+      "a file without poses");
 }
 
 TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
@@ -227,20 +230,20 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
 
 TEST(G2o, RefusesWhatOverflowsOnTheWay) {
   const Scratch scratch;
-  const auto why = [&](const std::string& text) {
+  const auto error_of = [&](const std::string& text) {
     const auto file = scratch.file("a.g2o", text);
-    const std::string said = refusal([&] { read_trajectory(file); });
-    EXPECT_TRUE(said.starts_with(file.string())) << said;
-    return said.substr(file.string().size());
+    const std::string message = refusal([&] { read_trajectory(file); });
+    EXPECT_TRUE(message.starts_with(file.string())) << message;
+    return message.substr(file.string().size());
   };
-  EXPECT_EQ(why("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
-            ":1: information is not positive definite once the edge is turned round");
-  EXPECT_EQ(why("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
+  EXPECT_EQ(error_of("EDGE_SE2 30 0 1 1 -3 141592653589793267948964 0 0 5 0 6\n"),
+            ":1: information is not positive definite after inversion of the edge");
+  EXPECT_EQ(error_of("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
             ": pose 2: is not finite");
-  EXPECT_EQ(why("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
+  EXPECT_EQ(error_of("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
             ": pose 1: stamp does not increase");
-  EXPECT_EQ(why("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
-            ":1: scale is 1e-310, too small to divide by");
+  EXPECT_EQ(error_of("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
+            ":1: scale is 1e-310, too small to be inverted");
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Keyframes, AndFramesAreThePosesToldApart) {
 TEST(Keyframes, HaveOnlyFramesBetweenThem) {
   const Trajectory keyframes = split(line(8), {2, 4, 6}).keyframes;
   Trajectory frames = line(8);
-  frames[4].stamp += 1e-6;  // rounded otherwise in the other file
+  frames[4].stamp += 1e-6;  // different rounding in the other file
   EXPECT_EQ(stamps(frames_between(keyframes, frames)), (std::vector{3.0, 5.0}));
   EXPECT_TRUE(frames_between({}, frames).empty());
 }

@@ -17,7 +17,7 @@ TEST(PosesAt, InterpolateOverShortGapsOnly) {
   EXPECT_NEAR(poses[0]->translation.x(), 0.5, 1e-12);
   EXPECT_NEAR(poses[1]->translation.x(), 2.0, 1e-12);
   EXPECT_NEAR(poses[2]->translation.x(), 2.0, 1e-12);  // nearest, 0.01 s away
-  EXPECT_FALSE(poses[3]);                              // amid a hole
+  EXPECT_FALSE(poses[3]);                              // in a gap
   EXPECT_EQ(poses[4]->translation.x(), 9.0);
   EXPECT_EQ(poses[5]->translation.x(), 9.0);
   EXPECT_FALSE(poses[6]);
@@ -33,7 +33,7 @@ TEST(PosesAt, NearestPrefersTheEarlierOfEquals) {
   EXPECT_EQ(nearest_pose(run, 2.0, 0.5), std::nullopt);
 }
 
-/// Twice around a circle of 2 m in 20 s, looking along.
+/// Two rounds on a circle with radius 2 m in 20 s, looking forward.
 Trajectory two_rounds(std::size_t size) {
   Trajectory out;
   for (std::size_t i = 0; i < size; ++i) {
@@ -48,12 +48,12 @@ Trajectory two_rounds(std::size_t size) {
 TEST(MeasuredClosures, AreTheRunsOwnRelativePoses) {
   const Trajectory run = two_rounds(401);
   Trajectory keyframes;
-  for (std::size_t i = 0; i < run.size(); i += 8) {  // every 0.4 s, drifting off
+  for (std::size_t i = 0; i < run.size(); i += 8) {  // every 0.4 s, with drift
     const Pose drift = exp_se3(twist({0.0, 0.0, 0.01 * static_cast<double>(i)}, Vector3::Zero()));
     keyframes.push_back({run[i].stamp, drift * run[i].world_from_body});
   }
   const auto closures = closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
-  ASSERT_EQ(closures.size(), 26u);  // the second round but for none: 10 s to 20 s
+  ASSERT_EQ(closures.size(), 26u);  // all keyframes of the second round: 10 s to 20 s
   for (const Edge& closure : closures) {
     EXPECT_EQ(closure.to - closure.from, 25u);
     EXPECT_TRUE(is_close(closure.from_from_to, {}, 1e-9, 1e-9));
@@ -66,7 +66,7 @@ TEST(MeasuredClosures, AreTheRunsOwnRelativePoses) {
 TEST(MeasuredClosures, SkipKeyframesTheRunDoesNotKnow) {
   const Trajectory keyframes = two_rounds(51);
   Trajectory run = two_rounds(401);
-  run.resize(301);  // lost after 15 s
+  run.resize(301);  // no poses after 15 s
   const auto closures = closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
   ASSERT_FALSE(closures.empty());
   EXPECT_LE(keyframes[closures.back().to].stamp, 15.02);
@@ -97,21 +97,22 @@ TEST(MeasuredClosures, PathRatioShowsAnotherScale) {
 }
 
 TEST(MeasuredClosures, OfARunWithItsOwnUnitAreOfSim3) {
-  // The run goes 3 m a step; to the estimate that is 1 at first, and 0.5 from keyframe 30 on.
+  // The run moves 3 m per step; the estimate 1 at first, and 0.5 from keyframe 30.
   Trajectory keyframes, run;
-  double way = 0.0;
+  double x = 0.0;
   for (int i = 0; i < 60; ++i) {
-    keyframes.push_back({double(i), {Rotation::Identity(), Vector3(way, 0, 0)}});
+    keyframes.push_back({double(i), {Rotation::Identity(), Vector3(x, 0, 0)}});
     run.push_back({double(i), {Rotation::Identity(), Vector3(3.0 * i, 0, 0)}});
-    way += i < 30 ? 1.0 : 0.5;
+    x += i < 30 ? 1.0 : 0.5;
   }
-  const Edge seen{10, 50, {Rotation::Identity(), Vector3(120, 0, 0)}, Matrix6::Identity()};
-  const auto edges = with_local_scale({seen}, keyframes, run, {});
+  const Edge measured{10, 50, {Rotation::Identity(), Vector3(120, 0, 0)}, Matrix6::Identity()};
+  const auto edges = with_local_scale({measured}, keyframes, run, {});
   EXPECT_NEAR(edges[0].scale, 6.0 / 3.0, 1e-12);
-  EXPECT_NEAR(edges[0].from_from_to.translation.x(), 40.0, 1e-12);  // 120 of the run's, 3 each
+  EXPECT_NEAR(
+      edges[0].from_from_to.translation.x(), 40.0, 1e-12);  // 120 m in the run, 3 m per unit
   Trajectory still = keyframes;
   for (auto& [stamp, pose] : still) pose = Pose{Rotation::Identity(), Vector3::Zero()};
-  EXPECT_THROW(with_local_scale({seen}, still, run, {}), InputError);
+  EXPECT_THROW(with_local_scale({measured}, still, run, {}), InputError);
 }
 
 }  // namespace

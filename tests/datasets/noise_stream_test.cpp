@@ -22,7 +22,7 @@ SimulatedOptions small(const std::function<void(SimulatedOptions&)>& change) {
   return options;
 }
 
-/// Error of every odometry edge against the truth, as one list.
+/// Errors of all odometry edges with respect to the ground truth, concatenated.
 std::vector<double> odometry_errors(const SimulatedOptions& options) {
   const Sequence sequence = load_simulated(options);
   std::vector<double> out;
@@ -50,7 +50,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return ab / std::sqrt(aa * bb);
 }
 
-/// Of the errors of two datasets over ten seeds: standard error 0.03 when they are independent.
+/// Correlation of the errors of two datasets over ten seeds; standard error 0.03 if independent.
 double correlation(SimulatedOptions a, SimulatedOptions b) {
   std::vector<double> of_a, of_b;
   for (std::int64_t seed = 1; seed <= 10; ++seed) {
@@ -109,7 +109,7 @@ TEST(NoiseStream, ClosuresOfTwoChainsDrawIndependentNoise) {
     options.closures_max = 0;
     options.closures_noise = {sigma_t, sigma_t};
     options.stream = stream;
-    options.name = "name " + stream;  // free text draws nothing
+    options.name = "name " + stream;  // free text does not affect the noise
     std::vector<double> out;
     for (const Edge& edge : derive_problem({poses, {}, poses, {}, {}}, options).closures) {
       const Pose exact =
@@ -142,8 +142,8 @@ TEST(NoiseStream, AMovedFolderDrawsTheSameNoise) {
     }
     throw std::logic_error("no such dataset");
   };
-  const TemporaryFolder here, there;
-  const std::vector<Edge> a = closures(here), b = closures(there);
+  const TemporaryFolder first, second;
+  const std::vector<Edge> a = closures(first), b = closures(second);
   ASSERT_FALSE(a.empty());
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(a[0].from_from_to.translation, b[0].from_from_to.translation);

@@ -1,4 +1,4 @@
-/// Files large enough to be read by several threads read as small ones do, errors included.
+/// Files large enough to be read by several threads give the same results and errors as small ones.
 #include "datasets/formats/parts.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRows = 100'000;
 
-/// `kRows` rows of one second each, row `special` replaced; 5 MB and cut at odd places.
+/// `kRows` rows, 1 s apart, with row `special` replaced; 5 MB, split at arbitrary positions.
 std::string tum(int special = -1, const std::string& replacement = "") {
   std::string out = "# stamp tx ty tz qx qy qz qw\n\n";
   for (int i = 0; i < kRows; ++i) {
@@ -78,13 +78,14 @@ TEST(Parts, StampsAreInOrderAcrossACut) {
   const Scratch scratch;
   const std::string half = tum();
   const auto file = scratch.file("a.txt", half + half);
-  EXPECT_EQ(refusal([&] { read_trajectory(file); }),
-            fmt::format("{}:{}: stamp 0.5 is before stamp {}.5 on line {}, expected increasing "
-                        "stamps",
-                        file.string(),
-                        kRows + 5,
-                        kRows - 1,
-                        kRows + 2));
+  EXPECT_EQ(
+      refusal([&] { read_trajectory(file); }),
+      fmt::format("{}:{}: stamp 0.5 is smaller than stamp {}.5 on line {}, expected increasing "
+                  "stamps",
+                  file.string(),
+                  kRows + 5,
+                  kRows - 1,
+                  kRows + 2));
 }
 
 TEST(Parts, ANulByteIsFoundWhereverItIs) {
@@ -127,7 +128,7 @@ TEST(Parts, PoseGraphsKeepTheirLines) {
   }
   const auto twice = scratch.file("b.g2o", text + "VERTEX_SE2 7 0 0 0\n");
   EXPECT_EQ(refusal([&] { read_g2o(twice); }),
-            fmt::format("{}:{}: vertex 7 is already on line 8", twice.string(), 2 * kRows));
+            fmt::format("{}:{}: vertex 7 is already defined on line 8", twice.string(), 2 * kRows));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const Pose kAside{Rotation::Identity(), {0.0, 0.5, 0.0}};
 
-/// Ids 100.. on a random walk with loops 3-17 and 5-12, and a second edge 4-5.
+/// Ids from 100 on a random walk with loops 3-17 and 5-12, and a second edge 4-5.
 PoseGraph small_graph(bool with_vertices) {
   PoseGraph graph;
   const Trajectory walk = random_walk(20, 9, 1.0, 0.3);
@@ -87,7 +87,7 @@ TEST(PoseGraphDataset, TakesNoneOrAFewClosures) {
   options.closures_max = 1;
   const Problem one = derive_problem(small_graph(true), options, "g");
   ASSERT_EQ(one.closures.size(), 1u);
-  EXPECT_DOUBLE_EQ(one.keyframes[one.closures[0].to].stamp, 11.7);  // the longest
+  EXPECT_DOUBLE_EQ(one.keyframes[one.closures[0].to].stamp, 11.7);  // the longest loop
   EXPECT_EQ(one.keyframes.size(), 5u);
   options.closures = GraphClosures::none;
   const Problem none = derive_problem(small_graph(true), options, "g");
@@ -148,7 +148,7 @@ TEST(PoseGraphDataset, AddsFalseClosuresBySeed) {
   std::size_t kept = 0;
   for (const Edge& edge : problem.closures) {
     EXPECT_EQ(edge.from_from_to.translation, kAside.translation);
-    EXPECT_GE(edge.to - edge.from, 3u);  // a twentieth of the chain
+    EXPECT_GE(edge.to - edge.from, 3u);  // 1/20 of the chain
     for (const Edge& one : honest) kept += one.from == edge.from && one.to == edge.to ? 1 : 0;
   }
   EXPECT_EQ(kept, 7u);
@@ -234,7 +234,8 @@ TEST(PoseGraphDataset, ClosuresSelectedByATrueListAreOracles) {
 TEST(PoseGraphDataset, TurnsKittiCameraTruthIntoVehicleAxes) {
   const TemporaryFolder folder;
   folder.file("vo.g2o", kSquare);
-  // A camera that goes forward (z), then has turned left: a negative turn about y, which is down.
+  // A camera that moves forward (z) and rotates left: a negative rotation about y, which points
+  // down.
   folder.file("gt.txt",
               "1 0 0 0 0 1 0 0 0 0 1 0\n"
               "0 0 -1 0 0 1 0 0 1 0 0 1\n"

@@ -1,4 +1,4 @@
-/// Numbers that published files are known to give. Skipped where the files are not.
+/// Compares results on published files with known values. Skipped if the files are missing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ class PublishedData : public testing::Test {
   DataRoot root_;
 };
 
-/// Position RMSE [m] after the best rigid (or similarity) fit; each pose against the reference's
-/// nearest within 0.02 s.
+/// Position RMSE [m] after least-squares alignment (rigid or similarity). Each pose is paired with
+/// the nearest reference pose within 0.02 s.
 double ate(const Trajectory& estimate, const Trajectory& reference, bool with_scale = false) {
   std::vector<Vector3> from;
   std::vector<Vector3> to;
@@ -86,7 +86,7 @@ TEST_F(PublishedData, Fr1RoomOpenKeyframes) {
   EXPECT_EQ(sequence.name, "fr1_room_orbslam2_rgbd_open_keyframes");
   EXPECT_EQ(sequence.problem.keyframes.size(), 236u);
   EXPECT_EQ(sequence.problem.odometry.size(), 235u);
-  EXPECT_EQ(sequence.problem.frames.size(), 1095u);  // of 1352, 21 come after the last keyframe
+  EXPECT_EQ(sequence.problem.frames.size(), 1095u);  // of 1352; 21 are after the last keyframe
   EXPECT_NEAR(ate(sequence.problem.keyframes, sequence.reference), 0.109, 0.0005);
 }
 
@@ -102,7 +102,8 @@ TEST_F(PublishedData, Fr1RoomClosuresOfAClosedRunAgreeWithTheReference) {
   EXPECT_LT(radians, 0.03);
 
   const Trajectory& keyframes = sequence.problem.keyframes;
-  for (Edge& closure : sequence.problem.closures) {  // what the open run thinks of them
+  for (Edge& closure :
+       sequence.problem.closures) {  // relative poses of the run without loop closing
     closure.from_from_to =
         keyframes[closure.from].world_from_body.inverse() * keyframes[closure.to].world_from_body;
   }
@@ -118,7 +119,7 @@ TEST_F(PublishedData, Fr1RoomClosuresOfTheReferenceAreOracles) {
   const Sequence sequence = load("trajectory", given);
   EXPECT_EQ(sequence.problem.closures.size(), 20u);
   EXPECT_TRUE(sequence.provenance.oracle_closures);
-  EXPECT_LT(closure_residual(sequence).first, 0.06);  // 0.02 m an axis
+  EXPECT_LT(closure_residual(sequence).first, 0.06);  // 0.02 m per axis
 }
 
 TEST_F(PublishedData, Fr3OfficeRefusesAMonocularRunAsAMeasurement) {
@@ -144,7 +145,8 @@ TEST_F(PublishedData, CopSlamKitti00EveryTenth) {
   EXPECT_EQ(sequence.problem.closures.size(), 9u);
   EXPECT_NEAR(ate(sequence.problem.keyframes, sequence.reference), 31.5, 0.05);
   const Trajectory& keyframes = sequence.problem.keyframes;
-  for (const Edge& edge : sequence.problem.odometry) {  // the file's vertices are its chain
+  for (const Edge& edge :
+       sequence.problem.odometry) {  // the vertices of the file are the composed odometry
     const Pose step =
         keyframes[edge.from].world_from_body.inverse() * keyframes[edge.to].world_from_body;
     EXPECT_TRUE(is_close(edge.from_from_to, step, 1e-4, 1e-4));
@@ -183,7 +185,7 @@ TEST_F(PublishedData, KittiVisoLoopsAndTurnedTruth) {
     EXPECT_EQ(sequence.problem.keyframes.size(), known.poses);
     EXPECT_EQ(sequence.problem.closures.size(), known.closures);
     EXPECT_NEAR(ate(sequence.problem.keyframes, sequence.reference), known.raw_ate, 0.05);
-    // Relative poses agree only when both bodies have the same axes.
+    // Relative poses agree only if both bodies have the same axes.
     EXPECT_LT(closure_residual(sequence).first, known.closure_residual);
     EXPECT_LT(closure_residual(sequence).second, 0.02);
   }

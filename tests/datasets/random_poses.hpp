@@ -1,4 +1,4 @@
-/// Poses for property tests, seeded.
+/// Seeded random poses for property tests.
 #pragma once
 
 #include <random>
@@ -17,7 +17,7 @@ inline Twist random_twist(std::mt19937_64& random, double metres, double radians
   return xi;
 }
 
-/// A walk of `size` poses, `period` apart [s], each step drawn within the bounds [m], [rad].
+/// Random walk of `size` poses, `period` [s] apart, with steps drawn within the bounds [m], [rad].
 inline Trajectory random_walk(
     std::size_t size, std::uint64_t seed, double metres, double radians, double period = 1.0) {
   std::mt19937_64 random(seed);
@@ -30,7 +30,7 @@ inline Trajectory random_walk(
   return out;
 }
 
-/// One pose per position on x, `period` apart [s], not turned.
+/// One pose per position on the x axis, `period` [s] apart, with identity rotation.
 inline Trajectory on_a_line(const std::vector<double>& xs, double period = 1.0) {
   Trajectory out;
   for (std::size_t i = 0; i < xs.size(); ++i) {

@@ -1,4 +1,4 @@
-/// Every real trajectory and pose graph, where LOOPBENCH_DATA says they lie.
+/// Reads all real trajectories and pose graphs in the folder LOOPBENCH_DATA.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class RealFiles : public testing::Test {
     root_ = root;
   }
 
-  /// Reads, or skips the one file that a partial copy of the data lacks.
+  /// Reads a file, or skips it if it is missing in a partial copy of the data.
   void expect_rows(const std::string& name, std::size_t rows, Format format, Repeats repeats = {}) {
     const auto file = root_ / name;
     if (!std::filesystem::exists(file)) {
@@ -38,7 +38,7 @@ class RealFiles : public testing::Test {
   }
 
   void TearDown() override {
-    if (!absent_.empty()) GTEST_SKIP() << "not there:" << absent_;
+    if (!absent_.empty()) GTEST_SKIP() << "missing:" << absent_;
   }
 
   std::filesystem::path root_;
@@ -93,7 +93,7 @@ TEST_F(RealFiles, TwoPublishedFilesRepeatStampsAndNeedTheSwitch) {
   const auto desk = root_ / "tum_rgbd/other/fr2_desk/groundtruth.txt";
   const auto euroc = root_ / "euroc/V102/estimate.txt";
   if (!std::filesystem::exists(desk) || !std::filesystem::exists(euroc)) {
-    GTEST_SKIP() << "not there: " << desk << " or " << euroc;
+    GTEST_SKIP() << "missing: " << desk << " or " << euroc;
   }
   EXPECT_EQ(refusal([&] { read_trajectory(desk); }),
             desk.string() +
@@ -146,33 +146,33 @@ TEST_F(RealFiles, PoseGraphsHaveTheIndexedSizes) {
       {"pose_graphs/sphere2500_true_edges.txt", 2500, 0, 4949, false},
       {"pose_graphs/torus3D.g2o", 5000, 5000, 9048, false},
   };
-  for (const Graph& wanted : graphs) {
-    const auto file = root_ / wanted.name;
+  for (const Graph& expected : graphs) {
+    const auto file = root_ / expected.name;
     if (!std::filesystem::exists(file)) {
-      absent_ += std::string(" ") + wanted.name;
+      absent_ += std::string(" ") + expected.name;
       continue;
     }
     PoseGraph graph;
     ASSERT_NO_THROW(graph = read_g2o(file)) << refusal([&] { read_g2o(file); });
-    EXPECT_EQ(recognise(file), Format::g2o) << wanted.name;
-    EXPECT_EQ(graph.ids.size(), wanted.ids) << wanted.name;
-    EXPECT_EQ(graph.vertices.size(), wanted.vertices) << wanted.name;
-    EXPECT_EQ(graph.edges.size(), wanted.edges) << wanted.name;
-    EXPECT_EQ(graph.planar, wanted.planar) << wanted.name;
-    for (const Edge& edge : graph.edges) ASSERT_LT(edge.from, edge.to) << wanted.name;
-    if (wanted.vertices == 0) {
-      EXPECT_EQ(chain(graph).size(), wanted.ids) << wanted.name;
+    EXPECT_EQ(recognise(file), Format::g2o) << expected.name;
+    EXPECT_EQ(graph.ids.size(), expected.ids) << expected.name;
+    EXPECT_EQ(graph.vertices.size(), expected.vertices) << expected.name;
+    EXPECT_EQ(graph.edges.size(), expected.edges) << expected.name;
+    EXPECT_EQ(graph.planar, expected.planar) << expected.name;
+    for (const Edge& edge : graph.edges) ASSERT_LT(edge.from, edge.to) << expected.name;
+    if (expected.vertices == 0) {
+      EXPECT_EQ(chain(graph).size(), expected.ids) << expected.name;
     }
     const Scratch scratch;
     write_g2o(scratch.path("again.g2o"), graph);
-    EXPECT_EQ(read_g2o(scratch.path("again.g2o")).edges.size(), wanted.edges) << wanted.name;
+    EXPECT_EQ(read_g2o(scratch.path("again.g2o")).edges.size(), expected.edges) << expected.name;
   }
 }
 
 TEST_F(RealFiles, ToroEdgesEqualTheirG2oTwins) {
   const auto toro_file = root_ / "pose_graphs/sphere2500_noisy_edges.txt";
   const auto twin_file = root_ / "pose_graphs/sphere2500.g2o";
-  if (!std::filesystem::exists(toro_file)) GTEST_SKIP() << "not there: " << toro_file;
+  if (!std::filesystem::exists(toro_file)) GTEST_SKIP() << "missing: " << toro_file;
   PoseGraph toro = read_g2o(toro_file);
   PoseGraph twin = read_g2o(twin_file);
   for (PoseGraph* graph : {&toro, &twin}) {  // the same edges in another order
@@ -191,19 +191,20 @@ TEST_F(RealFiles, ToroEdgesEqualTheirG2oTwins) {
     toro_sum += a.information.diagonal();
     twin_sum += b.information.diagonal();
   }
-  // Roll and pitch are four times as sure as yaw in both: the order of the axes is the same.
+  // The information of roll and pitch is four times that of yaw in both: the axes have the same
+  // order.
   EXPECT_TRUE(toro_sum.isApprox(twin_sum, 0.02)) << toro_sum << "\n\n" << twin_sum;
 }
 
 TEST_F(RealFiles, TheHagueLoopSaysHowTheUnitGrew) {
   const auto file = root_ / "cop_slam/TheHague_02_vo.g2o";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "not there: " << file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
   const PoseGraph graph = read_g2o(file);
   const Edge& loop = graph.edges.back();
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 839u);
   EXPECT_NEAR(loop.scale, 3.099978, 1e-12);
-  // Metres per unit from the truth, over 40 steps at either end: 0.86 at first, 2.6 at last.
+  // Scale with respect to the ground truth over 40 steps: 0.86 m at the start, 2.6 m at the end.
   const PoseGraph truth = read_g2o(root_ / "cop_slam/TheHague_02_gt.g2o");
   const auto unit = [&](std::size_t begin, std::size_t end) {
     double measured = 0.0, metres = 0.0;
@@ -218,7 +219,7 @@ TEST_F(RealFiles, TheHagueLoopSaysHowTheUnitGrew) {
 
 TEST_F(RealFiles, ChainingOdometryGivesTheWrittenVertices) {
   const auto file = root_ / "cop_slam/KITTI_00_vo.g2o";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "not there: " << file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
   const PoseGraph graph = read_g2o(file);
   const std::vector<Pose> poses = chain(graph);
   for (std::size_t i = 0; i < poses.size(); ++i) {

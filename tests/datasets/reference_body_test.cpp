@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A marker 2 m ahead, on a vehicle that has gone 3 m and turned left: the marker is at (3, 2).
+// A marker 2 m ahead of the vehicle, which has moved 3 m and rotated left: the marker is at (3, 2).
 TEST(ReferenceBody, IsTakenBackToTheEstimatesBody) {
   const Rotation left = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
   const Trajectory marker{{0.0, {Rotation::Identity(), {2.0, 0.0, 0.0}}},

@@ -10,14 +10,14 @@ namespace {
 std::vector<Revisit> by_brute_force(const Trajectory& poses, const RevisitRule& rule) {
   std::vector<Revisit> out;
   for (std::size_t to = 0; to < poses.size(); ++to) {
-    const Pose& here = poses[to].world_from_body;
+    const Pose& current = poses[to].world_from_body;
     std::size_t best = to;
     double nearest = 0.0;
     for (std::size_t from = 0; from < to; ++from) {
-      const Pose& there = poses[from].world_from_body;
-      const double distance = (there.translation - here.translation).norm();
+      const Pose& earlier = poses[from].world_from_body;
+      const double distance = (earlier.translation - current.translation).norm();
       if (poses[to].stamp - poses[from].stamp < rule.min_gap || distance > rule.radius) continue;
-      if (angle_between(there.rotation, here.rotation) > rule.angle) continue;
+      if (angle_between(earlier.rotation, current.rotation) > rule.angle) continue;
       if (best != to && distance >= nearest) continue;
       best = from;
       nearest = distance;
@@ -37,7 +37,7 @@ TEST(Revisits, EqualBruteForceOnRandomWalks) {
       found += revisits.size();
     }
   }
-  EXPECT_GT(found, 500u);  // else the comparison says little
+  EXPECT_GT(found, 500u);  // otherwise the comparison is not meaningful
 }
 
 TEST(Revisits, TakeTheEarliestOfEquallyNear) {
@@ -60,7 +60,7 @@ TEST(Revisits, AreNotFoundInNothing) {
 TEST(Revisits, SpreadFromTheLongestLoop) {
   std::vector<double> stamps;
   for (int i = 0; i <= 100; ++i) stamps.push_back(i);
-  // A stretch that follows an old one, and one short loop far from it.
+  // Many revisits along a repeated section, and one short loop far from it.
   const std::vector<Revisit> revisits = {{40, 50}, {0, 90}, {1, 91}, {2, 92}, {3, 93}, {10, 100}};
   EXPECT_EQ(spread(revisits, stamps, 1), (std::vector<std::size_t>{1}));
   EXPECT_EQ(spread(revisits, stamps, 2), (std::vector<std::size_t>{0, 1}));

@@ -1,4 +1,4 @@
-/// Small helpers of the tests on files: samples, scratch files, and what a refusal says.
+/// Helpers of the tests on files: samples, scratch files and error messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ inline std::filesystem::path sample(const std::string& name) {
   return std::filesystem::path(LOOPBENCH_TEST_DATA) / name;
 }
 
-/// A folder of this test alone, removed with it.
+/// Temporary folder of one test, removed by the destructor.
 class Scratch {
  public:
   Scratch() {
@@ -47,7 +47,7 @@ inline std::string content(const std::filesystem::path& file) {
   return out.str();
 }
 
-/// The text of the InputError that `act` throws; anything else fails the test.
+/// Returns the message of the InputError thrown by `act`. The test fails without an InputError.
 template <class Act>
 std::string refusal(Act act) {
   try {

@@ -89,14 +89,14 @@ TEST(SimulatedClosures, FalseOnesAreCountedAndGrosslyWrong) {
     if (e.dot(edge.information * e) > 60.0) ++wrong;
   }
   EXPECT_EQ(wrong, 10);
-  options.closures.false_share = 0.2;  // of 12 or 13: 10 true and 2.5 false
+  options.closures.false_share = 0.2;  // 10 true and 2.5 false closures, rounded to 12 or 13
   const std::size_t some = load_simulated(options).problem.closures.size();
   EXPECT_EQ(some, 13U);
 }
 
 TEST(SimulatedClosures, FalseOnesLeaveTheTrueOnesAsTheyWereInOneStream) {
   SimulatedOptions options;
-  options.stream = "shared";  // another share would draw other noise otherwise
+  options.stream = "shared";  // otherwise the noise would depend on the share
   const Problem before = load_simulated(options).problem;
   options.closures.false_share = 0.5;
   const Problem after = load_simulated(options).problem;

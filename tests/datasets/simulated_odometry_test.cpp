@@ -20,7 +20,7 @@ SimulatedOptions quiet(SimulatedPath path) {
   return out;
 }
 
-/// Covariance that the first edge claims.
+/// Stated covariance of the first edge.
 Matrix6 covariance(const SimulatedOptions& options) {
   return load_simulated(options).problem.odometry.front().information.inverse();
 }
@@ -29,7 +29,7 @@ Pose last(const SimulatedOptions& options) {
   return load_simulated(options).problem.keyframes.back().world_from_body;
 }
 
-/// Errors of all edges over many seeds, whitened by the information they claim.
+/// Errors of all edges over many seeds, whitened by their stated information.
 struct Whitened {
   double edges = 0.0;
   double chi_square = 0.0;  // mean over edges
@@ -58,7 +58,8 @@ struct Whitened {
   }
 };
 
-// Mean of n chi-squares of 6 has deviation sqrt(12 / n); bands below are about four of them.
+// The mean of n chi^2 variables of 6 degrees has standard deviation sqrt(12 / n); the bounds below
+// are about four standard deviations.
 TEST(SimulatedOdometry, ErrorsAreAsLargeAsTheInformationSays) {
   SimulatedOptions options;
   const Whitened room(options, 40);  // 7160 edges
@@ -71,7 +72,7 @@ TEST(SimulatedOdometry, ErrorsAreAsLargeAsTheInformationSays) {
 TEST(SimulatedOdometry, InformationOfLongEdgesKnowsTheLeverArms) {
   SimulatedOptions options;
   options.path = SimulatedPath::driving;
-  options.keyframes = 21;                // 97 steps an edge, through corners
+  options.keyframes = 21;                // 97 steps per edge, including corners
   const Whitened driving(options, 300);  // 6000 edges
   EXPECT_NEAR(driving.chi_square, 6.0, 0.18);
   EXPECT_LE(driving.mean.cwiseAbs().maxCoeff(), 4.0 / std::sqrt(driving.edges) + 0.01);
@@ -85,7 +86,7 @@ TEST(SimulatedOdometry, NoiseOfEverySourceIsAsLargeAsTheInformationSays) {
   EXPECT_NEAR(Whitened(options, 40).chi_square, 6.0, 0.16);
 }
 
-// `line`: 0.5 m/s, five steps of 0.1 s an edge; `spin` with 41 keyframes: 2 pi / 40 an edge.
+// `line`: 0.5 m/s, five steps of 0.1 s per edge; `spin` with 41 keyframes: 2 pi / 40 per edge.
 TEST(SimulatedOdometry, VarianceGrowsWithTime) {
   SimulatedOptions options = quiet(SimulatedPath::line);
   options.noise.translation.per_second = 1e-4;
@@ -118,9 +119,9 @@ TEST(SimulatedOdometry, VarianceGrowsWithSquaredSpeed) {
 
 TEST(SimulatedOdometry, TurningErrorsMoveTheEndOfTheEdge) {
   SimulatedOptions options = quiet(SimulatedPath::line);
-  options.noise.rotation.per_second = 1e-2;  // 1e-3 rad^2 a step
+  options.noise.rotation.per_second = 1e-2;  // 1e-3 rad^2 per step
   const Matrix6 S = covariance(options);
-  // Steps of 0.05 m: 0.20, 0.15, 0.10, 0.05 and 0 m are still ahead when each error is made.
+  // Five steps of 0.05 m: the lever arms of their errors are 0.20, 0.15, 0.10, 0.05 and 0 m.
   EXPECT_NEAR(S(1, 1), 1e-3 * 0.075, 1e-9);
   EXPECT_NEAR(S(1, 5), 1e-3 * 0.5, 1e-9);
   EXPECT_NEAR(S(2, 4), -1e-3 * 0.5, 1e-9);

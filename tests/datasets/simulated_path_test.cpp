@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What the paper tells about a sequence: taken at keyframes.
+/// Statistics of a sequence in the paper, at keyframes.
 struct Statistics {
   double seconds, metres, slowest, fastest, mean;  // [s], [m], [m/s]
-  double turn_rate;                                // mean [deg/s]
+  double turn_rate;                                // mean rotation rate [deg/s]
   Vector3 box;                                     // [m]
 };
 
@@ -41,7 +41,7 @@ Statistics statistics(const Trajectory& poses) {
   return out;
 }
 
-/// Keyframes without error: the path itself at keyframe times.
+/// True poses of the path at keyframe stamps.
 Trajectory true_keyframes(SimulatedPath which) {
   SimulatedOptions options;
   options.path = which;
@@ -83,7 +83,7 @@ TEST(SimulatedPath, HandHeldLoopsEndNearTheirStartLookingTheSameWay) {
   for (const Path& path : {room_path(), office_path()}) {
     const Pose begin_from_end = path.at(0.0).inverse() * path.at(path.duration);
     EXPECT_LT(begin_from_end.translation.norm(), 0.1);
-    EXPECT_GT(begin_from_end.translation.norm(), 0.001) << "a hand never comes back exactly";
+    EXPECT_GT(begin_from_end.translation.norm(), 0.001) << "hand-held laps must not repeat exactly";
     EXPECT_LT(log_so3(begin_from_end.rotation).norm(), 5.0 * kPi / 180.0);
   }
 }
@@ -112,7 +112,7 @@ TEST(SimulatedPath, DrivingIsAKilometreWithStopsAndFastRoads) {
     fastest = std::max(fastest, step / dt);
     if (step == 0.0) standing += dt;
   }
-  EXPECT_NEAR(metres, 1045.7, 1.0);  // 1080 m of streets, 10 corners cut by (4 - pi) * 4 m
+  EXPECT_NEAR(metres, 1045.7, 1.0);  // 1080 m of streets, shortened by (4 - pi) * 4 m in 10 corners
   EXPECT_GT(fastest, 13.0);
   EXPECT_LT(fastest, 16.0);
   EXPECT_NEAR(standing, 4.0 + 6.0 + 3.0 + 8.0 + 2.0, 0.2);
@@ -129,7 +129,7 @@ TEST(SimulatedPath, DrivingHeadsWhereItGoes) {
   for (double t = 0.05; t < path.duration; t += 0.1) {
     const Pose pose = path.at(t);
     const Vector3 motion = path.at(t + 1e-4).translation - pose.translation;
-    if (motion.norm() < 1e-5) continue;  // slower than 0.1 m/s
+    if (motion.norm() < 1e-5) continue;  // below 0.1 m/s
     EXPECT_GT((pose.rotation * Vector3::UnitX()).dot(motion.normalized()), 1.0 - 1e-6) << t;
   }
 }

@@ -47,7 +47,7 @@ bool same_bits(const Sequence& a, const Sequence& b) {
          same_bits(a.problem.closures, b.problem.closures) && same_bits(a.reference, b.reference);
 }
 
-/// Keyframes' root mean square distance to the reference after least-squares alignment [m].
+/// ATE (RMSE) of the keyframes after least-squares alignment [m].
 double ate(const Sequence& sequence) {
   const Polyline reference(sequence.reference);
   const Trajectory& keyframes = sequence.problem.keyframes;
@@ -100,7 +100,7 @@ TEST(Simulated, SeedsDifferInNoiseAndAgreeInTruth) {
 
 TEST(Simulated, ClosureOptionsLeaveTheOdometryAlone) {
   SimulatedOptions options;
-  options.stream = "shared";  // other options draw other noise unless it is shared
+  options.stream = "shared";  // other options would draw other noise
   const Sequence one = load_simulated(options);
   options.closures.sigma_t = 0.5;
   options.closures.max = 2;
@@ -213,13 +213,15 @@ TEST(Simulated, TakesAHundredThousandKeyframesOfOnePlace) {
   options.keyframes = 100000;
   options.reference_rate = 1.0;
   options.closures.max = 50000;
-  const Problem problem = load_simulated(options).problem;  // seconds only when it is linear
+  const Problem problem =
+      load_simulated(options).problem;  // takes seconds only if the cost is linear
   EXPECT_EQ(problem.keyframes.size(), 100000U);
   EXPECT_EQ(problem.closures.size(), 50000U);
 }
 
 TEST(Simulated, DefaultsDriftLikeOpenVisualOdometry) {
-  EXPECT_NEAR(median_ate(SimulatedPath::room), 0.109, 0.02);  // open ORB-SLAM2 on fr1_room
+  EXPECT_NEAR(
+      median_ate(SimulatedPath::room), 0.109, 0.02);  // ORB-SLAM2 without loop closing on fr1_room
   const double driving = median_ate(SimulatedPath::driving);
   EXPECT_GT(driving, 2.0);
   EXPECT_LT(driving, 8.0);
@@ -228,15 +230,15 @@ TEST(Simulated, DefaultsDriftLikeOpenVisualOdometry) {
 TEST(Simulated, OptionsAreRefusedByRule) {
   EXPECT_EQ(refusal({{"path", std::string("moon")}}),
             "path = moon: expected one of room | office | driving | line | still | spin");
-  EXPECT_EQ(refusal({{"seed", std::int64_t{-1}}}), "seed = -1 breaks 0 <= seed");
-  EXPECT_EQ(refusal({{"laps", std::int64_t{0}}}), "laps = 0 breaks 1 <= laps");
-  EXPECT_EQ(refusal({{"noise.gain", -0.5}}), "noise.gain = -0.5 breaks 0 <= noise.gain <= 1000");
+  EXPECT_EQ(refusal({{"seed", std::int64_t{-1}}}), "seed = -1: expected 0 <= seed");
+  EXPECT_EQ(refusal({{"laps", std::int64_t{0}}}), "laps = 0: expected 1 <= laps");
+  EXPECT_EQ(refusal({{"noise.gain", -0.5}}), "noise.gain = -0.5: expected 0 <= noise.gain <= 1000");
   EXPECT_EQ(refusal({{"closures.false_share", 1.0}}),
-            "closures.false_share = 1.0 breaks 0 <= closures.false_share <= 0.95");
+            "closures.false_share = 1.0: expected 0 <= closures.false_share <= 0.95");
   EXPECT_EQ(refusal({{"closures.min_gap", 0.0}}),
-            "closures.min_gap = 0.0 breaks closures.min_gap > 0");
+            "closures.min_gap = 0.0: expected closures.min_gap > 0");
   EXPECT_EQ(refusal({{"keyframes", std::int64_t{5000}}}),
-            "keyframes = 5000 breaks keyframes <= 1468, the number of frames");
+            "keyframes = 5000: expected keyframes <= 1468, the number of frames");
   EXPECT_EQ(refusal({{"laps", std::int64_t{1} << 40}}).substr(0, 6), "laps: ");
   EXPECT_NE(refusal({{"keyframe", std::int64_t{5}}}).find("unknown option"), std::string::npos);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Back and forth on x twice, 20 s, 201 poses.
+/// Moves back and forth on the x axis twice in 20 s, 201 poses.
 Trajectory shuttle() {
   std::vector<double> xs;
   for (int i = 0; i <= 200; ++i) xs.push_back(1.0 - std::cos(2.0 * M_PI * i / 100.0));
@@ -88,7 +88,7 @@ TEST(TrajectoryDataset, RefusesARunOfAnotherScale) {
   TrajectoryOptions options = every_tenth(ClosureSource::estimate);
   options.closures_file = "mono.txt";
   EXPECT_THAT(refusal_of([&] { derive_problem(in, options); }),
-              HasSubstr("mono.txt: its path is 2 times as long"));
+              HasSubstr("mono.txt: path length is 2 times that of the estimate"));
 }
 
 TEST(TrajectoryDataset, EndsOfListedClosuresAreKeyframes) {
@@ -136,7 +136,7 @@ TEST(TrajectoryDataset, LoadsFilesAndTellsWhereAllCameFrom) {
   EXPECT_EQ(sequence.name, "room_est");
   EXPECT_EQ(sequence.problem.keyframes.size(), 13u);
   EXPECT_EQ(sequence.reference.size(), 13u);
-  EXPECT_EQ(sequence.problem.closures.size(), 4u);  // 12-0 11-1 10-2 9-3: 5 s apart or more
+  EXPECT_EQ(sequence.problem.closures.size(), 4u);  // 12-0 11-1 10-2 9-3: at least 5 s apart
   EXPECT_TRUE(sequence.provenance.oracle_closures);
   EXPECT_THAT(sequence.provenance.closures, HasSubstr("reference with noise 0.02 m"));
   EXPECT_EQ(sequence.provenance.sensor, "RGB-D");
@@ -191,11 +191,11 @@ TEST(TrajectoryDataset, RefusesWhatDoesNotFitTogether) {
   const auto refusal = [&](const Params& given) {
     return refusal_of([&] { load(folder.path(), given); });
   };
-  EXPECT_THAT(refusal({}), HasSubstr("estimate: names no file"));
+  EXPECT_THAT(refusal({}), HasSubstr("estimate: is empty, expected a trajectory file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"closures.source", "file"}}),
-              HasSubstr("closures.file: names no file"));
+              HasSubstr("closures.file: is empty, expected a file for closures.source = file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"closures.source", "reference"}}),
-              HasSubstr("reference: names no file"));
+              HasSubstr("reference: is empty, expected a file for closures.source = reference"));
   EXPECT_THAT(refusal({{"estimate", "other.txt"}}), HasSubstr("other.txt: no such file"));
   EXPECT_THAT(refusal({{"estimate", "est.txt"}, {"keyframes.rule", "some"}}),
               HasSubstr("all | every | seconds | metres | count"));

@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-/// Poses whose digits are as awkward as doubles get.
+/// Poses with extreme double values.
 Trajectory wild_trajectory(std::size_t count) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -84,7 +84,7 @@ TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].world_from_body.translation.x(), 0.0);
   EXPECT_EQ(poses[1].world_from_body.translation.x(), 5.0);
-  options.repeats = Repeats::keep_last;  // as TUM's tools and evo do
+  options.repeats = Repeats::keep_last;  // like the readers of TUM and evo
   const Trajectory last = read_trajectory(file, options);
   ASSERT_EQ(last.size(), 2u);
   EXPECT_EQ(last[0].stamp, 1.0);
@@ -93,7 +93,7 @@ TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
 
 TEST(Tum, StampsInNanosecondsAreSeconds) {
   const Scratch scratch;
-  // As ORB-SLAM3 saves for EuRoC: zeros behind the point.
+  // Format of ORB-SLAM3 for EuRoC: zero decimals.
   const auto zeros = scratch.file("a.txt",
                                   "1403636579763555584.000000 1 2 3 0 0 0 1\n"
                                   "1403636579813555456.000000 4 5 6 0 0 0 1\n");
@@ -102,22 +102,22 @@ TEST(Tum, StampsInNanosecondsAreSeconds) {
   EXPECT_EQ(poses[0].stamp, 1403636579.763555584);
   EXPECT_EQ(poses[1].stamp, 1403636579.813555456);
   const auto whole = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
-  EXPECT_EQ(refusal([&] { read_trajectory(whole); }),
-            whole.string() +
-                ":1: has whole nanoseconds and columns parted by blanks: their quaternions may be "
-                "qx qy qz qw (ORB-SLAM3's) or qw qx qy qz (EuRoC's), expected to be told format "
-                "tum or euroc");
-  ReadOptions told;
-  told.format = Format::tum;
-  EXPECT_EQ(read_trajectory(whole, told)[0].world_from_body.rotation.w(), 0.8);
-  EXPECT_EQ(read_trajectory(whole, told)[0].stamp, 1403636579.763555584);
-  told.format = Format::euroc;
-  EXPECT_EQ(read_trajectory(whole, told)[0].world_from_body.rotation.z(), 0.8);
+  EXPECT_EQ(
+      refusal([&] { read_trajectory(whole); }),
+      whole.string() +
+          ":1: has whole nanoseconds and columns separated by blanks, so that quaternions may "
+          "be qx qy qz qw (ORB-SLAM3) or qw qx qy qz (EuRoC); set the format to tum or euroc");
+  ReadOptions options;
+  options.format = Format::tum;
+  EXPECT_EQ(read_trajectory(whole, options)[0].world_from_body.rotation.w(), 0.8);
+  EXPECT_EQ(read_trajectory(whole, options)[0].stamp, 1403636579.763555584);
+  options.format = Format::euroc;
+  EXPECT_EQ(read_trajectory(whole, options)[0].world_from_body.rotation.z(), 0.8);
 }
 
 TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
   const Scratch scratch;
-  // Starts at 0, 20 Hz; qw comes first.
+  // Starts at 0, 20 Hz, with qw first.
   const auto csv = scratch.file("a.csv",
                                 "#timestamp,px,py,pz,qw,qx,qy,qz\n"
                                 "0,1,2,3,0.8,0,0,0.6\n50000000,4,5,6,0.8,0,0,0.6\n");
@@ -132,10 +132,10 @@ TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
   EXPECT_EQ(read_trajectory(wide)[1].stamp, 1.005);
   const auto blanks = scratch.file("c.txt", "0 1 2 3 0 0 0.6 0.8\n50000000 4 5 6 0 0 0.6 0.8\n");
   EXPECT_NE(refusal([&] { read_trajectory(blanks); }).find("whole nanoseconds"), std::string::npos);
-  ReadOptions told;
-  told.format = Format::tum;
-  EXPECT_EQ(read_trajectory(blanks, told)[1].stamp, 0.05);
-  // As ORB-SLAM3 prints them.
+  ReadOptions options;
+  options.format = Format::tum;
+  EXPECT_EQ(read_trajectory(blanks, options)[1].stamp, 0.05);
+  // Format of ORB-SLAM3.
   const auto zeros =
       scratch.file("d.txt", "0.000000 1 2 3 0 0 0.6 0.8\n50000000.000000 4 5 6 0 0 0.6 0.8\n");
   EXPECT_EQ(read_trajectory(zeros)[1].stamp, 0.05);
@@ -160,7 +160,7 @@ TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
   options.repeats = Repeats::keep_first;
   EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
             file.string() +
-                ":3: stamp 0.0 is before stamp 1.0 on line 1, expected increasing "
+                ":3: stamp 0.0 is smaller than stamp 1.0 on line 1, expected increasing "
                 "stamps");
 }
 

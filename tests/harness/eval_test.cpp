@@ -266,7 +266,7 @@ TEST(Eval, RefusesWhatItCannotJudge) {
             "align = best: expected one of se3 | sim3 | scale | posyaw | origin | posyaw_origin | "
             "none");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--max-diff=-1"}),
-            "max_diff = -1.0 breaks 0 <= max_diff");
+            "max_diff = -1.0: expected 0 <= max_diff");
   EXPECT_THROW(eval({tum, tum, "--format=rosbag"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "--format=kitti"}), InputError);
   EXPECT_THROW(eval({tum, golden("absent.txt")}), InputError);

@@ -64,7 +64,7 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
   EXPECT_EQ(why(config("- line", "- shfit + straight")),
             "c.yaml:4: no method is named 'shfit'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- dataset: line\n    bias: 2")),
-            "c.yaml:3: line: bias = 2.0 breaks 0 <= bias <= 1");
+            "c.yaml:3: line: bias = 2.0: expected 0 <= bias <= 1");
   EXPECT_EQ(why(config("- dataset: line\n    bais: 0.5")),
             "c.yaml:3: line: bais: unknown option (has: bias, seed); did you mean 'bias'?");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, by: 1}")),
@@ -77,7 +77,7 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
   EXPECT_EQ(why(config("- line", "- shift\n  - shift")),
             "c.yaml:5: two entries of methods are called 'shift'; give one a label");
   EXPECT_EQ(why(config("- line", "- shift", "- {metric: ate, power: 7}")),
-            "c.yaml:6: ate: power = 7 breaks 1 <= power <= 2");
+            "c.yaml:6: ate: power = 7: expected 1 <= power <= 2");
 }
 
 TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
@@ -101,7 +101,7 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
                        "exclude: [{method: '" + std::string(50'000, '(') + "'}]\n")),
             "c.yaml:7: method: a pattern of more than 1000 characters");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
-            "c.yaml:7: min_coverage = 80.0 breaks 0 <= min_coverage <= 1");
+            "c.yaml:7: min_coverage = 80.0: expected 0 <= min_coverage <= 1");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),
             "c.yaml:7: min_coverage = most: expected a number");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: [0.8]\n")),
@@ -156,16 +156,17 @@ TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
     return std::string();
   };
   EXPECT_EQ(refusal("dataset: trajectory, reference: gt.txt"),
-            "c.yaml:2: trajectory: estimate: names no file");
+            "c.yaml:2: trajectory: estimate: is empty, expected a trajectory file");
   EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, closures: {source: file}"),
-            "c.yaml:2: trajectory: closures.file: names no file, and closures.source = file needs "
-            "one");
+            "c.yaml:2: trajectory: closures.file: is empty, expected a file for closures.source "
+            "= file");
   EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {qw: 0.5}"),
             "c.yaml:2: trajectory: reference_body: qx, qy, qz, qw have norm 0.5, expected a unit "
             "quaternion");
   EXPECT_EQ(refusal("dataset: pose_graph, truth: gt.g2o"),
-            "c.yaml:2: pose_graph: path: names no file");
-  EXPECT_EQ(refusal("dataset: rgbd, label: room"), "c.yaml:2: rgbd: path: names no folder");
+            "c.yaml:2: pose_graph: path: is empty, expected a g2o file");
+  EXPECT_EQ(refusal("dataset: rgbd, label: room"),
+            "c.yaml:2: rgbd: path: is empty, expected the folder of a recording");
   EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference: r.txt, "
                     "reference_body: {x: 1}"),
             "");

@@ -99,7 +99,7 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
             "segments.step = 2: end rpg starts at every pose");
   EXPECT_EQ(refusal("evo", {{"segments.lengths", word("ten")}}),
             "segments.lengths: 'ten': expected metres or a share, like 100 or 20%");
-  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 breaks 0 <= ddof <= 1");
+  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2: expected 0 <= ddof <= 1");
 }
 
 /// 1 m and 0.1 s a pose along x.

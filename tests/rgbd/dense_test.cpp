@@ -1,4 +1,4 @@
-// Surfaces of depth images, and poses from laying them on each other.
+// Tests of depth surfaces, their alignment and the refinement of edges.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -20,8 +20,8 @@ Camera toy_camera() {
   return out;
 }
 
-/// A wall ahead at z = 3, one to the right at x = 1 and the floor at y = 0.8 (y points down), as
-/// many of them as asked for: what a camera there measures, without noise.
+/// Noise-free depth image of the first `walls` of: a wall at z = 3, a wall at x = 1 and the floor
+/// at y = 0.8 (y points down).
 DepthImage depth_from(const Pose& world_from_camera, int walls) {
   const Camera camera = toy_camera();
   const double at[] = {3.0, 1.0, 0.8};
@@ -72,12 +72,12 @@ TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
   ASSERT_EQ(small.depth.width, 3);
   ASSERT_EQ(small.depth.height, 1);
   EXPECT_FLOAT_EQ(small.depth.at(0, 0), 1.0075f);
-  EXPECT_EQ(small.depth.at(1, 0), 0.0f);  // one of four was measured
+  EXPECT_EQ(small.depth.at(1, 0), 0.0f);  // one of four pixels was measured
   EXPECT_FLOAT_EQ(small.depth.at(2, 0), 1.0f);
   EXPECT_DOUBLE_EQ(small.camera.fx, 5.0);
-  EXPECT_DOUBLE_EQ(small.camera.cx, 1.0);  // the middle stays in the middle
+  EXPECT_DOUBLE_EQ(small.camera.cx, 1.0);  // the principal point stays in the centre
   EXPECT_DOUBLE_EQ(small.camera.cy, 0.0);
-  EXPECT_EQ(small_depth(depth, camera, 3, 0.5).depth.at(0, 0), 0.0f);  // deeper than believed
+  EXPECT_EQ(small_depth(depth, camera, 3, 0.5).depth.at(0, 0), 0.0f);  // deeper than depth_max
 }
 
 TEST(Surface, UndoesLensDistortion) {
@@ -103,7 +103,7 @@ TEST(Surface, NormalsFaceTheCamera) {
   EXPECT_TRUE(normal(60, 40).isApprox(Vector3(0, 0, -1), 1e-4));
   EXPECT_TRUE(normal(155, 40).isApprox(Vector3(-1, 0, 0), 1e-4));
   EXPECT_TRUE(normal(60, 116).isApprox(Vector3(0, -1, 0), 1e-4));
-  EXPECT_TRUE(normal(0, 40).isZero());  // no patch about the border
+  EXPECT_TRUE(normal(0, 40).isZero());  // no complete patch at the border
 }
 
 TEST(Surface, NothingComesOfNothing) {
@@ -127,7 +127,7 @@ TEST(AlignSurface, FindsThePoseInACorner) {
   EXPECT_EQ(found.information.llt().info(), Eigen::Success);
 }
 
-// What a wall cannot tell stays as the prior has it, and as sure.
+// Directions not observed by a wall keep the value and the information of the prior.
 TEST(AlignSurface, AWallAloneMovesTheCameraOnlyTowardsIt) {
   const Surface wall = surface_from(still(), 1);
   const PriorPose prior{{Rotation::Identity(), {0.03, 0.02, 0.04}},
@@ -140,7 +140,7 @@ TEST(AlignSurface, AWallAloneMovesTheCameraOnlyTowardsIt) {
   EXPECT_GT(found.information(2, 2), 1e5);
 }
 
-// Twice the same surface is no more than once.
+// Two copies of a surface give the same information as one.
 TEST(AlignSurface, SurfacesThatShowTheSameCountOnce) {
   const Surface first = surface_from(still(), 3);
   const PriorPose prior{still(), Matrix6::Zero()};
@@ -159,7 +159,7 @@ TEST(AlignSurface, SaysThatNothingOverlaps) {
   EXPECT_TRUE(is_close(found.world_from_camera, back, 1e-9, 1e-9));
 }
 
-/// The corner seen on a walk of six keyframes; image `missing` cannot be read.
+/// Six keyframes that observe the corner; image `missing` cannot be read.
 class CornerWalk final : public RgbdSource {
  public:
   explicit CornerWalk(std::size_t missing) : missing_(missing) {
@@ -229,7 +229,7 @@ TEST(RefineByDepth, MeasuresStepsAndLoopsAgain) {
 TEST(RefineByDepth, LeavesGuessesAndWhatOverlapsTooLittle) {
   const CornerWalk walk(kNoneMissing);
   Tracked tracked = roughly_tracked(walk);
-  tracked.odometry[2].information = isotropic_information(0.25, 0.25);  // joined two maps
+  tracked.odometry[2].information = isotropic_information(0.25, 0.25);  // edge between two maps
   const RefinedEdges out = refined(walk, tracked, {});
   EXPECT_EQ(out.odometry_refined, 4u);
   EXPECT_EQ(out.odometry[2].from_from_to.translation, tracked.odometry[2].from_from_to.translation);
@@ -246,7 +246,7 @@ TEST(RefineByDepth, LeavesTheEdgesOfAnImageThatCannotBeRead) {
   const Tracked tracked = roughly_tracked(walk);
   const RefinedEdges out = refined(walk, tracked, {});
   EXPECT_EQ(out.odometry_refined, 3u);
-  for (const std::size_t k : {std::size_t{2}, std::size_t{3}}) {  // to it and from it
+  for (const std::size_t k : {std::size_t{2}, std::size_t{3}}) {  // edges to and from this keyframe
     EXPECT_EQ(out.odometry[k].information, tracked.odometry[k].information);
   }
 }
@@ -259,7 +259,7 @@ TEST(FollowOdometry, FramesKeepTheirPlacesBetweenKeyframes) {
   follow_odometry(tracked, {{0, 1, at(2.0)}, {1, 2, at(1.0)}});
   EXPECT_DOUBLE_EQ(tracked.keyframes[1].world_from_camera.translation.x(), 2.0);
   EXPECT_DOUBLE_EQ(tracked.keyframes[2].world_from_camera.translation.x(), 3.0);
-  // Seen from the first at 0.5, from the second at 1.5; half way in time.
+  // Moved with the first keyframe it is at 0.5, with the second at 1.5; the stamp is in the middle.
   EXPECT_NEAR(tracked.frames[0].world_from_body.translation.x(), 1.0, 1e-12);
   EXPECT_NEAR(tracked.frames[1].world_from_body.translation.x(), 2.25, 1e-12);
   EXPECT_EQ(tracked.odometry.size(), 2u);

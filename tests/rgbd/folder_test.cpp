@@ -1,4 +1,4 @@
-// Recordings on disk: read whole, and every fault named.
+// Tests of the layouts of recordings, and of error messages for faulty ones.
 #include <fstream>
 
 #include "datasets/rgbd/folder/folder_source.hpp"
@@ -23,8 +23,8 @@ class RgbdFolder : public Test {
     return refusal_of([&] { open(); });
   }
   bool refuses_with(const std::string& text) const {
-    const std::string said = refusal();
-    return said.find(text) != std::string::npos ? true : (ADD_FAILURE() << said, false);
+    const std::string message = refusal();
+    return message.find(text) != std::string::npos ? true : (ADD_FAILURE() << message, false);
   }
   void cut(const std::string& name, std::uintmax_t bytes) const {
     std::filesystem::resize_file(folder_.path() / name, bytes);
@@ -54,7 +54,7 @@ TEST_F(RgbdFolder, TellsATruncatedPngAndAMissingDepthImage) {
   const auto source = open();
   std::string why;
   EXPECT_FALSE(source->read(1, why));
-  EXPECT_NE(why.find("rgb/0001.png: is no whole PNG or JPEG"), std::string::npos) << why;
+  EXPECT_NE(why.find("rgb/0001.png: is not a valid PNG or JPEG"), std::string::npos) << why;
   EXPECT_FALSE(source->read(2, why));
   EXPECT_NE(why.find("depth/0002.png: no such image"), std::string::npos) << why;
   EXPECT_TRUE(source->read(3, why));
@@ -66,7 +66,7 @@ TEST_F(RgbdFolder, TellsADepthImageOfEightBits) {
                              std::filesystem::copy_options::overwrite_existing);
   std::string why;
   EXPECT_FALSE(open()->read(1, why));
-  EXPECT_NE(why.find("expected a PNG of 16 bits"), std::string::npos) << why;
+  EXPECT_NE(why.find("expected a 16-bit PNG"), std::string::npos) << why;
 }
 
 TEST_F(RgbdFolder, RefusesListsThatAreEmptyOrBroken) {
@@ -77,25 +77,25 @@ TEST_F(RgbdFolder, RefusesListsThatAreEmptyOrBroken) {
   folder_.file("rgb.txt", "0.0\n");
   EXPECT_TRUE(refuses_with("rgb.txt:1: expected two columns"));
   folder_.file("rgb.txt", "100.0 rgb/0000.png\n");
-  EXPECT_TRUE(refuses_with("depth.txt: no depth image lies within 0.02 s"));
+  EXPECT_TRUE(refuses_with("depth.txt: found no depth image within pair_gap = 0.02 s"));
 }
 
 TEST_F(RgbdFolder, RefusesIntrinsicsThatCannotBe) {
   folder_.file("camera.yaml", "fx: 0\n");
-  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 0 breaks fx > 0"));
+  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 0: expected fx > 0"));
   folder_.file("camera.yaml", "fx: wide\n");
   EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 'wide': expected a number"));
   folder_.file("camera.yaml", "fx: 100\nfy: 100\ncx: 50\n");
-  EXPECT_TRUE(refuses_with("camera.yaml: has no cy"));
+  EXPECT_TRUE(refuses_with("camera.yaml: has no key cy"));
   folder_.file("camera.yaml", "width: 160\nheight: 120\nfx: 100\nfy: 100\ncx: 320\ncy: 240\n");
-  EXPECT_TRUE(refuses_with("principal point (320, 240) lies outside the image of 160 x 120"));
+  EXPECT_TRUE(refuses_with("principal point (320, 240) is outside the image of 160 x 120 pixels"));
 }
 
 TEST_F(RgbdFolder, TellsImagesOfAnotherSizeThanTheCameras) {
   folder_.file("camera.yaml", "fx: 525\nfy: 525\ncx: 320\ncy: 240\n");  // 640 x 480
   std::string why;
   EXPECT_FALSE(open()->read(0, why));
-  EXPECT_NE(why.find("is 160 x 120, the camera's images are 640 x 480"), std::string::npos) << why;
+  EXPECT_NE(why.find("has 160 x 120 pixels, expected 640 x 480"), std::string::npos) << why;
 }
 
 TEST_F(RgbdFolder, KnowsPublishedCamerasByNameAndAsksOtherwise) {
@@ -130,9 +130,10 @@ TEST_F(RgbdFolder, ContentFollowsEveryImage) {
 }
 
 TEST_F(RgbdFolder, RefusesAFolderThatHoldsNoRecording) {
-  EXPECT_NE(
-      refusal_of([&] { open_rgbd_folder(folder_.path() / "rgb", {}); }).find("holds no recording"),
-      std::string::npos);
+  EXPECT_NE(refusal_of([&] {
+              open_rgbd_folder(folder_.path() / "rgb", {});
+            }).find("contains no recording"),
+            std::string::npos);
 }
 
 TEST_F(RgbdFolder, ReadsSevenScenesLayout) {
@@ -165,7 +166,7 @@ TEST_F(RgbdFolder, ReadsIclNuimLayoutAndTurnsYDown) {
   std::filesystem::remove(folder_.path() / "rgb.txt");
   folder_.file("associations.txt",
                "0 depth/0000.png 0 rgb/0000.png\n1 depth/0001.png 1 rgb/0001.png\n");
-  // Turned by 0.2 about x, with y up.
+  // Rotated by 0.2 rad about x, in axes with y up.
   folder_.file(
       "livingRoom0.gt.freiburg",
       fmt::format("0 0 0 0 0 0 0 1\n1 0.1 0.2 0.3 {} 0 0 {}\n", std::sin(0.1), std::cos(0.1)));
@@ -193,7 +194,7 @@ TEST(PairImages, TakesTheNearestAndNoDepthImageTwice) {
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].grey, "f/a");
   EXPECT_EQ(pairs[0].depth, "f/p");
-  EXPECT_EQ(pairs[1].grey, "f/c");  // nearer to q than b is
+  EXPECT_EQ(pairs[1].grey, "f/c");  // closer to q than b
   EXPECT_EQ(pairs[1].depth, "f/q");
 }
 

@@ -1,4 +1,4 @@
-// From images to a problem, whole.
+// Tests of the complete front end, from images to a problem.
 #include "datasets/rgbd/frontend.hpp"
 
 #include "datasets/rgbd/folder/folder_source.hpp"
@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-// Half a metre a second, two seconds out and two back, at 160 pixels: one of them is 2 cm of wall.
+// 0.5 m/s, two seconds forward and two back, at an image width of 160 px: one pixel covers 2 cm.
 constexpr double kDrift = 0.1;  // [m]
 
 FrontendOptions quick() {
@@ -18,42 +18,42 @@ FrontendOptions quick() {
   out.track.inliers_min = 15;
   out.loops.inliers_min = 30;
   out.loops.min_gap = 1.0;
-  out.refine.depth = false;  // has its own tests; it takes as long again under a sanitizer
+  out.refine.depth = false;  // has its own tests and doubles the run time with sanitizers
   return out;
 }
 
-/// A room walked out and back: frame i of `there`, then the same frames backwards, some unreadable,
-/// some black.
+/// Rendered room, forward and back: its frames, then the same frames in reverse order, some
+/// of them unreadable or black.
 class OutAndBack final : public RgbdSource {
  public:
   OutAndBack(std::size_t black_begin, std::size_t black_end)
       : black_begin_(black_begin), black_end_(black_end) {
     for (std::size_t i = 0; i < size(); ++i) {
-      reference_.push_back({stamp(i), there_->reference()[4 * turned(i)].world_from_body});
+      reference_.push_back({stamp(i), forward_->reference()[4 * turned(i)].world_from_body});
     }
   }
-  Camera camera() const override { return there_->camera(); }
-  std::size_t size() const override { return 2 * there_->size() - 1; }
+  Camera camera() const override { return forward_->camera(); }
+  std::size_t size() const override { return 2 * forward_->size() - 1; }
   double stamp(std::size_t index) const override { return 0.125 * static_cast<double>(index); }
   std::optional<RgbdFrame> read(std::size_t index, std::string& why) const override {
-    std::optional<RgbdFrame> out = there_->read(turned(index), why);
+    std::optional<RgbdFrame> out = forward_->read(turned(index), why);
     if (index >= black_begin_ && index < black_end_) {
       std::ranges::fill(out->grey.pixels, std::uint8_t{0});
     }
     return out;
   }
   std::uint64_t content() const override {
-    return there_->content() + 1000 * black_begin_ + black_end_;
+    return forward_->content() + 1000 * black_begin_ + black_end_;
   }
   const Trajectory& reference() const override { return reference_; }
   Provenance provenance() const override { return {}; }
 
  private:
   std::size_t turned(std::size_t i) const {
-    const std::size_t last = there_->size() - 1;
+    const std::size_t last = forward_->size() - 1;
     return i <= last ? i : 2 * last - i;
   }
-  std::unique_ptr<const RgbdSource> there_ = rendered_room(small_room(0.04));
+  std::unique_ptr<const RgbdSource> forward_ = rendered_room(small_room(0.04));
   std::size_t black_begin_;
   std::size_t black_end_;
   Trajectory reference_;
@@ -125,11 +125,11 @@ TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
   expect_same(first, second);
   const Sequence third = run_frontend(source, "room", options, cached);
   expect_same(first, third);
-  FrontendOptions other = quick();  // features are taken from the cache, tracks are not
+  FrontendOptions other = quick();  // features are cached, tracking is not
   other.track.keyframes.angle_max = 5.0;
   const Sequence denser = run_frontend(source, "room", other, cached);
   EXPECT_GT(denser.problem.keyframes.size(), first.problem.keyframes.size());
-  // A file that was cut off is worked out again.
+  // A truncated file is recomputed.
   for (const auto& entry : std::filesystem::recursive_directory_iterator(cached.cache)) {
     if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), entry.file_size() / 2);
   }
@@ -159,19 +159,19 @@ TEST(Frontend, DepthMakesStepsBetter) {
   check(after.problem, "room");
   ASSERT_EQ(after.problem.keyframes.size(), before.problem.keyframes.size());
   EXPECT_LT(mean_step_error(after, source), 0.8 * mean_step_error(before, source));
-  std::string told;
-  for (const std::string& note : after.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("measured again by depth: "), std::string::npos) << told;
+  std::string notes;
+  for (const std::string& note : after.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("measured again by depth: "), std::string::npos) << notes;
 }
 
 TEST(Frontend, SaysWhereTrackingWasLostAndRecovered) {
-  const OutAndBack source(14, 17);  // dark while the camera turns: frame 17 sees what 13 saw
+  const OutAndBack source(14, 17);  // dark at the turning point: frame 17 shows the same as 13
   const Sequence sequence = run_frontend(source, "room", quick(), {});
-  std::string told;
-  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("tracking lost at 1.750 s, recovered at 2.125 s: 3 frames have no pose"),
+  std::string notes;
+  for (const std::string& note : sequence.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("tracking lost at 1.750 s, recovered at 2.125 s: 3 frames have no pose"),
             std::string::npos)
-      << told;
+      << notes;
   EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size() + 3, source.size());
   EXPECT_LT(largest_error(sequence, source), kDrift);
 }
@@ -182,9 +182,9 @@ TEST(Frontend, BeginsAnewWhenLostForLongAndSaysSo) {
   const OutAndBack source(6, 12);
   const Sequence sequence = run_frontend(source, "room", options, {});
   check(sequence.problem, "room");
-  std::string told;
-  for (const std::string& note : sequence.provenance.notes) told += note + "\n";
-  EXPECT_NE(told.find("the step between is a guess"), std::string::npos) << told;
+  std::string notes;
+  for (const std::string& note : sequence.provenance.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("the step between is a guess"), std::string::npos) << notes;
 }
 
 TEST(Frontend, AsksForAboutSoManyKeyframes) {
@@ -214,19 +214,19 @@ TEST(Frontend, SkipsUnreadableFramesAndRefusesTooMany) {
   std::filesystem::remove_all(folder.path() / "rgb");
   EXPECT_NE(refusal_of([&] {
               run_frontend(*source, "folder", quick(), {});
-            }).find("cannot be read, more than skipped_max = 0.5"),
+            }).find("cannot be read, expected at most skipped_max = 0.5"),
             std::string::npos);
 }
 
 TEST(Frontend, RefusesWhatCannotBeTracked) {
-  const OutAndBack source(0, 1000);  // black throughout
+  const OutAndBack source(0, 1000);  // all frames black
   EXPECT_NE(refusal_of([&] {
               run_frontend(source, "night", quick(), {});
-            }).find("night: nothing could be tracked"),
+            }).find("night: tracked fewer than 2 keyframes"),
             std::string::npos);
 }
 
-/// The same images, said to be of a camera with other focal lengths.
+/// The same images with a camera of other focal lengths.
 class Misread final : public RgbdSource {
  public:
   explicit Misread(double factor) : factor_(factor) {}

@@ -1,4 +1,4 @@
-/// A rendered room written to disk as TUM RGB-D has it.
+/// Writes a rendered room to disk in TUM RGB-D layout.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ inline std::string camera_yaml(const Camera& c) {
       c.depth_scale);
 }
 
-/// rgb/, depth/, both lists, camera.yaml and groundtruth.txt.
+/// Writes rgb/, depth/, both lists, camera.yaml and groundtruth.txt.
 inline void write_recording(const TemporaryFolder& folder, const RgbdSource& source) {
   const auto make = [&](const char* name) {
     std::filesystem::create_directories(folder.path() / name);

@@ -1,4 +1,4 @@
-// The rendered room: exact where it can be worked out, the same every time.
+// Tests of the renderer: exact values in simple cases, and reproducibility.
 #include "datasets/rgbd/render/render.hpp"
 
 #include <cmath>
@@ -58,10 +58,10 @@ TEST(Render, DepthIsAlongTheAxisSoAFlatWallIsFlat) {
   camera.fx = camera.fy = 30.0;
   camera.cx = 15.5;
   camera.cy = 11.5;
-  Matrix3 R;  // looking along x
+  Matrix3 R;  // camera looks along x
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const Rendered seen = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
-  for (const float depth : seen.depth.pixels) EXPECT_NEAR(depth, 0.8, 1e-6);
+  const Rendered rendered = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
+  for (const float depth : rendered.depth.pixels) EXPECT_NEAR(depth, 0.8, 1e-6);
 }
 
 TEST(Render, TexturesAreFullOfContrastAndFollowTheSeed) {
@@ -77,7 +77,7 @@ TEST(Render, TexturesAreFullOfContrastAndFollowTheSeed) {
   }
   const double mean = sum / 40000.0;
   EXPECT_GT(std::sqrt(squares / 40000.0 - mean * mean), 30.0);
-  EXPECT_NEAR(sample(a, 0.5f, 0.5f, 1.0f), mean, 40.0);  // coarse: near the mean
+  EXPECT_NEAR(sample(a, 0.5f, 0.5f, 1.0f), mean, 40.0);  // coarse level: close to the mean
 }
 
 TEST(Sensor, WithoutNoiseDepthIsExactToTheMillimetre) {
@@ -85,13 +85,13 @@ TEST(Sensor, WithoutNoiseDepthIsExactToTheMillimetre) {
   options.depth_noise = 0.0;
   options.dropouts = 0.0;
   const auto source = rendered_room(options);
-  const RgbdFrame seen = frame(options, 3);
+  const RgbdFrame image = frame(options, 3);
   const Camera camera = source->camera();
   const Pose pose = source->reference()[12].world_from_body;  // four times the rate
   std::size_t on_wall = 0;
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
-      const auto z = static_cast<double>(seen.depth.at(x, y));
+      const auto z = static_cast<double>(image.depth.at(x, y));
       if (z == 0.0) continue;
       const Vector3 p = (pose * camera.back_project(x, y, z)).cwiseAbs();
       const Vector3 half(2.7, 2.4, 1.35);
@@ -142,7 +142,7 @@ TEST(RenderedRoom, GivesTheSameBitsWhoeverAsksInWhateverOrder) {
 
 TEST(RenderedRoom, KnowsItsReferenceAtFourTimesTheRate) {
   const auto source = rendered_room(tiny());
-  ASSERT_EQ(source->size(), 10u);  // 4.89 s at 2 Hz, and the first
+  ASSERT_EQ(source->size(), 10u);  // 4.89 s at 2 Hz, including the first frame
   ASSERT_EQ(source->reference().size(), 37u);
   EXPECT_DOUBLE_EQ(source->reference().back().stamp, source->stamp(9));
 }

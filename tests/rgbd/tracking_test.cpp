@@ -1,4 +1,4 @@
-// The parts of tracking and loop detection, worked by hand or by law.
+// Tests of the parts of tracking and loop detection against values computed by hand or theory.
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +17,8 @@ namespace {
 
 const Pose kTruth{exp_so3({0.1, -0.2, 0.3}), {0.2, -0.1, 0.4}};
 
-/// Points before the camera at kTruth, seen without error, every `wrong`-th elsewhere.
-std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
+/// Error-free observations of points from a camera at kTruth; every `wrong`-th one is an outlier.
+std::vector<Observation> observe(std::size_t count, std::size_t wrong) {
   Random random({5}, Purpose::odometry);
   const Camera camera;
   std::vector<Observation> out;
@@ -34,7 +34,7 @@ std::vector<Observation> seen(std::size_t count, std::size_t wrong) {
 }
 
 TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
-  const std::vector<Observation> all = seen(90, 3);
+  const std::vector<Observation> all = observe(90, 3);
   const std::optional<Pose> found = pose_by_ransac(all, {}, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
@@ -46,24 +46,24 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
 }
 
 TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
-  const std::vector<Observation> all = seen(60, 4);
+  const std::vector<Observation> all = observe(60, 4);
   EXPECT_EQ(pose_by_ransac(all, {}, {})->translation, pose_by_ransac(all, {}, {})->translation);
 }
 
 TEST(CameraPose, IsNotFoundFromThreePoints) {
-  EXPECT_FALSE(pose_by_ransac(seen(3, 0), {}, {}));
-  EXPECT_EQ(refine_pose(seen(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
+  EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}, {}));
+  EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
 }
 
 TEST(CameraPose, InformationTellsTheScatterOfThePose) {
-  // Measured again and again with the noise that the options state, e' information e has mean 6.
+  // With noise as stated in the options, e' information e has mean 6 over many trials.
   PoseOptions options;
   options.information_scale = 1.0;
   Random random({9}, Purpose::odometry);
   double sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    std::vector<Observation> noisy = seen(60, 0);
+    std::vector<Observation> noisy = observe(60, 0);
     for (Observation& o : noisy) {
       const Vector3 noise = random.normal3();
       o.u += noise.x();
@@ -83,7 +83,7 @@ TEST(KeyframeRule, IsDueAtEachThresholdAlone) {
       .points = 300, .common = 300, .way = 0.0, .depth = 2.0, .angle = 0.0, .time = 0.0};
   EXPECT_LT(novelty(same, o), 1.0);
   View view = same;
-  view.common = 60;  // of 300: the share is at its threshold of 0.2, and so is the count of 60
+  view.common = 60;  // of 300: both the share (0.2) and the number (60) are at their thresholds
   EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
   view = same;
   view.way = 0.15 * 2.0;
@@ -102,7 +102,7 @@ TEST(KeyframeRule, ATargetMovesTheThresholdBothWays) {
   o.target = 10;
   EXPECT_NEAR(novelty_due(o, 1, 0, 101), 1.0, 1e-12);
   EXPECT_NEAR(novelty_due(o, 10, 100, 101), 1.0, 1e-12);
-  EXPECT_NEAR(novelty_due(o, 7, 50, 101), std::pow(2.0, 1.5), 1e-12);  // 5.5 by half way
+  EXPECT_NEAR(novelty_due(o, 7, 50, 101), std::pow(2.0, 1.5), 1e-12);  // 5.5 planned at half time
   EXPECT_NEAR(novelty_due(o, 4, 50, 101), std::pow(2.0, -1.5), 1e-12);
 }
 
@@ -113,7 +113,7 @@ Features two_groups() {
     for (int byte = 0; byte < 32; ++byte) {
       out.descriptors.push_back(static_cast<std::uint8_t>(i < 20 ? 0x00 : 0xff));
     }
-    out.descriptors.back() = static_cast<std::uint8_t>(i % 4);  // a little of its own
+    out.descriptors.back() = static_cast<std::uint8_t>(i % 4);  // differs slightly between features
   }
   return out;
 }
@@ -121,7 +121,7 @@ Features two_groups() {
 Pose step_of(double x) { return {Rotation::Identity(), Vector3(x, 0.0, 0.0)}; }
 
 TEST(NormalisedGap, IsTheGapOverItsVarianceWorkedByHand) {
-  // Along a straight way turns do not move x to first order: variances 1 + 1 + 1, gap 3 metres.
+  // On a straight line rotations do not change x to first order: variances 1 + 1 + 1, gap 3 m.
   const std::vector<Edge> odometry{{0, 1, step_of(1.0)}, {1, 2, step_of(1.0)}};
   const std::vector<double> gaps = normalised_gaps(odometry, {{0, 2, step_of(5.0)}});
   ASSERT_EQ(gaps.size(), 1u);
@@ -136,29 +136,29 @@ TEST(NormalisedGap, IsOneOnAverageWhenTheInformationIsRight) {
   std::vector<double> gaps;
   for (int run = 0; run < 200; ++run) {
     std::vector<Edge> odometry;
-    Pose way{Rotation::Identity(), Vector3::Zero()};
+    Pose motion{Rotation::Identity(), Vector3::Zero()};
     for (std::size_t i = 0; i < 8; ++i) {
       odometry.push_back({i, i + 1, step * exp_se3(noise()), information});
-      if (i >= 2) way = way * step;
+      if (i >= 2) motion = motion * step;
     }
-    const std::vector<Edge> loop{{2, 8, way * exp_se3(noise()), information}};
+    const std::vector<Edge> loop{{2, 8, motion * exp_se3(noise()), information}};
     gaps.push_back(normalised_gaps(odometry, loop)[0]);
-    EXPECT_EQ(information_excess(odometry, loop, 2), 1.0);  // too few to tell
+    EXPECT_EQ(information_excess(odometry, loop, 2), 1.0);  // too few edges
   }
   double sum = 0.0;
   for (const double gap : gaps) sum += gap;
   EXPECT_NEAR(sum / 200.0, 1.0, 0.12);  // three standard deviations of the mean
 }
 
-// 2 m and 5 m, each with variance 1, lie 3 apart with variance 2; together they say 3.5 m.
+// 2 m and 5 m, each with variance 1, differ by 3 m with variance 2; their fusion is 3.5 m.
 TEST(RemeasuredGap, IsTheDistanceOverItsVarianceWorkedByHand) {
   const std::vector<Edge> first{{0, 1, step_of(2.0)}, {1, 2, step_of(1.0)}};
   std::vector<Edge> again{{0, 1, step_of(3.5)}, first[1]};
   again[0].information = 2.0 * Matrix6::Identity();
   const std::vector<double> gaps = remeasured_gaps(first, again);
-  ASSERT_EQ(gaps.size(), 1u);  // the other stayed as it was
+  ASSERT_EQ(gaps.size(), 1u);  // the other edge has no second measurement
   EXPECT_NEAR(gaps[0], 9.0 / 2.0 / 6.0, 1e-5);
-  EXPECT_EQ(remeasured_excess(first, again, 2), 1.0);  // too few to tell
+  EXPECT_EQ(remeasured_excess(first, again, 2), 1.0);  // too few edges
 }
 
 TEST(Descriptors, DistanceIsTheShareOfBits) {
@@ -179,7 +179,7 @@ TEST(Vocabulary, PutsTheAlikeIntoOneWord) {
 }
 
 TEST(Bags, AreAlikeByTheRareWordsTheyShare) {
-  // Word 0 is everywhere and says nothing; 1 and 2 weigh log(3 / 2) and log 3.
+  // Word 0 is in all images and has weight 0; words 1 and 2 have weights log(3 / 2) and log 3.
   const std::vector<Bag> all = bags({{0, 1}, {0, 1, 2}, {0}}, 3);
   ASSERT_EQ(all[0].size(), 1u);
   EXPECT_DOUBLE_EQ(all[0][0].second, 1.0);
@@ -191,20 +191,20 @@ TEST(Bags, AreAlikeByTheRareWordsTheyShare) {
 
 TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
   const Features all = two_groups();
-  Features here;  // one feature of each group in the middle of the image
+  Features query;  // one feature of each group in the image centre
   const Camera camera;
   for (const std::size_t i : {std::size_t{0}, std::size_t{20}}) {
-    here.points.push_back({static_cast<float>(camera.cx), static_cast<float>(camera.cy), 2.0f});
-    here.descriptors.insert(
-        here.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
+    query.points.push_back({static_cast<float>(camera.cx), static_cast<float>(camera.cy), 2.0f});
+    query.descriptors.insert(
+        query.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
   }
   const std::vector<Seen> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
-  const std::vector<Match> matches = match_near(points, all, here, camera, {}, 10.0, {});
+  const std::vector<Match> matches = match_near(points, all, query, camera, {}, 10.0, {});
   ASSERT_EQ(matches.size(), 1u);
-  EXPECT_EQ(matches[0].a, 1u);  // row 0 is its very look, row 1 is a bit off
+  EXPECT_EQ(matches[0].a, 1u);  // descriptor row 0 is equal, row 1 differs slightly
   EXPECT_EQ(matches[0].b, 0u);
   EXPECT_TRUE(
-      match_near(points, all, here, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
+      match_near(points, all, query, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
 }
 
 TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {

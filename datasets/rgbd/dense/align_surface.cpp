@@ -8,30 +8,31 @@ namespace loopbench {
 namespace {
 
 constexpr int kAlignSteps = 20;
-constexpr int kWideSteps = 4;         // of them with the wide gate
-constexpr double kWideGate = 0.12;    // farthest that partners lie apart [m]
-constexpr double kNarrowGate = 0.05;  // likewise, near the solution [m]
-constexpr double kAlike = 0.8;        // least cosine between partners' normals
+constexpr int kWideSteps = 4;         // number of first steps with the wide gate
+constexpr double kWideGate = 0.12;    // maximum distance of associated points [m]
+constexpr double kNarrowGate = 0.05;  // the same near the solution [m]
+constexpr double kMinCosine = 0.8;    // between associated normals
 constexpr double kHuber = 1.5;        // [sigma]
-constexpr int kStride = 2;            // pixels and rows between points that are taken
+constexpr int kStride = 2;            // subsampling in both image directions [px]
 
 using PlaneRow = Eigen::Matrix<double, 1, 6>;
 
-/// One distance between a point and the plane at its partner, and how the twist moves it.
+/// Whitened point-to-plane distance and its Jacobian with respect to the twist.
 struct PlaneDistance {
   double value = 0.0;
   PlaneRow jacobian = PlaneRow::Zero();
 };
 
-/// The pixel of `surface` that a point in its axes falls on, when it lies there and looks alike.
-bool partner(const Surface& surface,
-             const Vector3& point,
-             const Vector3& normal,
-             double gate,
-             std::size_t& index) {
+/// Projective association: finds the pixel `index` of `surface` at which a point (in its axes)
+/// projects. Returns false if its point is farther than `gate` [m] or its normal differs.
+bool associate(const Surface& surface,
+               const Vector3& point,
+               const Vector3& normal,
+               double gate,
+               std::size_t& index) {
   if (!(point.z() > 0.05)) return false;
   const Eigen::Vector2d pixel = surface.camera.project(point);
-  const auto inside = [](double at, int count) { return at > -0.5 && at < count - 0.5; };
+  const auto inside = [](double x, int count) { return x > -0.5 && x < count - 0.5; };
   if (!inside(pixel.x(), surface.camera.width) || !inside(pixel.y(), surface.camera.height)) {
     return false;
   }
@@ -39,7 +40,7 @@ bool partner(const Surface& surface,
   const auto y = static_cast<std::size_t>(std::lround(std::max(0.0, pixel.y())));
   index = y * static_cast<std::size_t>(surface.camera.width) + x;
   const Eigen::Vector3f& n = surface.normals[index];
-  return !n.isZero() && n.cast<double>().dot(normal) > kAlike &&
+  return !n.isZero() && n.cast<double>().dot(normal) > kMinCosine &&
          (surface.points[index].cast<double>() - point).squaredNorm() < gate * gate;
 }
 
@@ -47,8 +48,8 @@ struct PlaneEquation {
   Matrix6 H = Matrix6::Zero();
   Twist g = Twist::Zero();
   double squares = 0.0;
-  double points = 0.0;
-  double found = 0.0;  ///< of points, with a partner
+  double points = 0.0;  ///< number of points used
+  double found = 0.0;   ///< number of associated points
 };
 
 PlaneEquation plane_equation(const Surface& surface,
@@ -81,7 +82,7 @@ PlaneEquation plane_equation(const Surface& surface,
       for (const Placed& m : placed) {
         const Vector3 q = m.R * p + m.t;
         std::size_t k = 0;
-        if (!partner(*m.surface, q, m.R * normal, gate, k)) continue;
+        if (!associate(*m.surface, q, m.R * normal, gate, k)) continue;
         const Vector3 n = m.surface->normals[k].cast<double>();
         const Vector3 n_here = m.R.transpose() * n;
         PlaneDistance& d = distances.emplace_back();
@@ -115,12 +116,12 @@ Alignment align_surface(const Surface& surface,
     const PlaneEquation planes = plane_equation(surface, model, out.world_from_camera, gate);
     out.share = planes.found / std::max(1.0, planes.points);
     out.spread = std::sqrt(planes.squares / std::max(1.0, planes.found));
-    const double believed = options.information_scale / std::max(1.0, out.spread * out.spread);
+    const double weight = options.information_scale / std::max(1.0, out.spread * out.spread);
     const Twist from_prior = log_se3(prior.world_from_camera.inverse() * out.world_from_camera);
-    out.information = believed * planes.H + prior.information;
-    const Twist slope = believed * planes.g + prior.information * from_prior;
+    out.information = weight * planes.H + prior.information;
+    const Twist gradient = weight * planes.g + prior.information * from_prior;
     const Twist e =
-        -Eigen::LDLT<Matrix6>(out.information + 1e-9 * Matrix6::Identity()).solve(slope);
+        -Eigen::LDLT<Matrix6>(out.information + 1e-9 * Matrix6::Identity()).solve(gradient);
     if (!e.allFinite() || e.norm() > 1.0) break;
     out.world_from_camera = normalized(out.world_from_camera * exp_se3(e));
     if (step > kWideSteps && e.norm() < 1e-5) break;

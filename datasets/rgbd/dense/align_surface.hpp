@@ -1,4 +1,4 @@
-/// Where a camera stands, from the surfaces it sees.
+/// Camera pose by alignment of depth surfaces (point-to-plane ICP).
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct PlacedSurface {
   Pose world_from_surface;
 };
 
-/// What is known of a pose beforehand: information is of e in world_from_camera * exp(e).
+/// Prior of a pose: information of the twist e in world_from_camera * exp(e).
 struct PriorPose {
   Pose world_from_camera;
   Matrix6 information = Matrix6::Zero();
@@ -22,18 +22,18 @@ struct PriorPose {
 
 struct Alignment {
   Pose world_from_camera;
-  Matrix6 information = Matrix6::Zero();  ///< of surfaces and prior together
-  double share = 0.0;   ///< of the surface's points that lie on some surface of the model
-  double spread = 0.0;  ///< rms of whitened distances; 1 as modelled
+  Matrix6 information = Matrix6::Zero();  ///< sum of surface and prior information
+  double share = 0.0;   ///< share of points associated with a surface of the model [-]
+  double spread = 0.0;  ///< RMS of whitened distances; 1 if the noise model is correct
 };
 
-/// Point-to-plane ICP with projective association (Chen and Medioni 1991; Izadi et al. 2011,
-/// KinectFusion), every second pixel and row of `surface` against all of `model`, begun at the
-/// prior and drawn to it by its information, so that a wall alone does not let the camera slide
-/// along it. Distances are whitened by the surface's inverse_depth_sigma, Huber's weights. A point
-/// that several surfaces show counts once: their errors are mostly the same. Its share of
-/// information is divided by spread^2 when that is above 1, times options.information_scale, as
-/// refine_pose() has it. O(steps * pixels * model).
+/// Aligns `surface` to all surfaces of `model` by point-to-plane ICP with projective association
+/// (Chen and Medioni 1991; Izadi et al. 2011, KinectFusion), using every second pixel and row.
+/// Starts at the prior, whose information constrains directions that the surfaces do not observe,
+/// such as sliding along a wall. Distances are whitened with inverse_depth_sigma and weighted by
+/// Huber's function. A point associated with several surfaces counts once, because their errors are
+/// correlated. As in refine_pose(), the surface information is multiplied by
+/// options.information_scale and divided by spread^2 if that is above 1. O(steps * pixels * model).
 Alignment align_surface(const Surface& surface,
                         const std::vector<PlacedSurface>& model,
                         const PriorPose& prior,

@@ -11,20 +11,21 @@ namespace loopbench {
 namespace {
 
 constexpr int kSurfaceWidth = 160;        // [px]
-constexpr double kFarthestMove = 0.15;    // [m]
-constexpr double kFarthestTurn = 0.15;    // [rad]
-constexpr double kGuessedVariance = 0.1;  // of an edge's least certain direction [m^2], [rad^2]
-constexpr std::size_t kClosureReach = 1;  // neighbours of the older keyframe, to each side
+constexpr double kMaxTranslation = 0.15;  // correction of an edge [m]
+constexpr double kMaxRotation = 0.15;     // correction of an edge [rad]
+constexpr double kGuessedVariance = 0.1;  // largest variance of a measured edge [m^2], [rad^2]
+constexpr std::size_t kClosureReach = 1;  // keyframes on each side of the older keyframe
 
-/// Nothing was measured: the tracker joined two maps.
+/// Whether an edge was not measured but connects two maps after a tracking loss.
 bool is_guess(const Edge& edge) {
   return edge.information.diagonal().minCoeff() < 1.0 / kGuessedVariance;
 }
 
-bool is_better(const Alignment& found, const Pose& prior, const RefineOptions& options) {
+bool is_accepted(const Alignment& found, const Pose& prior, const RefineOptions& options) {
   const Pose moved = prior.inverse() * found.world_from_camera;
   return is_finite(found.world_from_camera) && found.share >= options.overlap_min &&
-         moved.translation.norm() < kFarthestMove && log_so3(moved.rotation).norm() < kFarthestTurn;
+         moved.translation.norm() < kMaxTranslation &&
+         log_so3(moved.rotation).norm() < kMaxRotation;
 }
 
 struct TimedDepth {
@@ -32,7 +33,7 @@ struct TimedDepth {
   double seconds = 0.0;
 };
 
-/// Small depth images of all keyframes; none of what cannot be read.
+/// Reads downsampled depth images of all keyframes; empty for images that cannot be read.
 std::vector<SmallDepth> keyframe_depths(const RgbdSource& source,
                                         const std::vector<Keyframe>& keyframes,
                                         double depth_max,
@@ -50,14 +51,15 @@ std::vector<SmallDepth> keyframe_depths(const RgbdSource& source,
   };
   std::vector<SmallDepth> out;
   ordered_pipeline<TimedDepth>(
-      keyframes.size(), cores(), 4 * cores(), read, [&](std::size_t, TimedDepth one) {
-        seconds += one.seconds;
-        out.push_back(std::move(one.image));
+      keyframes.size(), cores(), 4 * cores(), read, [&](std::size_t, TimedDepth depth) {
+        seconds += depth.seconds;
+        out.push_back(std::move(depth.image));
       });
   return out;
 }
 
-/// Every keyframe laid on those before it. Gives its pose in the first one's world.
+/// Aligns every keyframe with the previous ones. Returns the keyframe poses in the frame of the
+/// first keyframe and writes the refined edges to `out`.
 std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
                                   const PoseOptions& pose,
                                   const RefineOptions& options,
@@ -79,7 +81,7 @@ std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
     }
     const Alignment found = align_surface(surface, model, prior, pose);
     Pose here = prior.world_from_camera;
-    if (!is_guess(edge) && is_better(found, here, options)) {
+    if (!is_guess(edge) && is_accepted(found, here, options)) {
       here = found.world_from_camera;
       edge.from_from_to = normalized(last.inverse() * here);
       edge.information = found.information;
@@ -96,7 +98,7 @@ std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
 
 struct RefinedClosure {
   Edge edge;
-  bool better = false;
+  bool refined = false;
   double seconds = 0.0;
 };
 
@@ -120,8 +122,8 @@ RefinedClosure refine_closure(const Edge& closure,
   const PriorPose prior{closure.from_from_to, closure.information};
   const Alignment found =
       align_surface(surface_of(depths[closure.to], pose.inverse_depth_sigma), model, prior, pose);
-  out.better = is_better(found, closure.from_from_to, options);
-  if (out.better) {
+  out.refined = is_accepted(found, closure.from_from_to, options);
+  if (out.refined) {
     out.edge.from_from_to = found.world_from_camera;
     out.edge.information = found.information;
   }
@@ -152,7 +154,7 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
       closures.size(), cores(), 4 * cores(), refine, [&](std::size_t i, RefinedClosure one) {
         progress(tracked.keyframes.size() + i + 1, steps);
         out.seconds += one.seconds;
-        out.closures_refined += one.better ? 1 : 0;
+        out.closures_refined += one.refined ? 1 : 0;
         out.closures.push_back(std::move(one.edge));
       });
   return out;
@@ -166,17 +168,17 @@ void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry) {
         normalized(tracked.keyframes[k - 1].world_from_camera * odometry[k - 1].from_from_to);
   }
   tracked.odometry = odometry;
-  std::size_t k = 0;  // the last keyframe before the frame
+  std::size_t k = 0;  // last keyframe before the frame
   for (StampedPose& frame : tracked.frames) {
     while (k + 2 < before.size() && tracked.keyframes[k + 1].stamp < frame.stamp) ++k;
-    const auto seen_from = [&](std::size_t keyframe) {
+    const auto moved_with = [&](std::size_t keyframe) {
       return tracked.keyframes[keyframe].world_from_camera * before[keyframe].inverse() *
              frame.world_from_body;
     };
     const double begin = tracked.keyframes[k].stamp;
     const double u = (frame.stamp - begin) / (tracked.keyframes[k + 1].stamp - begin);
     frame.world_from_body =
-        normalized(interpolate(seen_from(k), seen_from(k + 1), std::clamp(u, 0.0, 1.0)));
+        normalized(interpolate(moved_with(k), moved_with(k + 1), std::clamp(u, 0.0, 1.0)));
   }
 }
 

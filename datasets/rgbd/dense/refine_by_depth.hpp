@@ -1,4 +1,4 @@
-/// Steps and loops that features found, measured again with all of the depth images.
+/// Refinement of odometry and loop closures by dense alignment of depth images.
 #pragma once
 
 #include <cstdint>
@@ -19,31 +19,35 @@ struct RefineOptions {
 
 template <class Visit>
 void fields(RefineOptions& o, Visit visit) {
-  visit("refine.depth", o.depth, "measure odometry and loops again, by surfaces in depth images");
-  visit(
-      "refine.window", o.window, "keyframes whose surfaces a new one is laid on", Between{1, 100});
+  visit("refine.depth",
+        o.depth,
+        "refinement of odometry and loop closures by alignment of depth images");
+  visit("refine.window",
+        o.window,
+        "number of previous keyframes that a new keyframe is aligned with",
+        Between{1, 100});
   visit("refine.overlap_min",
         o.overlap_min,
-        "share of a surface that must lie on others [-]",
+        "minimum share of a surface that overlaps the previous keyframes [-]",
         Between{0, 1});
 }
 
-/// Edges as they were where surfaces do not say better.
+/// Odometry and closures after refinement; edges that could not be refined are unchanged.
 struct RefinedEdges {
   std::vector<Edge> odometry = {};
   std::vector<Edge> closures = {};
   std::size_t odometry_refined = 0;
   std::size_t closures_refined = 0;
-  double seconds = 0.0;  ///< of all threads
+  double seconds = 0.0;  ///< CPU time of all threads [s]
 };
 
-/// Lays every keyframe's surface on those of the `window` keyframes before, by align_surface() with
-/// the features' edge as prior; then every closure's on those of its older keyframe and that one's
-/// two neighbours. An edge stays as it was when the surfaces overlap too little, when they would
-/// move it by more than 0.15 m or 0.15 rad, when an image cannot be read, or, for odometry, when it
-/// is a guess over lost tracking; after such a step the window begins anew. Depth is read again for
-/// keyframes; kept are 77 kB each. Same bits on any number of threads.
-/// O(keyframes * window * pixels).
+/// Aligns the surface of each keyframe with those of the previous `window` keyframes by
+/// align_surface(), with the feature-based edge as prior; then that of the newer keyframe of each
+/// closure with those of the older keyframe and its two neighbours. An edge remains unchanged if
+/// the surfaces overlap too little, if the correction exceeds 0.15 m or 0.15 rad, if an image
+/// cannot be read, or if an odometry edge was not measured (tracking loss). After an unchanged
+/// odometry edge the window is restarted. Depth images of keyframes are read again and stored at 77
+/// kB each. Bit-identical for any number of threads. O(keyframes * window * pixels).
 RefinedEdges refine_by_depth(const RgbdSource& source,
                              const Tracked& tracked,
                              const std::vector<Edge>& closures,
@@ -52,8 +56,8 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
                              const RefineOptions& options,
                              const std::function<void(std::size_t, std::size_t)>& progress);
 
-/// Chains the keyframes anew by `odometry`. Frames between two keyframes keep their places relative
-/// to both, the nearer in time counting more. O(keyframes + frames).
+/// Recomputes keyframe poses from `odometry`. Frames between two keyframes are moved with both,
+/// interpolated in time. O(keyframes + frames).
 void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry);
 
 }  // namespace loopbench

@@ -7,16 +7,16 @@
 namespace loopbench {
 namespace {
 
-constexpr float kSameDepth = 0.02f;    // of a block's pixels, over their median
-constexpr int kNormalReach = 2;        // pixels to each side that a normal is made of
-constexpr float kNormalDepth = 0.04f;  // of a patch's pixels from its middle, over depth
-constexpr int kNormalFewest = 15;      // of 25
-constexpr double kFlat = 0.05;         // variance across a patch over the lesser one along it
-constexpr double kFlatNoisy = 0.25;    // likewise, where that is no more than the noise
-constexpr float kGrazingSight = 0.2f;  // least cosine between normal and line of sight
-constexpr float kShallowest = 0.05f;   // nearer is no measurement [m]
+constexpr float kSameDepth = 0.02f;      // relative depth difference to the median of a block
+constexpr int kNormalReach = 2;          // half size of the patch of a normal [px]
+constexpr float kNormalDepth = 0.04f;    // relative depth difference to the centre of a patch
+constexpr int kMinNormalPoints = 15;     // of 25
+constexpr double kFlat = 0.05;           // ratio of the two smallest variances of a patch
+constexpr double kFlatNoisy = 0.25;      // the same if the smallest one is below the noise
+constexpr float kGrazingSight = 0.2f;    // minimum cosine between normal and ray
+constexpr float kMinValidDepth = 0.05f;  // [m]
 
-/// Where an ideal pixel lies in an image with Brown's distortion.
+/// Maps an undistorted pixel to the distorted image (Brown's model).
 Eigen::Vector2d distorted_pixel(const Camera& c, double u, double v) {
   const double x = (u - c.cx) / c.fx;
   const double y = (v - c.cy) / c.fy;
@@ -26,7 +26,7 @@ Eigen::Vector2d distorted_pixel(const Camera& c, double u, double v) {
           c.fy * (y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * x * y) + c.cy};
 }
 
-DepthImage straightened(const DepthImage& depth, const Camera& camera) {
+DepthImage undistorted(const DepthImage& depth, const Camera& camera) {
   DepthImage out(depth.width, depth.height);
   for (int y = 0; y < depth.height; ++y) {
     for (int x = 0; x < depth.width; ++x) {
@@ -39,7 +39,7 @@ DepthImage straightened(const DepthImage& depth, const Camera& camera) {
   return out;
 }
 
-/// The mean of what lies near the median; 0 when less than half of the block is measured.
+/// Mean of the depths near their median; 0 if less than half of the block is measured.
 float block_depth(std::vector<float>& measured, std::size_t pixels) {
   if (2 * measured.size() < pixels) return 0.0f;
   const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
@@ -59,34 +59,34 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y) {
   const auto at = [&](int column, int row) -> const Eigen::Vector3f& {
     return surface.points[static_cast<std::size_t>(row * surface.camera.width + column)];
   };
-  const Eigen::Vector3f& middle = at(x, y);
-  if (!(middle.z() > 0.0f)) return Eigen::Vector3f::Zero();
+  const Eigen::Vector3f& centre = at(x, y);
+  if (!(centre.z() > 0.0f)) return Eigen::Vector3f::Zero();
   Vector3 mean = Vector3::Zero();
-  Matrix3 spread = Matrix3::Zero();
+  Matrix3 covariance = Matrix3::Zero();
   int count = 0;
   for (int row = y - kNormalReach; row <= y + kNormalReach; ++row) {
     for (int column = x - kNormalReach; column <= x + kNormalReach; ++column) {
       const Eigen::Vector3f& p = at(column, row);
-      if (!(p.z() > 0.0f) || std::abs(p.z() - middle.z()) > kNormalDepth * middle.z()) continue;
-      const Vector3 d = (p - middle).cast<double>();
+      if (!(p.z() > 0.0f) || std::abs(p.z() - centre.z()) > kNormalDepth * centre.z()) continue;
+      const Vector3 d = (p - centre).cast<double>();
       mean += d;
-      spread += d * d.transpose();
+      covariance += d * d.transpose();
       ++count;
     }
   }
-  if (count < kNormalFewest) return Eigen::Vector3f::Zero();
+  if (count < kMinNormalPoints) return Eigen::Vector3f::Zero();
   mean /= count;
-  spread = (spread / count - mean * mean.transpose()).eval();
+  covariance = (covariance / count - mean * mean.transpose()).eval();
   Eigen::SelfAdjointEigenSolver<Matrix3> axes;
-  axes.computeDirect(spread);
+  axes.computeDirect(covariance);
   const double across = axes.eigenvalues()(0);
   const double along = axes.eigenvalues()(1);
-  const auto z = static_cast<double>(middle.z());
+  const auto z = static_cast<double>(centre.z());
   const double noise = surface.inverse_depth_sigma * z * z;
-  const double most = across < noise * noise ? kFlatNoisy : kFlat;
-  if (across > most * along) return Eigen::Vector3f::Zero();
+  const double max_ratio = across < noise * noise ? kFlatNoisy : kFlat;
+  if (across > max_ratio * along) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f n = axes.eigenvectors().col(0).cast<float>().normalized();
-  const float facing = -n.dot(middle.normalized());
+  const float facing = -n.dot(centre.normalized());
   if (std::abs(facing) < kGrazingSight) return Eigen::Vector3f::Zero();
   return facing > 0.0f ? n : Eigen::Vector3f(-n);
 }
@@ -94,18 +94,18 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y) {
 }  // namespace
 
 SmallDepth small_depth(const DepthImage& depth, const Camera& camera, int width, double depth_max) {
-  const DepthImage straight = camera.distorted() ? straightened(depth, camera) : DepthImage();
-  const DepthImage& from = camera.distorted() ? straight : depth;
+  const DepthImage rectified = camera.distorted() ? undistorted(depth, camera) : DepthImage();
+  const DepthImage& from = camera.distorted() ? rectified : depth;
   const int block = std::max(1, (depth.width + width - 1) / width);
-  const double shrunk = 1.0 / block;
+  const double scale = 1.0 / block;
   SmallDepth out;
   out.block = block;
   out.camera.width = depth.width / block;
   out.camera.height = depth.height / block;
-  out.camera.fx = shrunk * camera.fx;
-  out.camera.fy = shrunk * camera.fy;
-  out.camera.cx = shrunk * (camera.cx + 0.5) - 0.5;  // the middle of the first block is its (0, 0)
-  out.camera.cy = shrunk * (camera.cy + 0.5) - 0.5;
+  out.camera.fx = scale * camera.fx;
+  out.camera.fy = scale * camera.fy;
+  out.camera.cx = scale * (camera.cx + 0.5) - 0.5;  // pixel (0, 0) is the centre of the first block
+  out.camera.cy = scale * (camera.cy + 0.5) - 0.5;
   out.depth = DepthImage(out.camera.width, out.camera.height);
   std::vector<float> measured;
   for (int y = 0; y < out.depth.height; ++y) {
@@ -114,7 +114,7 @@ SmallDepth small_depth(const DepthImage& depth, const Camera& camera, int width,
       for (int v = y * block; v < (y + 1) * block; ++v) {
         for (int u = x * block; u < (x + 1) * block; ++u) {
           const float z = from.at(u, v);
-          if (z > kShallowest && z < static_cast<float>(depth_max)) measured.push_back(z);
+          if (z > kMinValidDepth && z < static_cast<float>(depth_max)) measured.push_back(z);
         }
       }
       out.depth.at(x, y) = block_depth(measured, static_cast<std::size_t>(block * block));
@@ -127,7 +127,7 @@ Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
   const DepthImage& depth = image.depth;
   Surface out;
   out.camera = image.camera;
-  out.camera.width = depth.width;  // nothing at all where there is no image
+  out.camera.width = depth.width;  // empty without an image
   out.camera.height = depth.height;
   out.inverse_depth_sigma = inverse_depth_sigma / image.block;
   out.points.assign(depth.pixels.size(), Eigen::Vector3f::Zero());

@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-/// Bits set in a word, without the instruction that not every machine has.
+/// Number of bits set, without the POPCNT instruction, which is not available on all machines.
 std::uint64_t bits_set(std::uint64_t x) {
   x -= (x >> 1) & 0x5555555555555555u;
   x = (x & 0x3333333333333333u) + ((x >> 2) & 0x3333333333333333u);
@@ -36,7 +36,7 @@ float descriptor_distance(const Features& a, std::size_t i, const Features& b, s
     const int difference = p[at] - q[at];
     sum += difference * difference;
   }
-  return std::sqrt(static_cast<float>(sum)) / 1024.0f;  // SIFT's vectors are 512 long
+  return std::sqrt(static_cast<float>(sum)) / 1024.0f;  // SIFT descriptors have norm 512
 }
 
 }  // namespace loopbench

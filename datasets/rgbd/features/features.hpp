@@ -1,4 +1,4 @@
-/// Points of an image that can be found again, with what they look like and how far they are.
+/// Image features with descriptors and depth.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace loopbench {
 struct Feature {
   float u = 0.0f;      ///< undistorted [px]
   float v = 0.0f;      ///< undistorted [px]
-  float depth = 0.0f;  ///< [m]; 0: none, or beside a depth edge
-  float sigma = 1.0f;  ///< size of a pixel where it was found, over one of the image [-]
+  float depth = 0.0f;  ///< [m]; 0: not measured or beside a depth edge
+  float sigma = 1.0f;  ///< pixel size of the pyramid level relative to the image [-]
   std::int32_t octave = 0;
 };
 
@@ -24,7 +24,7 @@ struct Features {
   std::vector<Feature> points = {};
   std::vector<std::uint8_t> descriptors = {};
   std::int32_t bytes = 32;
-  bool binary = true;  ///< bits that differ count, else Euclidean distance
+  bool binary = true;  ///< Hamming distance, else Euclidean distance
 
   std::size_t size() const { return points.size(); }
   const std::uint8_t* descriptor(std::size_t i) const {
@@ -49,17 +49,20 @@ struct FeatureOptions {
 template <class Visit>
 void fields(FeatureOptions& o, Visit visit) {
   visit("features.kind", o.kind, "detector and descriptor");
-  visit("features.count", o.count, "kept in an image", Between{50, 10000});
-  visit("features.cells", o.cells, "columns of the grid they are spread over", Between{1, 100});
-  visit("features.depth_max", o.depth_max, "farther depth is not believed [m]", Above{0});
+  visit("features.count", o.count, "maximum number of features per image", Between{50, 10000});
+  visit("features.cells",
+        o.cells,
+        "number of grid columns for an even distribution of features",
+        Between{1, 100});
+  visit("features.depth_max", o.depth_max, "maximum depth that is used [m]", Above{0});
 }
 
-/// Detects four times as many as asked for and keeps the strongest of every grid cell, so that one
-/// rich corner of the image does not take all. Same bits on any number of threads. O(pixels).
+/// Detects four times `count` features and keeps the strongest ones of each grid cell, for an even
+/// distribution over the image. Bit-identical for any number of threads. O(pixels).
 Features find_features(const RgbdFrame& frame, const Camera& camera, const FeatureOptions& options);
 
-/// 0..1: share of bits that differ, or distance of unit vectors over 2 (SIFT, kept in bytes).
-/// Unrelated descriptors are about 0.5 apart either way.
+/// Descriptor distance in 0..1: share of different bits, or half the distance of unit vectors
+/// (SIFT). It is about 0.5 for unrelated descriptors.
 float descriptor_distance(const Features& a, std::size_t i, const Features& b, std::size_t k);
 
 }  // namespace loopbench

@@ -9,10 +9,10 @@
 namespace loopbench {
 namespace {
 
-constexpr float kOctave = 1.2f;      // of ORB's pyramid
-constexpr int kSmallestLevel = 60;   // [px]; smaller ones hold no whole patch
-constexpr int kBorder = 19;          // ORB's patch at its finest level [px]
-constexpr float kDepthEdge = 0.06f;  // depths about a feature differ by less than this share
+constexpr float kOctave = 1.2f;      // scale factor of the ORB pyramid
+constexpr int kMinLevelSize = 60;    // [px]; smaller levels contain no complete patch
+constexpr int kBorder = 19;          // ORB patch at the finest level [px]
+constexpr float kDepthEdge = 0.06f;  // maximum relative depth difference around a feature
 
 cv::Ptr<cv::Feature2D> detector(const FeatureOptions& o, int count, int shorter_side) {
   switch (o.kind) {
@@ -25,14 +25,14 @@ cv::Ptr<cv::Feature2D> detector(const FeatureOptions& o, int count, int shorter_
   }
   int levels = 1;
   while (levels < 8 &&
-         static_cast<double>(shorter_side) / std::pow(kOctave, levels) > kSmallestLevel)
+         static_cast<double>(shorter_side) / std::pow(kOctave, levels) > kMinLevelSize)
     ++levels;
   return cv::ORB::create(count, kOctave, levels, kBorder, 0, 2, cv::ORB::HARRIS_SCORE, 31, 8);
 }
 
-/// Ascending indices of `count` points, those of each cell by strength: first the best of every
-/// cell, then the second best, and so on.
-std::vector<std::size_t> spread_out(const std::vector<cv::KeyPoint>& points,
+/// Returns ascending indices of `count` points: the strongest of each grid cell, then the second
+/// strongest, and so on.
+std::vector<std::size_t> distribute(const std::vector<cv::KeyPoint>& points,
                                     std::size_t count,
                                     int cells,
                                     int width) {
@@ -43,7 +43,7 @@ std::vector<std::size_t> spread_out(const std::vector<cv::KeyPoint>& points,
   });
   const float side = static_cast<float>(width) / static_cast<float>(cells);
   std::map<std::pair<int, int>, std::size_t> filled;
-  std::vector<std::pair<std::size_t, std::size_t>> ranked;  // place in its cell, index
+  std::vector<std::pair<std::size_t, std::size_t>> ranked;  // rank in its cell, index
   for (const std::size_t i : order) {
     const auto x = static_cast<int>(points[i].pt.x / side);
     const auto y = static_cast<int>(points[i].pt.y / side);
@@ -53,13 +53,14 @@ std::vector<std::size_t> spread_out(const std::vector<cv::KeyPoint>& points,
       ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ranked.resize(std::min(count, ranked.size()));
   std::vector<std::size_t> out;
-  for (const auto& [place, index] : ranked) out.push_back(index);
+  for (const auto& [rank, index] : ranked) out.push_back(index);
   std::sort(out.begin(), out.end());
   return out;
 }
 
-/// Median of the 3 x 3 depths about a pixel; 0 at depth edges, where front and back mix.
-float depth_about(const DepthImage& depth, float u, float v) {
+/// Median of the 3 x 3 depths around a pixel; 0 at depth edges, where foreground and background
+/// mix.
+float median_depth_at(const DepthImage& depth, float u, float v) {
   const int x = static_cast<int>(std::lround(u));
   const int y = static_cast<int>(std::lround(v));
   std::array<float, 9> found{};
@@ -84,9 +85,9 @@ std::vector<cv::Point2f> undistorted(const std::vector<cv::KeyPoint>& points, co
   if (!c.distorted() || out.empty()) return out;
   const cv::Matx33d K(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
   const cv::Vec<double, 5> d(c.k1, c.k2, c.p1, c.p2, c.k3);
-  std::vector<cv::Point2f> straight;
-  cv::undistortPoints(out, straight, K, d, cv::noArray(), K);
-  return straight;
+  std::vector<cv::Point2f> rectified;
+  cv::undistortPoints(out, rectified, K, d, cv::noArray(), K);
+  return rectified;
 }
 
 }  // namespace
@@ -95,34 +96,34 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const Featu
   const cv::Mat image(frame.grey.height,
                       frame.grey.width,
                       CV_8U,
-                      const_cast<std::uint8_t*>(frame.grey.pixels.data()));  // only read
+                      const_cast<std::uint8_t*>(frame.grey.pixels.data()));  // not modified
   const auto count = static_cast<std::size_t>(o.count);
   const auto algorithm = detector(o, static_cast<int>(4 * count), std::min(image.cols, image.rows));
   std::vector<cv::KeyPoint> all;
   algorithm->detect(image, all);
   std::vector<cv::KeyPoint> kept;
-  for (const std::size_t i : spread_out(all, count, static_cast<int>(o.cells), image.cols)) {
+  for (const std::size_t i : distribute(all, count, static_cast<int>(o.cells), image.cols)) {
     kept.push_back(all[i]);
   }
   cv::Mat rows;
-  algorithm->compute(image, kept, rows);                   // may drop some at the border
-  if (rows.type() == CV_32F) rows.convertTo(rows, CV_8U);  // SIFT's are whole, 0..255
+  algorithm->compute(image, kept, rows);                   // may drop points at the border
+  if (rows.type() == CV_32F) rows.convertTo(rows, CV_8U);  // SIFT values are integers 0..255
 
   Features out;
   out.binary = o.kind != FeatureKind::sift;
   out.bytes = rows.empty() ? 32 : rows.cols;
-  const std::vector<cv::Point2f> straight = undistorted(kept, camera);
+  const std::vector<cv::Point2f> pixels = undistorted(kept, camera);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const cv::KeyPoint& point = kept[i];
-    // ORB's size is its patch of 31 pixels; AKAZE's and SIFT's begin at a few pixels.
+    // Feature size at the finest level [px]; ORB reports its patch size of 31 px.
     const float finest = o.kind == FeatureKind::orb     ? 31.0f
                          : o.kind == FeatureKind::akaze ? 4.8f
                                                         : 3.2f;
     const float sigma = std::max(1.0f, point.size / finest);
-    const float depth = depth_about(frame.depth, point.pt.x, point.pt.y);
+    const float depth = median_depth_at(frame.depth, point.pt.x, point.pt.y);
     out.points.push_back(
-        {straight[i].x,
-         straight[i].y,
+        {pixels[i].x,
+         pixels[i].y,
          depth < static_cast<float>(o.depth_max) ? depth : 0.0f,
          sigma,
          static_cast<std::int32_t>(std::lround(std::log(sigma) / std::log(kOctave)))});

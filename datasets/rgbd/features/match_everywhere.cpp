@@ -9,10 +9,11 @@ cv::Mat rows(const Features& features) {
   return {static_cast<int>(features.size()),
           features.bytes,
           CV_8U,
-          const_cast<std::uint8_t*>(features.descriptors.data())};  // only read
+          const_cast<std::uint8_t*>(features.descriptors.data())};  // not modified
 }
 
-/// For each row the nearest of the other, -1 when it is too far or not clearly the nearest.
+/// Returns for each row of `from` its nearest neighbour in `to`, -1 if it is too far or fails the
+/// ratio test.
 std::vector<int> nearest(
     const cv::Mat& from, const cv::Mat& to, double unit, int norm, const MatchOptions& o) {
   std::vector<std::vector<cv::DMatch>> found;
@@ -32,13 +33,13 @@ std::vector<Match> match_everywhere(const Features& a, const Features& b, const 
   if (a.size() == 0 || b.size() == 0) return {};
   const int norm = a.binary ? cv::NORM_HAMMING : cv::NORM_L2;
   const double unit = a.binary ? 8.0 * a.bytes : 1024.0;
-  const std::vector<int> there = nearest(rows(a), rows(b), unit, norm, o);
-  const std::vector<int> back = nearest(rows(b), rows(a), unit, norm, o);
+  const std::vector<int> forward = nearest(rows(a), rows(b), unit, norm, o);
+  const std::vector<int> backward = nearest(rows(b), rows(a), unit, norm, o);
   std::vector<Match> out;
-  for (std::size_t i = 0; i < there.size(); ++i) {
-    if (there[i] < 0) continue;
-    const auto k = static_cast<std::size_t>(there[i]);
-    if (back[k] == static_cast<int>(i)) out.push_back({i, k, descriptor_distance(a, i, b, k)});
+  for (std::size_t i = 0; i < forward.size(); ++i) {
+    if (forward[i] < 0) continue;
+    const auto k = static_cast<std::size_t>(forward[i]);
+    if (backward[k] == static_cast<int>(i)) out.push_back({i, k, descriptor_distance(a, i, b, k)});
   }
   return out;
 }

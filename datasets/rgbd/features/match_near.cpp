@@ -7,11 +7,11 @@
 namespace loopbench {
 namespace {
 
-constexpr int kCell = 16;         // [px]
-constexpr int kOctaveSlack = 2;   // a step of motion changes the scale by no more
-constexpr double kNearest = 0.1;  // points nearer to the camera are behind it in practice [m]
+constexpr int kCell = 16;                 // [px]
+constexpr int kOctaveSlack = 2;           // maximum scale change between frames
+constexpr double kMinVisibleDepth = 0.1;  // minimum depth of a visible point [m]
 
-/// Features by where they are.
+/// Features indexed by image cells.
 class Grid {
  public:
   Grid(const Features& features, const Camera& camera)
@@ -47,7 +47,7 @@ class Grid {
 }  // namespace
 
 std::vector<Match> match_near(const std::vector<Seen>& points,
-                              const Features& looks,
+                              const Features& descriptors,
                               const Features& features,
                               const Camera& camera,
                               const Pose& world_from_camera,
@@ -62,16 +62,16 @@ std::vector<Match> match_near(const std::vector<Seen>& points,
   };
   std::vector<Owner> owners(features.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
-    const Vector3 here = camera_from_world * points[p].in_world;
-    if (here.z() < kNearest) continue;
-    const Eigen::Vector2d at = camera.project(here);
+    const Vector3 in_camera = camera_from_world * points[p].in_world;
+    if (in_camera.z() < kMinVisibleDepth) continue;
+    const Eigen::Vector2d at = camera.project(in_camera);
     if (at.x() < -radius || at.y() < -radius || at.x() > camera.width + radius ||
         at.y() > camera.height + radius) {
       continue;
     }
     float best = kNone;
     float second = kNone;
-    std::size_t which = 0;
+    std::size_t best_feature = 0;
     const double reach = radius + points[p].octave;
     grid.around(at.x(), at.y(), reach, [&](std::size_t f) {
       const Feature& feature = features.points[f];
@@ -79,11 +79,11 @@ std::vector<Match> match_near(const std::vector<Seen>& points,
       const double dv = static_cast<double>(feature.v) - at.y();
       if (du * du + dv * dv > reach * reach) return;
       if (std::abs(feature.octave - points[p].octave) > kOctaveSlack) return;
-      const float distance = descriptor_distance(looks, points[p].row, features, f);
+      const float distance = descriptor_distance(descriptors, points[p].row, features, f);
       if (distance < best) {
         second = best;
         best = distance;
-        which = f;
+        best_feature = f;
       } else {
         second = std::min(second, distance);
       }
@@ -91,7 +91,7 @@ std::vector<Match> match_near(const std::vector<Seen>& points,
     if (best > static_cast<float>(o.distance_max) || best > static_cast<float>(o.ratio) * second) {
       continue;
     }
-    if (best < owners[which].distance) owners[which] = {p, best};
+    if (best < owners[best_feature].distance) owners[best_feature] = {p, best};
   }
   std::vector<Match> out;
   for (std::size_t f = 0; f < owners.size(); ++f) {

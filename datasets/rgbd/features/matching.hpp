@@ -1,4 +1,4 @@
-/// Which feature is which: everywhere by looks, or near where motion says it must be.
+/// Feature matching: exhaustive, or guided by a predicted pose.
 #pragma once
 
 #include <cstddef>
@@ -23,28 +23,36 @@ struct MatchOptions {
 
 template <class Visit>
 void fields(MatchOptions& o, Visit visit) {
-  visit("match.distance_max", o.distance_max, "share of bits that may differ [-]", Between{0, 1});
-  visit("match.ratio", o.ratio, "best over second best distance, at most [-]", Between{0, 1});
-  visit("match.radius", o.radius, "of the guided search, over image width [-]", Between{0, 1});
+  visit("match.distance_max",
+        o.distance_max,
+        "maximum descriptor distance of a match, 0..1 [-]",
+        Between{0, 1});
+  visit("match.ratio",
+        o.ratio,
+        "maximum ratio of best and second best descriptor distance [-]",
+        Between{0, 1});
+  visit("match.radius",
+        o.radius,
+        "radius of the guided search relative to the image width [-]",
+        Between{0, 1});
 }
 
-/// Every feature of `a` with its nearest of `b` by looks, when the second nearest is clearly
-/// farther and the choice is mutual. Sorted by a. O(|a| |b|).
+/// Matches features by descriptor with ratio test and mutual check. Sorted by a. O(|a| |b|).
 std::vector<Match> match_everywhere(const Features& a, const Features& b, const MatchOptions& o);
 
-/// A point in space that was seen before.
+/// A map point.
 struct Seen {
-  Vector3 in_world;         ///< [m]
-  std::int32_t octave = 0;  ///< at which it was seen last
-  std::size_t row = 0;      ///< of its descriptor
+  Vector3 in_world;         ///< point in the world frame [m]
+  std::int32_t octave = 0;  ///< pyramid level of the last observation
+  std::size_t row = 0;      ///< row of its descriptor
 };
 
-/// Every seen point (index a) with the feature (index b) that looks most like it within `radius`
-/// [px] of where it projects, about a pixel larger at coarser octaves. Ratio test among features of
-/// near octaves, and no feature twice: the point that looks most like it has it. Sorted by b.
-/// O(points * features in the circle).
+/// Matches each map point (index a) with the feature (index b) of smallest descriptor distance
+/// within `radius` [px] of its projection, plus one pixel per octave. The ratio test uses features
+/// of similar octaves. Each feature is matched once, with the point of smallest distance.
+/// `descriptors` holds the rows of the points. Sorted by b. O(points * features in the circle).
 std::vector<Match> match_near(const std::vector<Seen>& points,
-                              const Features& looks,
+                              const Features& descriptors,
                               const Features& features,
                               const Camera& camera,
                               const Pose& world_from_camera,

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint16_t kNoDepth = 65535;  // 7-Scenes; TUM writes 0
+constexpr std::uint16_t kNoDepth = 65535;  // invalid depth in 7-Scenes; TUM uses 0
 
 std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
   std::ifstream in(file, std::ios::binary);
@@ -96,13 +96,14 @@ class FolderSource final : public RgbdSource {
   void require_size(int width, int height, const fs::path& file) const {
     const Camera& camera = recording_.camera;
     if (width == camera.width && height == camera.height) return;
-    throw input_error(file.string(),
-                      0,
-                      fmt::format("is {} x {}, the camera's images are {} x {}",
-                                  width,
-                                  height,
-                                  camera.width,
-                                  camera.height));
+    throw input_error(
+        file.string(),
+        0,
+        fmt::format("has {} x {} pixels, expected {} x {} as in the camera intrinsics",
+                    width,
+                    height,
+                    camera.width,
+                    camera.height));
   }
 
   DepthImage metres(const Image<std::uint16_t>& raw) const {
@@ -120,7 +121,7 @@ class FolderSource final : public RgbdSource {
   CameraPair kinect_;
 };
 
-std::vector<ImagePair> chosen(const std::vector<ImagePair>& all, const FolderOptions& o) {
+std::vector<ImagePair> selected_frames(const std::vector<ImagePair>& all, const FolderOptions& o) {
   std::vector<ImagePair> out;
   const auto every = static_cast<std::size_t>(o.every);
   for (auto k = static_cast<std::size_t>(o.first); k < all.size(); k += every) {
@@ -139,7 +140,7 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
   if (!tum && !icl_nuim && !is_seven_scenes(folder)) {
     throw input_error(folder.string(),
                       0,
-                      "holds no recording: expected rgb.txt and depth.txt (TUM RGB-D), "
+                      "contains no recording, expected rgb.txt and depth.txt (TUM RGB-D), "
                       "frame-000000.color.png (7-Scenes) or associations.txt (ICL-NUIM)");
   }
   Recording recording = tum        ? read_tum_layout(folder, options)
@@ -149,11 +150,11 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
                               ? tum || icl_nuim
                               : options.depth == DepthGeometry::registered;
   const std::size_t all = recording.frames.size();
-  recording.frames = chosen(recording.frames, options);
+  recording.frames = selected_frames(recording.frames, options);
   if (recording.frames.empty()) {
     throw OptionError(
         "first",
-        fmt::format("first = {} breaks first < {}, the number of frames", options.first, all));
+        fmt::format("first = {}: expected first < {}, the number of frames", options.first, all));
   }
   return std::make_unique<FolderSource>(std::move(recording), registered, options.colour_focal);
 }

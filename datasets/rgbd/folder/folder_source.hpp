@@ -1,4 +1,4 @@
-/// A recording on disk: TUM RGB-D, 7-Scenes or ICL-NUIM layout.
+/// Frame source for recordings in TUM RGB-D, 7-Scenes or ICL-NUIM layout.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace loopbench {
 
-/// Where the intrinsics come from. `automatic`: camera.yaml in the folder, else the published ones
-/// when the folder's name holds freiburg1 | fr1 and so on.
+/// Source of the intrinsics. `automatic`: camera.yaml in the folder if it exists, else the
+/// published ones if the folder name contains freiburg1 | fr1 and so on.
 enum class CameraChoice { automatic, file, fr1, fr2, fr3 };
 inline auto choices(CameraChoice) {
   return std::array{std::pair{"auto", CameraChoice::automatic},
@@ -21,9 +21,10 @@ inline auto choices(CameraChoice) {
                     std::pair{"fr3", CameraChoice::fr3}};
 }
 
-/// Whether depth pixels already are colour pixels. `automatic`: no in 7-Scenes, else yes.
-/// `kinect`: no; they are brought there by unregistered_kinect(), whose intrinsics replace the
-/// folder's, and the reference, which is the depth camera's, is moved to the colour camera.
+/// Registration of depth images to the colour camera. `registered`: depth images are already
+/// registered. `kinect`: depth is registered with unregistered_kinect(), whose intrinsics replace
+/// those of the folder, and the reference is converted from the depth camera to the colour camera.
+/// `automatic`: kinect for 7-Scenes, else registered.
 enum class DepthGeometry { automatic, registered, kinect };
 inline auto choices(DepthGeometry) {
   return std::array{std::pair{"auto", DepthGeometry::automatic},
@@ -44,25 +45,35 @@ struct FolderOptions {
 
 template <class Visit>
 void fields(FolderOptions& o, Visit visit) {
-  visit("camera", o.camera, "intrinsics: camera.yaml, or those published for TUM's cameras");
-  visit("depth", o.depth, "whether depth pixels are colour pixels, or how they become so");
+  visit("camera",
+        o.camera,
+        "source of the intrinsics: file (camera.yaml), or published values of a TUM camera");
+  visit("depth", o.depth, "registration of depth images to the colour camera");
   visit("colour_focal",
         o.colour_focal,
-        "of the colour camera where depth is brought to it [px]",
+        "focal length of the colour camera for depth: kinect [px]",
         Above{0});
-  visit("pair_gap", o.pair_gap, "farthest that depth and colour lie apart [s]", Between{0, 1});
-  visit("rate", o.rate, "of a 7-Scenes or ICL-NUIM folder, which has no stamps [Hz]", Above{0});
-  visit("every", o.every, "take each so many-th frame", Between{1});
-  visit("first", o.first, "frame to begin with", Between{0});
-  visit("frames", o.frames, "take at most so many; 0: all", Between{0});
+  visit("pair_gap",
+        o.pair_gap,
+        "maximum time difference between paired depth and colour images [s]",
+        Between{0, 1});
+  visit("rate",
+        o.rate,
+        "frame rate of 7-Scenes and ICL-NUIM recordings, which have no stamps [Hz]",
+        Above{0});
+  visit("every", o.every, "interval between used frames [frames]", Between{1});
+  visit("first", o.first, "index of the first used frame, from 0", Between{0});
+  visit("frames", o.frames, "maximum number of used frames; 0: all", Between{0});
 }
 
-/// `folder` holds rgb.txt and depth.txt (TUM), with groundtruth.txt and camera.yaml if there are;
-/// or frame-000000.color.png, .depth.png, .pose.txt and so on (7-Scenes; intrinsics as its authors
-/// give them, 585 px about the middle); or associations.txt and no rgb.txt, with *.gt.freiburg if
-/// there is (ICL-NUIM's "TUM compatible PNGs"; its published intrinsics, y turned down). Throws
-/// InputError: no such layout, a broken list, intrinsics unknown. An image that is missing or
-/// broken is found only when it is read.
+/// Opens a recording in one of the layouts
+/// - TUM RGB-D: rgb.txt and depth.txt, optionally groundtruth.txt and camera.yaml;
+/// - 7-Scenes: frame-000000.color.png, .depth.png, .pose.txt and so on; default intrinsics of its
+///   authors (585 px, principal point in the centre);
+/// - ICL-NUIM "TUM compatible PNGs": associations.txt without rgb.txt, optionally *.gt.freiburg;
+///   published intrinsics, converted to y down.
+/// Throws InputError for another layout, an invalid list or unknown intrinsics. Missing or corrupt
+/// images are detected when they are read.
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const std::filesystem::path& folder,
                                                    const FolderOptions& options);
 

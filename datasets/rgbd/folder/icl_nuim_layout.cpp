@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// fy is published as -480: y points up there, down here.
+/// fy is published as -480, because y points up in ICL-NUIM.
 Camera icl_nuim_camera() {
   Camera out;
   out.fx = 481.2;
@@ -21,14 +21,15 @@ Camera icl_nuim_camera() {
   return out;
 }
 
-/// Mirrors what was written in axes with y up.
+/// Converts a pose from axes with y up to axes with y down.
 Pose with_y_down(const Pose& pose) {
   const Vector3 mirror(1.0, -1.0, 1.0);
   const Matrix3 R = mirror.asDiagonal() * pose.rotation.toRotationMatrix() * mirror.asDiagonal();
   return {Rotation(Eigen::Quaterniond(R).normalized()), mirror.cwiseProduct(pose.translation)};
 }
 
-/// "livingRoom0.gt.freiburg", "traj2.gt.freiburg": the first by name; empty where there is none.
+/// Returns the first file *.gt.freiburg by name ("livingRoom0.gt.freiburg"); empty if there is
+/// none.
 fs::path icl_nuim_truth(const fs::path& folder) {
   fs::path out;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -55,7 +56,7 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
   TextFile list(folder / "associations.txt");
   out.lists.push_back(folder / "associations.txt");
   Line line;
-  double before = -1.0;
+  double previous = -1.0;
   while (list.next(line)) {
     Columns columns(list, line);
     columns.number("number of the depth image");
@@ -63,13 +64,16 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
     const double number = columns.number("number of the colour image");
     const std::string colour(columns.word());
     if (depth.empty() || colour.empty() || !columns.done()) {
-      throw list.error(line.number, "expected four columns, `number depth number colour`");
+      throw list.error(line.number, "expected four columns: number depth number colour");
     }
-    if (!(number > before)) throw list.error(line.number, "number does not increase");
-    before = number;
+    if (!(number > previous)) {
+      throw list.error(line.number, "image number does not increase, expected increasing numbers");
+    }
+    previous = number;
     out.frames.push_back({number / options.rate, folder / colour, folder / depth});
   }
-  if (out.frames.empty()) throw list.error(0, "lists no image");
+  if (out.frames.empty())
+    throw list.error(0, "lists no image, expected lines of number depth number colour");
   const fs::path truth = icl_nuim_truth(folder);
   if (truth.empty()) {
     out.notes.emplace_back("no *.gt.freiburg: nothing can be judged against a reference");
@@ -77,9 +81,9 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
   }
   out.lists.push_back(truth);
   out.reference_file = truth;
-  ReadOptions how;
-  how.format = Format::tum;
-  for (const StampedPose& pose : read_trajectory(truth, how)) {
+  ReadOptions read_options;
+  read_options.format = Format::tum;
+  for (const StampedPose& pose : read_trajectory(truth, read_options)) {
     out.reference.push_back({pose.stamp / options.rate, with_y_down(pose.world_from_body)});
   }
   return out;

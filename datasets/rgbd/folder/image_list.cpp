@@ -17,14 +17,14 @@ std::vector<ListedImage> read_image_list(const std::filesystem::path& list) {
     image.stamp = columns.number("stamp");
     image.file = columns.word();
     if (image.file.empty() || !columns.done()) {
-      throw file.error(line.number, "expected two columns, `stamp file`");
+      throw file.error(line.number, "expected two columns: stamp file");
     }
     if (!out.empty() && !(image.stamp > out.back().stamp)) {
-      throw file.error(line.number, "stamp does not increase");
+      throw file.error(line.number, "stamp does not increase, expected increasing stamps");
     }
     out.push_back(std::move(image));
   }
-  if (out.empty()) throw file.error(0, "lists no image, expected lines of `stamp file`");
+  if (out.empty()) throw file.error(0, "lists no image, expected lines of stamp file");
   return out;
 }
 
@@ -33,20 +33,20 @@ std::vector<ImagePair> pair_images(const std::vector<ListedImage>& colour,
                                    double gap,
                                    const std::filesystem::path& folder) {
   std::vector<ImagePair> out;
-  std::size_t taken = depth.size();  // depth image of the last pair
-  double taken_gap = 0.0;
+  std::size_t last_depth = depth.size();  // depth image of the last pair
+  double last_gap = 0.0;
   std::size_t k = 0;
   for (const ListedImage& image : colour) {
-    const auto apart = [&](std::size_t i) { return std::abs(depth[i].stamp - image.stamp); };
-    while (k + 1 < depth.size() && apart(k + 1) < apart(k)) ++k;
-    if (depth.empty() || apart(k) > gap) continue;
-    if (k == taken) {
-      if (apart(k) >= taken_gap) continue;
+    const auto time_gap = [&](std::size_t i) { return std::abs(depth[i].stamp - image.stamp); };
+    while (k + 1 < depth.size() && time_gap(k + 1) < time_gap(k)) ++k;
+    if (depth.empty() || time_gap(k) > gap) continue;
+    if (k == last_depth) {
+      if (time_gap(k) >= last_gap) continue;
       out.pop_back();
     }
     out.push_back({image.stamp, folder / image.file, folder / depth[k].file});
-    taken = k;
-    taken_gap = apart(k);
+    last_depth = k;
+    last_gap = time_gap(k);
   }
   return out;
 }

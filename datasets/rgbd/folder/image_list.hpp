@@ -1,4 +1,4 @@
-/// Lists of image files by time, and which colour image goes with which depth image.
+/// Lists of stamped image files and the pairing of colour and depth images.
 #pragma once
 
 #include <filesystem>
@@ -9,22 +9,22 @@ namespace loopbench {
 
 struct ListedImage {
   double stamp = 0.0;  ///< [s]
-  std::string file;    ///< as the list names it
+  std::string file;    ///< path as written in the list
 };
 
-/// Lines `stamp file`, TUM's rgb.txt. Throws InputError with file and line: not two columns, a
-/// stamp that does not increase, a list without images.
+/// Reads lines of `stamp file` (rgb.txt of TUM RGB-D). Throws InputError `file:line: what` for
+/// another number of columns, a stamp that does not increase, and a list without images.
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list);
 
 struct ImagePair {
   double stamp = 0.0;          ///< of the colour image [s]
-  std::filesystem::path grey;  ///< colour or grey
+  std::filesystem::path grey;  ///< colour or grey image
   std::filesystem::path depth;
 };
 
-/// Every colour image with the depth image nearest in time, when it is no farther than `gap` [s];
-/// of two that want the same depth image the nearer has it. Paths are put behind `folder`.
-/// O(colour + depth).
+/// Pairs each colour image with the nearest depth image in time, at most `gap` [s] away. Each depth
+/// image is used once, for the nearest colour image. Paths are relative to `folder`. O(colour +
+/// depth).
 std::vector<ImagePair> pair_images(const std::vector<ListedImage>& colour,
                                    const std::vector<ListedImage>& depth,
                                    double gap,

@@ -1,4 +1,4 @@
-/// What the layouts of recordings have in common, and a reader for each.
+/// Readers for the layouts of recordings.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct Recording {
   Camera camera = {};
   std::vector<ImagePair> frames = {};
   Trajectory reference = {};                      ///< world_from_camera; may be empty
-  std::filesystem::path reference_file = {};      ///< empty: none, or a file for each frame
+  std::filesystem::path reference_file = {};      ///< empty: none, or one file per frame
   std::vector<std::filesystem::path> lists = {};  ///< every text file read
   std::vector<std::string> notes = {};
 };
@@ -30,8 +30,8 @@ Recording read_seven_scenes_layout(const std::filesystem::path& folder,
                                    const FolderOptions& options);
 
 bool is_icl_nuim(const std::filesystem::path& folder);
-/// Stamps are the numbers of the images over the rate; the reference, written with y up, is
-/// mirrored. Throws InputError.
+/// Stamps are image numbers divided by the rate. The reference is converted from y up to y down.
+/// Throws InputError.
 Recording read_icl_nuim_layout(const std::filesystem::path& folder, const FolderOptions& options);
 
 }  // namespace loopbench

@@ -30,8 +30,8 @@ Bytes contents(const std::filesystem::path& file) {
   return out;
 }
 
-/// A JPEG ends with FF D9; the decoder would fill what is cut off with grey and say nothing.
-bool is_cut_jpeg(const Bytes& bytes) {
+/// Whether a JPEG lacks the end marker FF D9; the decoder fills missing pixels without an error.
+bool is_truncated_jpeg(const Bytes& bytes) {
   const bool jpeg = bytes.size() > 2 && bytes[0] == '\xff' && bytes[1] == '\xd8';
   return jpeg && bytes.find("\xff\xd9", bytes.size() - std::min<std::size_t>(64, bytes.size())) ==
                      Bytes::npos;
@@ -46,7 +46,9 @@ template <class Pixel>
 Image<Pixel> decoded(const std::filesystem::path& file,
                      const Bytes& bytes,
                      Pixel* (*decode)(const stbi_uc*, int, int*, int*, int*, int)) {
-  if (is_cut_jpeg(bytes)) throw input_error(file.string(), 0, "is cut off: no end of a JPEG");
+  if (is_truncated_jpeg(bytes)) {
+    throw input_error(file.string(), 0, "is truncated: has no JPEG end marker");
+  }
   Image<Pixel> out;
   int channels = 0;
   const std::unique_ptr<Pixel, Free<Pixel>> pixels(
@@ -58,7 +60,7 @@ Image<Pixel> decoded(const std::filesystem::path& file,
              1));
   if (!pixels) {
     throw input_error(
-        file.string(), 0, std::string("is no whole PNG or JPEG: ") + stbi_failure_reason());
+        file.string(), 0, std::string("is not a valid PNG or JPEG: ") + stbi_failure_reason());
   }
   const auto count = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
   out.pixels.assign(pixels.get(), pixels.get() + count);
@@ -75,7 +77,7 @@ Image<std::uint16_t> read_depth(const std::filesystem::path& file) {
   const Bytes bytes = contents(file);
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   if (!stbi_is_16_bit_from_memory(data, static_cast<int>(bytes.size()))) {
-    throw input_error(file.string(), 0, "expected a PNG of 16 bits");
+    throw input_error(file.string(), 0, "has not 16 bits per pixel, expected a 16-bit PNG");
   }
   return decoded<stbi_us>(file, bytes, stbi_load_16_from_memory);
 }

@@ -1,4 +1,4 @@
-/// Image files of the kinds RGB-D recordings come in: PNG and JPEG.
+/// Reading of PNG and JPEG images.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace loopbench {
 
-/// Colour is weighed to grey (0.30 R + 0.59 G + 0.11 B). Throws InputError: missing, truncated, no
-/// PNG or JPEG.
+/// Reads an image and converts colour to grey (0.30 R + 0.59 G + 0.11 B). Throws InputError if the
+/// file is missing, truncated or not a PNG or JPEG.
 GreyImage read_grey(const std::filesystem::path& file);
 
-/// A PNG of 16 bits. Throws InputError: missing, truncated, of 8 bits.
+/// Reads a 16-bit PNG. Throws InputError if the file is missing, truncated or has 8 bits per pixel.
 Image<std::uint16_t> read_depth(const std::filesystem::path& file);
 
 }  // namespace loopbench

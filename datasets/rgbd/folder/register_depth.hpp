@@ -1,4 +1,4 @@
-/// Depth of one camera as another, beside it, would have measured it.
+/// Registration of depth images to another camera.
 #pragma once
 
 #include "datasets/core/pose.hpp"
@@ -13,13 +13,14 @@ struct CameraPair {
   Pose colour_from_depth;
 };
 
-/// A Kinect whose driver did not register depth to colour: focal lengths 525 (unless told
-/// otherwise) and 585 px about the middle, 25.6 mm apart. Source: calibration of a Kinect by LIRIS
-/// (projet.liris.cnrs.fr/voir, "Kinect calibration"), which work on 7-Scenes uses (ACE, DSAC*).
+/// Calibration of a Kinect without depth registration by its driver: depth focal length 585 px,
+/// colour focal length `colour_focal` [px], principal points in the image centre, baseline 25.6 mm.
+/// Source: calibration of a Kinect by LIRIS (projet.liris.cnrs.fr/voir, "Kinect calibration"), as
+/// used with 7-Scenes by ACE and DSAC*.
 CameraPair unregistered_kinect(double colour_focal = 525.0);
 
-/// Every measured point goes to the colour pixel that sees it; the nearest wins. Where none lands
-/// there is no depth. O(pixels).
+/// Projects all depth pixels into the colour camera and keeps the nearest point per pixel. Pixels
+/// without a projected point have no depth. O(pixels).
 DepthImage register_depth(const DepthImage& depth, const CameraPair& cameras);
 
 }  // namespace loopbench

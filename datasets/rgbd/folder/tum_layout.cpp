@@ -8,12 +8,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The recording's folder may be called anything below; TUM's own names say which camera it was.
+/// Returns the number of the TUM camera in the folder name, 0 if there is none.
 int freiburg_in(const fs::path& folder) {
   const std::string name = fs::weakly_canonical(folder).filename().string();
   for (int k = 1; k <= 3; ++k) {
-    for (const char* word : {"freiburg", "fr"}) {
-      if (name.find(word + std::to_string(k)) != std::string::npos) return k;
+    for (const char* prefix : {"freiburg", "fr"}) {
+      if (name.find(prefix + std::to_string(k)) != std::string::npos) return k;
     }
   }
   return 0;
@@ -29,10 +29,11 @@ Camera camera_for(const fs::path& folder, CameraChoice choice, std::vector<fs::p
     return read_camera(file);
   }
   if (const int k = freiburg_in(folder)) return tum_camera(k);
-  throw input_error(folder.string(),
-                    0,
-                    "has no camera.yaml and no freiburg1, 2 or 3 in its name; the option camera "
-                    "says which intrinsics to take");
+  throw input_error(
+      folder.string(),
+      0,
+      "has no camera.yaml and no freiburg1, 2 or 3 in its name; set the option camera "
+      "to fr1, fr2 or fr3");
 }
 
 }  // namespace
@@ -46,10 +47,10 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
   out.lists.push_back(folder / "depth.txt");
   out.frames = pair_images(colour, depth, options.pair_gap, folder);
   if (out.frames.empty()) {
-    throw input_error(
-        (folder / "depth.txt").string(),
-        0,
-        fmt::format("no depth image lies within {} s of a colour image", options.pair_gap));
+    throw input_error((folder / "depth.txt").string(),
+                      0,
+                      fmt::format("found no depth image within pair_gap = {} s of a colour image",
+                                  options.pair_gap));
   }
   if (out.frames.size() < colour.size()) {
     out.notes.push_back(fmt::format("{} of {} colour images have no depth image within {} s",
@@ -60,10 +61,10 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
   const fs::path truth = folder / "groundtruth.txt";
   if (fs::exists(truth)) {
     out.lists.push_back(truth);
-    ReadOptions how;
-    how.format = Format::tum;
-    how.repeats = Repeats::keep_first;
-    out.reference = read_trajectory(truth, how);
+    ReadOptions read_options;
+    read_options.format = Format::tum;
+    read_options.repeats = Repeats::keep_first;
+    out.reference = read_trajectory(truth, read_options);
     out.reference_file = truth;
   } else {
     out.notes.emplace_back("no groundtruth.txt: nothing can be judged against a reference");

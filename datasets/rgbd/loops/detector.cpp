@@ -25,14 +25,15 @@ DetectedLoops detect_loops(const Tracked& tracked,
   if (!options.enabled) return out;
   const std::vector<Keyframe>& keyframes = tracked.keyframes;
   const double begin = cpu_seconds();
-  const auto places = retrieve(keyframes, options);
+  const auto candidates = retrieve(keyframes, options);
   out.seconds = cpu_seconds() - begin;
   const auto best_of = [&](std::size_t k) {
     const double start = cpu_seconds();
     Best best;
-    for (const Alike& place : places[k]) {
-      Verified verified = verify(keyframes, place.keyframe, k, camera, track);
-      const double score = static_cast<double>(verified.inliers) + std::min(1.0, place.similarity);
+    for (const Alike& candidate : candidates[k]) {
+      Verified verified = verify(keyframes, candidate.keyframe, k, camera, track);
+      const double score =
+          static_cast<double>(verified.inliers) + std::min(1.0, candidate.similarity);
       if (score > best.score) best = {std::move(verified), score, 0.0};
     }
     best.seconds = cpu_seconds() - start;

@@ -1,4 +1,4 @@
-/// Loop closures from images: who looks alike, and whether the geometry agrees.
+/// Loop detection from images: retrieval by bag of words and geometric verification.
 #pragma once
 
 #include <cstdint>
@@ -26,38 +26,54 @@ struct LoopOptions {
 
 template <class Visit>
 void fields(LoopOptions& o, Visit visit) {
-  visit("loops.enabled", o.enabled, "look for loop closures");
-  visit("loops.min_gap", o.min_gap, "shortest loop [s]", Above{0});
-  visit("loops.candidates", o.candidates, "places verified for a keyframe", Between{1, 100});
+  visit("loops.enabled", o.enabled, "detection of loop closures");
+  visit("loops.min_gap",
+        o.min_gap,
+        "minimum time between the keyframes of a loop closure [s]",
+        Above{0});
+  visit("loops.candidates",
+        o.candidates,
+        "maximum number of candidates verified per keyframe",
+        Between{1, 100});
   visit("loops.similarity_min",
         o.similarity_min,
-        "of bags of words, over that of neighbouring keyframes [-]",
+        "minimum bag-of-words similarity, relative to that of consecutive keyframes [-]",
         Between{0, 1});
   visit("loops.consistency",
         o.consistency,
-        "earlier keyframes that must have found the same place",
+        "number of previous keyframes that must retrieve the same place",
         Between{0, 20});
-  visit("loops.inliers_min", o.inliers_min, "points that agree on one pose", Between{6});
-  visit("loops.share_min", o.share_min, "of points matched near that agree [-]", Between{0, 1});
-  visit("loops.branches", o.branches, "of the vocabulary tree", Between{2, 100});
-  visit("loops.levels", o.levels, "of the vocabulary tree", Between{1, 8});
-  visit("loops.training", o.training, "descriptors it is trained on, at most", Between{100});
-  visit("loops.vocabulary_seed", o.seed, "of its training", Between{0});
+  visit("loops.inliers_min",
+        o.inliers_min,
+        "minimum number of inliers of an accepted closure",
+        Between{6});
+  visit("loops.share_min",
+        o.share_min,
+        "minimum share of inliers among guided matches of an accepted closure [-]",
+        Between{0, 1});
+  visit("loops.branches", o.branches, "branching factor of the vocabulary tree", Between{2, 100});
+  visit("loops.levels", o.levels, "number of levels of the vocabulary tree", Between{1, 8});
+  visit("loops.training",
+        o.training,
+        "maximum number of descriptors to train the vocabulary",
+        Between{100});
+  visit("loops.vocabulary_seed", o.seed, "random seed of the vocabulary training", Between{0});
 }
 
 struct DetectedLoops {
   std::vector<Edge> closures = {};             ///< sorted by (to, from)
-  std::vector<LoopCandidate> candidates = {};  ///< best of each keyframe, sorted by `to`
-  double seconds = 0.0;                        ///< of all threads
+  std::vector<LoopCandidate> candidates = {};  ///< best candidate of each keyframe, sorted by `to`
+  double seconds = 0.0;                        ///< CPU time of all threads [s]
 };
 
-/// A vocabulary is trained on the keyframes' own descriptors. Every keyframe asks for the most
-/// alike among those at least min_gap older; a place stands when the `consistency` keyframes before
-/// found it, or a neighbour of it, too. What stands is matched, posed by RANSAC against the older
-/// keyframe's points, and refined against the points of its neighbours as well. The score of a
-/// candidate is the number of points that agree, plus its similarity (0..1); it is accepted with
-/// inliers_min of them. Threads do not change the bits. O(keyframes^2) bags are compared, at a
-/// microsecond each; features dominate up to ten thousand keyframes.
+/// Detects loop closures between keyframes. A vocabulary is trained on the descriptors of the
+/// keyframes. For each keyframe the most similar keyframes at least min_gap older are retrieved; a
+/// candidate is consistent if the previous `consistency` keyframes retrieved it or one of its
+/// neighbours. Candidates are verified by feature matching, RANSAC against the points of the older
+/// keyframe, and refinement with the points of its neighbours. The score of a candidate is its
+/// number of inliers plus its similarity (0..1); it is accepted with at least inliers_min inliers
+/// and share_min of the guided matches. Bit-identical for any number of threads. O(keyframes^2)
+/// comparisons of about 1 us; feature matching dominates up to ten thousand keyframes.
 DetectedLoops detect_loops(const Tracked& tracked,
                            const Camera& camera,
                            const TrackOptions& track,

@@ -6,15 +6,16 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMedianOfSix = 5.348 / 6.0;  // of chi^2 with six degrees, over six
+constexpr double kMedianOfSix =
+    5.348 / 6.0;  // median of chi^2 with 6 degrees of freedom, divided by 6
 
-Matrix6 carried(const Pose& by, const Matrix6& covariance) {
-  const Matrix6 A = adjoint(by);
+Matrix6 transformed(const Pose& a_from_b, const Matrix6& covariance) {
+  const Matrix6 A = adjoint(a_from_b);
   return A * covariance * A.transpose();
 }
 
-double excess_of(std::vector<double> gaps, std::size_t fewest) {
-  if (gaps.empty() || gaps.size() < fewest) return 1.0;
+double excess_of(std::vector<double> gaps, std::size_t min_count) {
+  if (gaps.empty() || gaps.size() < min_count) return 1.0;
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
   std::nth_element(gaps.begin(), middle, gaps.end());
   return *middle / kMedianOfSix;
@@ -24,21 +25,24 @@ double excess_of(std::vector<double> gaps, std::size_t fewest) {
 
 std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
                                     const std::vector<Edge>& closures) {
-  // chain[k] is keyframe k in the first one's frame; spent[k] the covariance up to it, as a twist
-  // of the first frame, so that a stretch's is the difference of two.
+  // chain[k]: pose of keyframe k in the frame of the first keyframe. accumulated[k]: covariance up
+  // to k as a twist of the first frame, so that the covariance between two keyframes is a
+  // difference.
   std::vector<Pose> chain{Pose{Rotation::Identity(), Vector3::Zero()}};
-  std::vector<Matrix6> spent{Matrix6::Zero()};
+  std::vector<Matrix6> accumulated{Matrix6::Zero()};
   for (const Edge& edge : odometry) {
     chain.push_back(normalized(chain.back() * edge.from_from_to));
-    spent.push_back(spent.back() + carried(chain.back(), edge.information.inverse()));
+    accumulated.push_back(accumulated.back() +
+                          transformed(chain.back(), edge.information.inverse()));
   }
   std::vector<double> out;
   for (const Edge& loop : closures) {
-    const Pose way = chain[loop.from].inverse() * chain[loop.to];
-    const Pose gap = loop.from_from_to.inverse() * way;
+    const Pose odometry_motion = chain[loop.from].inverse() * chain[loop.to];
+    const Pose gap = loop.from_from_to.inverse() * odometry_motion;
     const Twist c = log_se3(gap);
-    const Matrix6 of_way = carried(chain[loop.to].inverse(), spent[loop.to] - spent[loop.from]);
-    const Matrix6 S = of_way + carried(gap.inverse(), loop.information.inverse());
+    const Matrix6 odometry_covariance =
+        transformed(chain[loop.to].inverse(), accumulated[loop.to] - accumulated[loop.from]);
+    const Matrix6 S = odometry_covariance + transformed(gap.inverse(), loop.information.inverse());
     out.push_back(c.dot(S.ldlt().solve(c)) / 6.0);
   }
   return out;
@@ -46,8 +50,8 @@ std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
 
 double information_excess(const std::vector<Edge>& odometry,
                           const std::vector<Edge>& closures,
-                          std::size_t fewest) {
-  return excess_of(normalised_gaps(odometry, closures), fewest);
+                          std::size_t min_count) {
+  return excess_of(normalised_gaps(odometry, closures), min_count);
 }
 
 std::vector<double> remeasured_gaps(const std::vector<Edge>& first,
@@ -56,19 +60,21 @@ std::vector<double> remeasured_gaps(const std::vector<Edge>& first,
   for (std::size_t i = 0; i < first.size(); ++i) {
     const Matrix6 second = again[i].information - first[i].information;
     if (second.isZero()) continue;
-    // Where both together lie, they pull equally: first * moved = second * (second's own move).
+    // At the fused estimate the weighted residuals of both measurements are equal:
+    // first * moved = second * (residual of the second measurement).
     const Twist moved = log_se3(first[i].from_from_to.inverse() * again[i].from_from_to);
-    const Twist pull = first[i].information * moved;
-    const Matrix6 solvable = second + 1e-6 * Matrix6::Identity();  // walls leave directions open
-    out.push_back((moved.dot(pull) + pull.dot(solvable.ldlt().solve(pull))) / 6.0);
+    const Twist gradient = first[i].information * moved;
+    // Surfaces may not observe all directions.
+    const Matrix6 regularised = second + 1e-6 * Matrix6::Identity();
+    out.push_back((moved.dot(gradient) + gradient.dot(regularised.ldlt().solve(gradient))) / 6.0);
   }
   return out;
 }
 
 double remeasured_excess(const std::vector<Edge>& first,
                          const std::vector<Edge>& again,
-                         std::size_t fewest) {
-  return excess_of(remeasured_gaps(first, again), fewest);
+                         std::size_t min_count) {
+  return excess_of(remeasured_gaps(first, again), min_count);
 }
 
 }  // namespace loopbench

@@ -1,4 +1,5 @@
-/// What loops leave open, or a second measurement moves, over what information lets expect.
+/// Consistency of information matrices: loop gaps and repeated measurements relative to their
+/// stated covariance.
 #pragma once
 
 #include <vector>
@@ -7,27 +8,29 @@
 
 namespace loopbench {
 
-/// Of each closure c' S^-1 c / 6: c is the twist between the measured loop and the same motion
-/// chained over odometry, S its covariance from both, to first order; 1 on average when the
-/// information is right. Odometry joins every two neighbours. No reference is looked at.
-/// O(odometry + closures).
+/// Returns c' S^-1 c / 6 for each closure, where c is the twist between the measured closure and
+/// the same motion composed from odometry, and S is its covariance from both to first order. The
+/// mean is 1 for correct information. Odometry must connect all consecutive keyframes. The
+/// reference is not used. O(odometry + closures).
 std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
                                     const std::vector<Edge>& closures);
 
-/// The median gap over that of chi^2 of six degrees: information divided by it is right in scale,
-/// whatever few false closures there are. 1 for fewer than `fewest` closures.
+/// Ratio of the median gap and the median of chi^2 with six degrees of freedom. Information divided
+/// by this factor has the correct scale, even with a few false closures. 1 for fewer than
+/// `min_count` closures.
 double information_excess(const std::vector<Edge>& odometry,
                           const std::vector<Edge>& closures,
-                          std::size_t fewest);
+                          std::size_t min_count);
 
-/// Of each edge that was measured a second time (`again` is both together, its information theirs
-/// added up): how far the two lie apart over what both say, over 6; 1 on average when the
-/// information is right. Edges that stayed as they were are left out. O(edges).
+/// Returns the normalised squared distance (divided by 6) between two measurements of each edge.
+/// `first` holds the first measurements, `again` the fusion of both, with the sum of their
+/// information. The mean is 1 for correct information. Edges without a second measurement are
+/// omitted. O(edges).
 std::vector<double> remeasured_gaps(const std::vector<Edge>& first, const std::vector<Edge>& again);
 
-/// information_excess() over remeasured_gaps().
+/// The factor of information_excess() for remeasured_gaps().
 double remeasured_excess(const std::vector<Edge>& first,
                          const std::vector<Edge>& again,
-                         std::size_t fewest);
+                         std::size_t min_count);
 
 }  // namespace loopbench

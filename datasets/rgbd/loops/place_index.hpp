@@ -1,4 +1,4 @@
-/// Images as bags of words, and how alike two of them are.
+/// Bag-of-words vectors of images and their similarity.
 #pragma once
 
 #include <utility>
@@ -11,10 +11,10 @@ namespace loopbench {
 /// Weighted words of one image, sorted by word, weights sum to 1.
 using Bag = std::vector<std::pair<std::size_t, double>>;
 
-/// Bags with term frequency times inverse document frequency over all images given. O(features).
+/// Computes bag-of-words vectors with tf-idf weights over all given images. O(features).
 std::vector<Bag> bags(const std::vector<std::vector<std::size_t>>& words, std::size_t vocabulary);
 
-/// 1 - |a - b|_1 / 2, in 0..1 (Galvez-Lopez and Tardos 2012, eq. 2). O(|a| + |b|).
+/// Similarity 1 - |a - b|_1 / 2, in 0..1 (Galvez-Lopez and Tardos 2012, eq. 2). O(|a| + |b|).
 double similarity(const Bag& a, const Bag& b);
 
 }  // namespace loopbench

@@ -8,21 +8,21 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kSamePlace = 3;  // keyframes apart that still are one place
+constexpr std::size_t kSamePlace = 3;  // maximum distance of keyframes at the same place
 
-/// An even choice of all keyframes' descriptors.
-Features training_set(const std::vector<Keyframe>& keyframes, std::size_t most) {
+/// Subsamples the descriptors of all keyframes evenly.
+Features training_set(const std::vector<Keyframe>& keyframes, std::size_t max_count) {
   Features out;
   std::size_t all = 0;
   for (const Keyframe& keyframe : keyframes) all += keyframe.features.size();
-  const std::size_t every = std::max<std::size_t>(1, all / most);
-  std::size_t at = 0;
+  const std::size_t every = std::max<std::size_t>(1, all / max_count);
+  std::size_t index = 0;
   for (const Keyframe& keyframe : keyframes) {
     const Features& f = keyframe.features;
     out.bytes = f.bytes;
     out.binary = f.binary;
     for (std::size_t i = 0; i < f.size(); ++i) {
-      if (at++ % every != 0) continue;
+      if (index++ % every != 0) continue;
       out.points.push_back(f.points[i]);
       out.descriptors.insert(out.descriptors.end(), f.descriptor(i), f.descriptor(i) + f.bytes);
     }
@@ -49,15 +49,15 @@ bool same_place(const Alike& a, const Alike& b) {
   return high - low <= kSamePlace;
 }
 
-/// Found by each of the `consistency` keyframes before, as itself or as a neighbour.
-bool consistent(const Alike& place,
+/// Whether the previous `consistency` keyframes retrieved this candidate or a neighbour of it.
+bool consistent(const Alike& candidate,
                 const std::vector<std::vector<Alike>>& found,
-                std::size_t asking,
+                std::size_t query,
                 std::size_t consistency) {
-  if (asking < consistency) return false;
+  if (query < consistency) return false;
   for (std::size_t back = 1; back <= consistency; ++back) {
-    const std::vector<Alike>& earlier = found[asking - back];
-    if (std::ranges::none_of(earlier, [&](const Alike& a) { return same_place(a, place); })) {
+    const std::vector<Alike>& earlier = found[query - back];
+    if (std::ranges::none_of(earlier, [&](const Alike& a) { return same_place(a, candidate); })) {
       return false;
     }
   }
@@ -72,24 +72,24 @@ std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
   if (keyframes.size() < 3) return found;
   const std::vector<Bag> all = bags_of(keyframes, o);
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
-    const double usual = similarity(all[k], all[k - 1]);
-    if (!(usual > 0.0)) continue;
+    const double reference = similarity(all[k], all[k - 1]);
+    if (!(reference > 0.0)) continue;
     for (std::size_t j = 0; j < k; ++j) {
       if (keyframes[k].stamp - keyframes[j].stamp < o.min_gap) break;
-      const double share = similarity(all[k], all[j]) / usual;
+      const double share = similarity(all[k], all[j]) / reference;
       if (share >= o.similarity_min) found[k].push_back({j, share});
     }
     std::ranges::stable_sort(found[k], std::greater{}, &Alike::similarity);
-    // More than are verified, so that the next keyframe finds its place among them.
+    // More candidates than are verified are kept for the consistency check of later keyframes.
     const auto keep = static_cast<std::size_t>(4 * o.candidates);
     if (found[k].size() > keep) found[k].resize(keep);
   }
   std::vector<std::vector<Alike>> out(keyframes.size());
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
-    for (const Alike& place : found[k]) {
+    for (const Alike& candidate : found[k]) {
       if (out[k].size() == static_cast<std::size_t>(o.candidates)) break;
-      if (consistent(place, found, k, static_cast<std::size_t>(o.consistency))) {
-        out[k].push_back(place);
+      if (consistent(candidate, found, k, static_cast<std::size_t>(o.consistency))) {
+        out[k].push_back(candidate);
       }
     }
   }

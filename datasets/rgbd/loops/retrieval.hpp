@@ -1,4 +1,4 @@
-/// Which older keyframes a keyframe looks like.
+/// Retrieval of similar older keyframes.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@ namespace loopbench {
 
 struct Alike {
   std::size_t keyframe = 0;
-  double similarity = 0.0;  ///< over the asking keyframe's to its neighbour, 0..
+  double similarity =
+      0.0;  ///< relative to the similarity of the query and its predecessor, >= 0 [-]
 };
 
-/// For every keyframe its candidates, best first, empty where none is alike or consistent.
-/// O(keyframes^2).
+/// Returns the consistent candidates of each keyframe, most similar first. O(keyframes^2).
 std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
                                          const LoopOptions& options);
 

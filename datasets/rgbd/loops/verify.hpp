@@ -1,4 +1,4 @@
-/// Whether two keyframes see the same points, and from where.
+/// Geometric verification of a loop candidate.
 #pragma once
 
 #include "datasets/rgbd/tracking/tracker.hpp"
@@ -8,11 +8,12 @@ namespace loopbench {
 struct Verified {
   Edge edge;
   std::size_t inliers = 0;
-  double share = 0.0;  ///< of the points matched near that agree
+  double share = 0.0;  ///< share of inliers among guided matches [-]
 };
 
-/// Pose of keyframe `to` from the points of keyframe `from`, then of from's neighbours too, which
-/// hang on it by odometry. No inliers when no pose is found. O(features^2).
+/// Estimates the pose of keyframe `to` in the frame of keyframe `from`, from the points of `from`
+/// and then also of its neighbours, which are transformed by odometry. Zero inliers if no pose is
+/// found. O(features^2).
 Verified verify(const std::vector<Keyframe>& keyframes,
                 std::size_t from,
                 std::size_t to,

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kKMeansRounds = 6;
 
-Features alike(const Features& features) {
+Features empty_like(const Features& features) {
   Features out;
   out.bytes = features.bytes;
   out.binary = features.binary;
@@ -21,22 +21,22 @@ void append(Features& out, const std::uint8_t* row) {
   out.descriptors.insert(out.descriptors.end(), row, row + out.bytes);
 }
 
-std::size_t nearest(const Features& middles,
+std::size_t nearest(const Features& centres,
                     std::size_t first,
                     std::size_t count,
                     const Features& all,
                     std::size_t i) {
   std::size_t best = first;
-  float least = 2.0f;
+  float best_distance = 2.0f;
   for (std::size_t k = first; k < first + count; ++k) {
-    const float distance = descriptor_distance(middles, k, all, i);
-    if (distance < least) least = distance, best = k;
+    const float distance = descriptor_distance(centres, k, all, i);
+    if (distance < best_distance) best_distance = distance, best = k;
   }
   return best - first;
 }
 
-/// Majority of bits or mean of bytes; the old middle when there are no members.
-void recentre(Features& middles,
+/// Updates a centre to the majority of bits or the mean of bytes; unchanged without members.
+void recentre(Features& centres,
               std::size_t k,
               const Features& all,
               const std::vector<std::size_t>& members) {
@@ -50,23 +50,23 @@ void recentre(Features& middles,
       sums[at] += all.binary ? (row[at / 8] >> (at % 8)) & 1u : row[at];
     }
   }
-  std::uint8_t* middle = middles.descriptors.data() + k * bytes;
-  std::fill_n(middle, bytes, std::uint8_t{0});
+  std::uint8_t* centre = centres.descriptors.data() + k * bytes;
+  std::fill_n(centre, bytes, std::uint8_t{0});
   for (std::size_t at = 0; at < sums.size(); ++at) {
-    if (!all.binary) middle[at] = static_cast<std::uint8_t>(sums[at] / members.size());
+    if (!all.binary) centre[at] = static_cast<std::uint8_t>(sums[at] / members.size());
     if (all.binary && 2 * sums[at] > members.size()) {
-      middle[at / 8] = static_cast<std::uint8_t>(middle[at / 8] | (1u << (at % 8)));
+      centre[at / 8] = static_cast<std::uint8_t>(centre[at / 8] | (1u << (at % 8)));
     }
   }
 }
 
-/// First middles by k-means++ (Arthur and Vassilvitskii 2007): each drawn with the probability of
-/// its squared distance to those drawn before, so that no two begin in one group.
-Features far_apart(const Features& all,
-                   const std::vector<std::size_t>& members,
-                   std::size_t count,
-                   std::uint64_t seed) {
-  Features out = alike(all);
+/// Initial centres by k-means++ (Arthur and Vassilvitskii 2007): each is drawn with a probability
+/// proportional to its squared distance to the previous ones.
+Features initial_centres(const Features& all,
+                         const std::vector<std::size_t>& members,
+                         std::size_t count,
+                         std::uint64_t seed) {
+  Features out = empty_like(all);
   append(out, all.descriptor(members[mixed(seed) % members.size()]));
   std::vector<double> squares(members.size(), 4.0);
   while (out.size() < count) {
@@ -77,9 +77,9 @@ Features far_apart(const Features& all,
       squares[i] = std::min(squares[i], distance * distance);
       sum += squares[i];
     }
-    double left = static_cast<double>(uniform(mixed(seed, std::uint64_t{out.size()}))) * sum;
+    double remaining = static_cast<double>(uniform(mixed(seed, std::uint64_t{out.size()}))) * sum;
     std::size_t pick = 0;
-    while (pick + 1 < members.size() && left >= squares[pick]) left -= squares[pick++];
+    while (pick + 1 < members.size() && remaining >= squares[pick]) remaining -= squares[pick++];
     append(out, all.descriptor(members[pick]));
   }
   return out;
@@ -91,9 +91,9 @@ Vocabulary::Vocabulary(const Features& descriptors,
                        std::size_t branches,
                        std::size_t levels,
                        std::uint64_t seed)
-    : branches_(branches), seed_(seed), nodes_(1), middles_(alike(descriptors)) {
+    : branches_(branches), seed_(seed), nodes_(1), centres_(empty_like(descriptors)) {
   const std::vector<std::uint8_t> unused(static_cast<std::size_t>(descriptors.bytes), 0);
-  append(middles_, unused.data());  // the root has no middle
+  append(centres_, unused.data());  // placeholder for the root, which has no centre
   std::vector<std::size_t> members(descriptors.size());
   for (std::size_t i = 0; i < members.size(); ++i) members[i] = i;
   grow(0, descriptors, members, levels);
@@ -107,22 +107,22 @@ void Vocabulary::grow(std::size_t node,
     nodes_[node].word = words_++;
     return;
   }
-  Features middles = far_apart(all, members, branches_, mixed(seed_, std::uint64_t{node}));
+  Features centres = initial_centres(all, members, branches_, mixed(seed_, std::uint64_t{node}));
   std::vector<std::vector<std::size_t>> groups;
   for (int round = 0; round < kKMeansRounds; ++round) {
     groups.assign(branches_, {});
-    for (const std::size_t i : members) groups[nearest(middles, 0, branches_, all, i)].push_back(i);
-    for (std::size_t k = 0; k < branches_; ++k) recentre(middles, k, all, groups[k]);
+    for (const std::size_t i : members) groups[nearest(centres, 0, branches_, all, i)].push_back(i);
+    for (std::size_t k = 0; k < branches_; ++k) recentre(centres, k, all, groups[k]);
   }
   const std::size_t first = nodes_.size();
   std::vector<std::vector<std::size_t>> kept;
   for (std::size_t k = 0; k < branches_; ++k) {
     if (groups[k].empty() || groups[k].size() == members.size()) continue;
     nodes_.emplace_back();
-    append(middles_, middles.descriptor(k));
+    append(centres_, centres.descriptor(k));
     kept.push_back(std::move(groups[k]));
   }
-  if (kept.empty()) {  // all alike
+  if (kept.empty()) {  // all descriptors are equal
     nodes_[node].word = words_++;
     return;
   }
@@ -134,8 +134,8 @@ void Vocabulary::grow(std::size_t node,
 std::size_t Vocabulary::word(const Features& features, std::size_t i) const {
   std::size_t node = 0;
   while (nodes_[node].children > 0) {
-    const Node& here = nodes_[node];
-    node = here.first_child + nearest(middles_, here.first_child, here.children, features, i);
+    const Node& parent = nodes_[node];
+    node = parent.first_child + nearest(centres_, parent.first_child, parent.children, features, i);
   }
   return nodes_[node].word;
 }

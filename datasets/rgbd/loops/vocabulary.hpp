@@ -1,4 +1,4 @@
-/// Descriptors sorted into words, by a tree trained on what is at hand.
+/// Vocabulary tree, which quantises descriptors to visual words.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,13 @@
 
 namespace loopbench {
 
-/// A vocabulary tree (Nister and Stewenius 2006) over k-medians: the middle of binary descriptors
-/// is the majority of each bit (Galvez-Lopez and Tardos 2012), of others the mean of each byte.
+/// Vocabulary tree (Nister and Stewenius 2006) trained by k-medians. The centre of binary
+/// descriptors is the majority of each bit (Galvez-Lopez and Tardos 2012), of other descriptors the
+/// mean of each byte.
 class Vocabulary {
  public:
-  /// `levels` of `branches` each, fewer where descriptors run out. Same input and seed, same tree.
-  /// O(descriptors * branches * levels).
+  /// Trains a tree with `levels` levels of `branches` branches, fewer for small groups of
+  /// descriptors. Deterministic for equal input and seed. O(descriptors * branches * levels).
   Vocabulary(const Features& descriptors,
              std::size_t branches,
              std::size_t levels,
@@ -21,13 +22,13 @@ class Vocabulary {
 
   std::size_t words() const { return words_; }
 
-  /// Word of row i. O(branches * levels).
+  /// Returns the word of descriptor row i. O(branches * levels).
   std::size_t word(const Features& features, std::size_t i) const;
 
  private:
   struct Node {
     std::size_t first_child = 0;
-    std::size_t children = 0;  ///< 0: a word
+    std::size_t children = 0;  ///< 0: leaf, which is a word
     std::size_t word = 0;
   };
 
@@ -39,7 +40,7 @@ class Vocabulary {
   std::size_t branches_;
   std::uint64_t seed_;
   std::vector<Node> nodes_;
-  Features middles_;  ///< row k: of nodes_[k]
+  Features centres_;  ///< row k: centre of nodes_[k]
   std::size_t words_ = 0;
 };
 

@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-// Light comes from above and from one side, so that edges of one paint can be told.
+// Brightness of the faces. It differs so that edges between faces of equal texture are visible.
 constexpr std::array<float, 6> kLight{0.85f, 1.0f, 0.9f, 0.95f, 0.8f, 1.05f};
 
 }  // namespace
@@ -23,9 +23,9 @@ Rendered render(const Scene& scene, const Camera& camera, const Pose& world_from
       const Vector3 ray = row + (x - camera.cx) * right;
       const Hit hit = cast(scene, world_from_camera.translation, ray);
       const float footprint = hit.depth / (static_cast<float>(camera.fx) * hit.cosine);
-      const float paint = sample(scene.textures[hit.skin], hit.u, hit.v, footprint);
-      out.grey.at(x, y) = kLight[static_cast<std::size_t>(hit.face)] * paint;
-      out.depth.at(x, y) = hit.depth;  // the ray advances one metre in z per unit
+      const float texel = sample(scene.textures[hit.skin], hit.u, hit.v, footprint);
+      out.grey.at(x, y) = kLight[static_cast<std::size_t>(hit.face)] * texel;
+      out.depth.at(x, y) = hit.depth;  // rays have unit length along the optical axis
       out.slant.at(x, y) = hit.cosine;
     }
   }

@@ -1,4 +1,4 @@
-/// From a scene and a camera to what a perfect camera would record.
+/// Rendering of a scene without sensor noise.
 #pragma once
 
 #include "datasets/core/pose.hpp"
@@ -10,11 +10,11 @@ namespace loopbench {
 
 struct Rendered {
   Image<float> grey;   ///< 0..255
-  DepthImage depth;    ///< every pixel [m]
-  Image<float> slant;  ///< cosine of the angle at which the surface is seen
+  DepthImage depth;    ///< depth of every pixel [m]
+  Image<float> slant;  ///< cosine of the angle between ray and surface normal [-]
 };
 
-/// One ray a pixel, through its middle. O(pixels furniture).
+/// Casts one ray through the centre of each pixel. O(pixels * furniture).
 Rendered render(const Scene& scene, const Camera& camera, const Pose& world_from_camera);
 
 }  // namespace loopbench

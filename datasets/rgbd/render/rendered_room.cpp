@@ -12,11 +12,11 @@
 namespace loopbench {
 namespace {
 
-constexpr std::uint64_t kPictureVersion =
-    1;                                    // of the pictures: what is cached under another is stale
-const Vector3 kHalfRoom(2.7, 2.4, 1.35);  // [m]; the path stays within 1.3 x 1.1 x 0.3
+// Increment with any change of the rendered images, to invalidate caches.
+constexpr std::uint64_t kRenderVersion = 1;
+const Vector3 kHalfRoom(2.7, 2.4, 1.35);  // [m]; the path is within +-1.3 x +-1.1 x +-0.3 m
 
-/// x right, y down, z ahead, in a body with x ahead, y left, z up.
+/// Rotation from camera axes (x right, y down, z forward) to body axes (x forward, y left, z up).
 Pose body_from_camera() {
   Matrix3 R;
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -62,19 +62,19 @@ class RenderedRoom final : public RgbdSource {
     const Pose now = pose(time);
     const Pose begin = pose(std::max(0.0, time - 0.5 * options_.blur));
     const Pose end = pose(time + 0.5 * options_.blur);
-    const Rendered perfect = render(scene_, camera_, now);
-    return sensed(perfect, camera_, begin.inverse() * end, time, index, options_);
+    const Rendered ideal = render(scene_, camera_, now);
+    return sensed(ideal, camera_, begin.inverse() * end, time, index, options_);
   }
 
   std::uint64_t content() const override {
-    return mixed(mixed(kPictureVersion, "rendered_room"), to_text(echo(options_)));
+    return mixed(mixed(kRenderVersion, "rendered_room"), to_text(echo(options_)));
   }
 
   Provenance provenance() const override {
     Provenance out;
     out.sensor = "RGB-D, rendered";
     out.licence = "none needed";
-    // Room, textures and noise are drawn from the seed alone, so that other settings see the same.
+    // Room, textures and noise depend on the seed only, so that they are shared by all options.
     out.noise = "rendered_room; seed " + std::to_string(options_.seed);
     return out;
   }

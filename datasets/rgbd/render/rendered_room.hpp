@@ -1,4 +1,4 @@
-/// A camera carried once around a room that does not exist: images without a download.
+/// Frame source that renders a hand-held camera in a synthetic room, without downloads.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace loopbench {
 
-/// The path is the simulated `room` (datasets/simulated/path.hpp), the camera looks along the
-/// body's x axis with a horizontal field of view of 62 degrees. Frames lie at k / rate. The
-/// reference is the camera's true pose at four times the rate. Nothing is kept but the room: each
-/// frame is rendered when it is read.
+/// The camera follows the simulated path `room` (datasets/simulated/path.hpp) and looks along the x
+/// axis of the body, with a horizontal field of view of 62 degrees. Frames have stamps k / rate.
+/// The reference contains the true camera poses at four times this rate. Frames are rendered when
+/// they are read.
 std::unique_ptr<const RgbdSource> rendered_room(const RenderOptions& options);
 
 }  // namespace loopbench

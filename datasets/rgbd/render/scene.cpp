@@ -12,10 +12,10 @@ namespace {
 constexpr double kWallContrast = 1.0;
 constexpr double kFloorContrast = 0.6;
 
-std::array<std::size_t, 6> painted(Scene& scene,
-                                   const Vector3& size,
-                                   double contrast,
-                                   std::uint64_t seed) {
+std::array<std::size_t, 6> add_textures(Scene& scene,
+                                        const Vector3& size,
+                                        double contrast,
+                                        std::uint64_t seed) {
   std::array<std::size_t, 6> skin{};
   for (std::size_t face = 0; face < 6; ++face) {
     const int axis = static_cast<int>(face / 2);
@@ -27,7 +27,7 @@ std::array<std::size_t, 6> painted(Scene& scene,
   return skin;
 }
 
-/// Where the ray enters (from outside) or leaves (from inside) a block, and through which face.
+/// Intersection of a ray with a block: distances and faces of entry and exit.
 struct Crossing {
   double near, far;
   int near_face, far_face;
@@ -48,7 +48,7 @@ Crossing cross(const Block& block, const Vector3& origin, const Vector3& inverse
   return out;
 }
 
-Hit surface(
+Hit hit_of(
     const Block& block, int face, double depth, const Vector3& origin, const Vector3& direction) {
   const int axis = face / 2;
   const Vector3 point = origin + depth * direction - block.low;
@@ -65,17 +65,18 @@ Hit surface(
 Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
   Scene scene;
   const Vector3& h = half_size;
-  scene.room = {-h, h, painted(scene, 2.0 * h, kWallContrast, seed)};
-  const auto furnish = [&](const Vector3& low, const Vector3& size, std::uint64_t paint) {
-    scene.furniture.push_back({low, low + size, painted(scene, size, kWallContrast, paint)});
+  scene.room = {-h, h, add_textures(scene, 2.0 * h, kWallContrast, seed)};
+  const auto furnish = [&](const Vector3& low, const Vector3& size, std::uint64_t texture_seed) {
+    scene.furniture.push_back(
+        {low, low + size, add_textures(scene, size, kWallContrast, texture_seed)});
   };
-  // Three pieces a wall, standing or hanging, no deeper than half a metre.
+  // Three pieces per wall, on the floor or hanging, at most 0.5 m deep.
   for (std::uint64_t k = 0; k < 12; ++k) {
     const auto draw = [&](std::uint64_t i) {
       return static_cast<double>(uniform(mixed(mixed(seed, 100 + k), i)));
     };
     const int wall = static_cast<int>(k % 4);
-    const int across = wall < 2 ? 0 : 1;  // the axis that the wall stands on
+    const int across = wall < 2 ? 0 : 1;  // axis of the wall normal
     const int along = 1 - across;
     const double slot = static_cast<double>(k / 4);
     Vector3 size;
@@ -86,10 +87,11 @@ Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
     low[across] = wall % 2 == 0 ? -h[across] : h[across] - size[across];
     low[along] = -h[along] + (slot + 0.2 + 0.4 * draw(3)) * 2.0 * h[along] / 3.0;
     low[along] = std::min(low[along], h[along] - size[along]);
-    low.z() = k / 4 == 1 ? h.z() - 0.3 - size.z() : -h.z();  // the middle ones hang
+    low.z() =
+        k / 4 == 1 ? h.z() - 0.3 - size.z() : -h.z();  // the second row hangs below the ceiling
     furnish(low, size, mixed(seed, 200 + k));
   }
-  // Twins against opposite walls.
+  // Two identical cupboards at opposite walls.
   const Vector3 twin(0.5, 0.3, 1.6);
   furnish({0.55 * h.x(), -h.y(), -h.z()}, twin, mixed(seed, 300));
   furnish({-0.85 * h.x(), h.y() - twin.y(), -h.z()}, twin, mixed(seed, 300));
@@ -97,20 +99,21 @@ Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
 }
 
 Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction) {
-  const Vector3 inverse = direction.cwiseInverse();  // infinite where parallel: the slabs allow it
+  const Vector3 inverse =
+      direction.cwiseInverse();  // infinite for parallel rays, which the slab test handles
   const Crossing walls = cross(scene.room, origin, inverse);
   double depth = walls.far;
   int face = walls.far_face;
-  const Block* met = &scene.room;
+  const Block* hit_block = &scene.room;
   for (const Block& block : scene.furniture) {
     const Crossing crossing = cross(block, origin, inverse);
     if (crossing.near > 0.0 && crossing.near < crossing.far && crossing.near < depth) {
       depth = crossing.near;
       face = crossing.near_face;
-      met = &block;
+      hit_block = &block;
     }
   }
-  return surface(*met, face, depth, origin, direction);
+  return hit_of(*hit_block, face, depth, origin, direction);
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// A furnished room: one box seen from inside, others seen from outside, all parallel to the axes.
+/// Scene of a furnished room made of axis-aligned boxes.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace loopbench {
 struct Block {
   Vector3 low;                      ///< [m]
   Vector3 high;                     ///< [m]
-  std::array<std::size_t, 6> skin;  ///< texture of faces -x, +x, -y, +y, -z, +z
+  std::array<std::size_t, 6> skin;  ///< texture index of faces -x, +x, -y, +y, -z, +z
 };
 
 struct Scene {
@@ -22,20 +22,20 @@ struct Scene {
   std::vector<Texture> textures = {};
 };
 
-/// Walls, floor and ceiling around `middle` with furniture along the walls; two cupboards look the
-/// same, to tempt a place recogniser. Half sizes [m]. Everything follows from the seed.
+/// Creates a room centred at the origin with furniture along the walls. `half_size` [m]. Two
+/// cupboards are identical, to provoke false loop candidates. Deterministic for a seed.
 Scene furnished_room(const Vector3& half_size, std::uint64_t seed);
 
 struct Hit {
-  float depth = 0.0f;    ///< along the ray in units of its direction's length
-  float cosine = 0.0f;   ///< of the angle at which the surface is met
-  float u = 0.0f;        ///< on the surface [m]
-  float v = 0.0f;        ///< [m]
-  int face = 0;          ///< which of the six
-  std::size_t skin = 0;  ///< texture
+  float depth = 0.0f;    ///< distance along the ray in multiples of the direction vector [-]
+  float cosine = 0.0f;   ///< cosine of the angle between ray and surface normal [-]
+  float u = 0.0f;        ///< first coordinate on the surface [m]
+  float v = 0.0f;        ///< second coordinate on the surface [m]
+  int face = 0;          ///< face index 0..5
+  std::size_t skin = 0;  ///< texture index
 };
 
-/// The first surface a ray from inside the room meets. O(furniture).
+/// First intersection of a ray that starts inside the room. O(furniture).
 Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction);
 
 }  // namespace loopbench

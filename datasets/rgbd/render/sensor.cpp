@@ -8,22 +8,23 @@
 namespace loopbench {
 namespace {
 
-constexpr int kTaps = 5;               // samples along the smear
-constexpr float kNearestSeen = 0.5f;   // [m]
-constexpr float kFarthestSeen = 4.5f;  // [m]
+constexpr int kTaps = 5;               // samples along the motion blur
+constexpr float kMinDepth = 0.5f;      // [m]
+constexpr float kMaxDepth = 4.5f;      // [m]
 constexpr float kNoise = 1.425e-3f;    // [m at 1 m]
 constexpr float kBaseline = 0.075f;    // projector to camera [m]
-constexpr float kKinectFocal = 580.f;  // [px of its 640]
+constexpr float kKinectFocal = 580.f;  // [px] at an image width of 640 px
 constexpr float kGrazing = 0.17f;      // cosine of 80 degrees
 constexpr int kPatch = 8;              // side of a random hole [px]
 
-Eigen::Vector2d smear(const Camera& camera, const Pose& end_from_begin, int x, int y, float z) {
+Eigen::Vector2d image_motion(
+    const Camera& camera, const Pose& end_from_begin, int x, int y, float z) {
   const Vector3 later = end_from_begin * camera.back_project(x, y, static_cast<double>(z));
   if (later.z() < 0.1) return Eigen::Vector2d::Zero();
   return camera.project(later) - Eigen::Vector2d(x, y);
 }
 
-float smeared(const Image<float>& grey, const Eigen::Vector2d& motion, int x, int y) {
+float motion_blurred(const Image<float>& grey, const Eigen::Vector2d& motion, int x, int y) {
   if (motion.squaredNorm() < 0.01) return grey.at(x, y);
   float sum = 0.0f;
   for (int k = 0; k < kTaps; ++k) {
@@ -37,16 +38,16 @@ float smeared(const Image<float>& grey, const Eigen::Vector2d& motion, int x, in
   return sum / kTaps;
 }
 
-/// The share by which depth changes from one neighbour to the other: an edge casts a shadow.
+/// Whether a pixel lies in the shadow of the projector, behind a depth edge on its left.
 bool beside_edge(const DepthImage& depth, int x, int y) {
   const float z = depth.at(x, y);
   const int left = std::max(x - 2, 0);
-  return z - depth.at(left, y) > 0.08f * z;  // the projector stands to one side of the camera
+  return z - depth.at(left, y) > 0.08f * z;
 }
 
 }  // namespace
 
-RgbdFrame sensed(const Rendered& perfect,
+RgbdFrame sensed(const Rendered& ideal,
                  const Camera& camera,
                  const Pose& begin_from_end,
                  double stamp,
@@ -64,9 +65,10 @@ RgbdFrame sensed(const Rendered& perfect,
     for (int x = 0; x < w; ++x) {
       const auto pixel = static_cast<std::uint64_t>(y * w + x);
       const std::uint64_t draw = mixed(seed, 16 + 2 * pixel);
-      const float z = perfect.depth.at(x, y);
+      const float z = ideal.depth.at(x, y);
 
-      const float light = smeared(perfect.grey, smear(camera, end_from_begin, x, y, z), x, y);
+      const float light =
+          motion_blurred(ideal.grey, image_motion(camera, end_from_begin, x, y, z), x, y);
       const double dx = x - camera.cx;
       const double dy = y - camera.cy;
       const double corner = 1.0 - 0.25 * (dx * dx + dy * dy) / diagonal;
@@ -76,18 +78,18 @@ RgbdFrame sensed(const Rendered& perfect,
       const std::uint64_t chance = mixed(seed, 17 + 2 * pixel);
       const int u = std::clamp(x + static_cast<int>(chance % 3) - 1, 0, w - 1);
       const int v = std::clamp(y + static_cast<int>((chance / 3) % 3) - 1, 0, h - 1);
-      const bool jitter = o.depth_noise > 0.0;
-      const float exact = jitter ? perfect.depth.at(u, v) : z;
+      const bool with_noise = o.depth_noise > 0.0;
+      const float exact = with_noise ? ideal.depth.at(u, v) : z;
       const auto patch = static_cast<std::uint64_t>((y / kPatch) * w + x / kPatch);
       const float hole = 0.015f * static_cast<float>(o.dropouts);
       const bool dropped =
           o.dropouts > 0.0 &&
-          (perfect.slant.at(x, y) < kGrazing || beside_edge(perfect.depth, x, y) ||
+          (ideal.slant.at(x, y) < kGrazing || beside_edge(ideal.depth, x, y) ||
            uniform(mixed(seed ^ 0xd409, patch)) < hole || uniform(mixed(chance)) < hole);
-      if (dropped || exact < kNearestSeen || exact > kFarthestSeen) continue;
+      if (dropped || exact < kMinDepth || exact > kMaxDepth) continue;
       const float sigma = kNoise * static_cast<float>(o.depth_noise);
       float measured = exact + sigma * exact * exact * about_normal(mixed(chance, 3u));
-      if (jitter) {
+      if (with_noise) {
         const float eighths = std::round(8.0f * kKinectFocal * kBaseline / measured);
         measured = 8.0f * kKinectFocal * kBaseline / eighths;
       }

@@ -1,4 +1,4 @@
-/// What a cheap RGB-D sensor makes of a perfect image.
+/// Noise model of a consumer RGB-D sensor.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace loopbench {
 
-/// Grey: smeared along the motion of the camera during the exposure (`begin_from_end`: where the
-/// camera stands at its end, seen from its beginning), darkened to the corners, brightened by a
-/// gain that comes and goes in time, noisy, rounded.
-/// Depth: standard deviation 1.425 mm/m^2 z^2 (Khoshelham and Elberink 2012), disparity in eighths
-/// of a pixel, millimetres, a pixel's jitter sideways; none nearer than 0.5 m or farther than
-/// 4.5 m, at slanting surfaces, beside depth edges (the projector's shadow) and in random patches.
-/// `frame` and the seed fix every draw. O(pixels).
-RgbdFrame sensed(const Rendered& perfect,
+/// Applies sensor effects to an ideal image.
+/// Grey image: motion blur over the exposure (`begin_from_end` is the camera motion during it),
+/// vignetting, a gain that varies slowly in time, noise and rounding.
+/// Depth image: noise with standard deviation 1.425 mm/m^2 z^2 (Khoshelham and Elberink 2012),
+/// disparity in steps of 1/8 pixel, rounding to millimetres and a random offset of at most one
+/// pixel. Depth is missing below 0.5 m, above 4.5 m, on slanted surfaces, in the projector's shadow
+/// beside depth edges and in random patches.
+/// All draws are determined by `frame` and the seed. O(pixels).
+RgbdFrame sensed(const Rendered& ideal,
                  const Camera& camera,
                  const Pose& begin_from_end,
                  double stamp,

@@ -11,22 +11,22 @@ namespace {
 
 constexpr double kSmallest = 0.015;  // [m]
 constexpr double kLargest = 0.6;     // [m]
-constexpr double kLayers = 2.0;      // how often a place is covered on average
+constexpr double kLayers = 2.0;      // mean number of leaves per point
 
 struct Leaf {
-  double x, y;            // middle [texels]
-  double cosine, sine;    // of its turn
+  double x, y;            // centre [texels]
+  double cosine, sine;    // of the rotation angle
   double half_w, half_h;  // [texels]
   bool disc;
   float grey;
 };
 
-void throw_leaf(GreyImage& image, const Leaf& leaf) {
-  const double reach = std::hypot(leaf.half_w, leaf.half_h);
-  const int x0 = std::max(0, static_cast<int>(leaf.x - reach));
-  const int x1 = std::min(image.width - 1, static_cast<int>(leaf.x + reach));
-  const int y0 = std::max(0, static_cast<int>(leaf.y - reach));
-  const int y1 = std::min(image.height - 1, static_cast<int>(leaf.y + reach));
+void draw_leaf(GreyImage& image, const Leaf& leaf) {
+  const double radius = std::hypot(leaf.half_w, leaf.half_h);
+  const int x0 = std::max(0, static_cast<int>(leaf.x - radius));
+  const int x1 = std::min(image.width - 1, static_cast<int>(leaf.x + radius));
+  const int y0 = std::max(0, static_cast<int>(leaf.y - radius));
+  const int y1 = std::min(image.height - 1, static_cast<int>(leaf.y + radius));
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const double dx = x - leaf.x;
@@ -84,17 +84,17 @@ Texture dead_leaves(double width, double height, double contrast, std::uint64_t 
       return static_cast<double>(uniform(mixed(seed, 8 * i + k)));
     };
     const double side = scale / std::sqrt(a - draw(0) * (a - b));
-    const double turn = draw(1) < 0.5 ? 0.0 : std::numbers::pi * draw(2);
+    const double angle = draw(1) < 0.5 ? 0.0 : std::numbers::pi * draw(2);
     const double shape = 0.5 + draw(3);
-    throw_leaf(image,
-               {draw(4) * image.width,
-                draw(5) * image.height,
-                std::cos(turn),
-                std::sin(turn),
-                0.5 * side * shape,
-                0.5 * side / shape,
-                mixed(seed, 8 * i + 6) % 3 == 0,
-                static_cast<float>(128.0 + contrast * 110.0 * (2.0 * draw(7) - 1.0))});
+    draw_leaf(image,
+              {draw(4) * image.width,
+               draw(5) * image.height,
+               std::cos(angle),
+               std::sin(angle),
+               0.5 * side * shape,
+               0.5 * side / shape,
+               mixed(seed, 8 * i + 6) % 3 == 0,
+               static_cast<float>(128.0 + contrast * 110.0 * (2.0 * draw(7) - 1.0))});
   }
   out.levels.push_back(std::move(image));
   while (std::min(out.levels.back().width, out.levels.back().height) > 4) {
@@ -110,11 +110,11 @@ float sample(const Texture& texture, float u, float v, float footprint) {
   const auto fine = static_cast<std::size_t>(level);
   const std::size_t coarse = std::min(fine + 1, texture.levels.size() - 1);
   const float share = level - static_cast<float>(fine);
-  const auto look = [&](std::size_t k) {
+  const auto sample_level = [&](std::size_t k) {
     const float scale = texture.texels_per_metre / static_cast<float>(std::size_t{1} << k);
     return bilinear(texture.levels[k], u * scale - 0.5f, v * scale - 0.5f);
   };
-  return (1.0f - share) * look(fine) + share * look(coarse);
+  return (1.0f - share) * sample_level(fine) + share * sample_level(coarse);
 }
 
 }  // namespace loopbench

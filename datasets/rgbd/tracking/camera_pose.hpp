@@ -1,4 +1,4 @@
-/// Where the camera stands, from points in space and where it sees them.
+/// Camera pose from 3D-2D correspondences: RANSAC and nonlinear refinement.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 namespace loopbench {
 
 struct Observation {
-  Vector3 in_world;            ///< [m]
+  Vector3 in_world;            ///< point in the world frame [m]
   double u = 0.0;              ///< [px]
   double v = 0.0;              ///< [px]
   double inverse_depth = 0.0;  ///< [1/m]; 0: not measured
-  double sigma = 1.0;          ///< of u and v over `pixel_sigma` [-]
+  double sigma = 1.0;          ///< standard deviation of u and v relative to pixel_sigma [-]
 };
 
 struct PoseOptions {
@@ -28,35 +28,46 @@ struct PoseOptions {
 
 template <class Visit>
 void fields(PoseOptions& o, Visit visit) {
-  visit("pose.pixel_sigma", o.pixel_sigma, "of a feature's place [px]", Above{0});
-  visit("pose.inverse_depth_sigma", o.inverse_depth_sigma, "of 1 / depth [1/m]", Above{0});
-  visit("pose.ransac_iterations", o.ransac_iterations, "at most", Between{1, 100000});
-  visit("pose.ransac_pixels", o.ransac_pixels, "farthest that an inlier lies off [px]", Above{0});
+  visit(
+      "pose.pixel_sigma", o.pixel_sigma, "standard deviation of a feature position [px]", Above{0});
+  visit("pose.inverse_depth_sigma",
+        o.inverse_depth_sigma,
+        "standard deviation of the inverse depth [1/m]",
+        Above{0});
+  visit("pose.ransac_iterations",
+        o.ransac_iterations,
+        "maximum number of RANSAC iterations",
+        Between{1, 100000});
+  visit("pose.ransac_pixels",
+        o.ransac_pixels,
+        "maximum reprojection error of a RANSAC inlier [px]",
+        Above{0});
   visit("pose.information_scale",
         o.information_scale,
-        "share of the residuals' information that is believed: they are not independent [-]",
+        "factor on the information of a pose, below 1 because residuals are correlated [-]",
         Above{0});
 }
 
-/// Perspective from three points within RANSAC (Ke and Roumeliotis 2017), by cv::solvePnPRansac
-/// with its random numbers begun anew at every call: same input, same bits. Nothing when no pose is
-/// found; fewer than four observations find none.
+/// Estimates world_from_camera by P3P (Ke and Roumeliotis 2017) with RANSAC, using
+/// cv::solvePnPRansac with a fixed random seed, so that results are bit-identical. Returns nothing
+/// if no pose is found or if there are fewer than four observations.
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                    const Camera& camera,
                                    const PoseOptions& options);
 
 struct RefinedPose {
   Pose world_from_camera;
-  std::vector<bool> inlier = {};  ///< one an observation
+  std::vector<bool> inlier = {};  ///< one per observation
   std::size_t inliers = 0;
   Matrix6 information = Matrix6::Zero();  ///< of the twist e in world_from_camera * exp(e)
-  double spread = 0.0;                    ///< rms of whitened inlier residuals; 1 as modelled
+  double spread = 0.0;  ///< RMS of whitened inlier residuals; 1 if the noise model is correct
 };
 
-/// Gauss-Newton over pixel and inverse-depth residuals with Huber's weights; after each of four
-/// rounds what breaks the 95 % bound of chi^2 is set aside and may come back. The information is
-/// that of the inliers, divided by their spread^2 when that is above 1, times information_scale.
-/// Zero information when fewer than six inliers remain. O(observations).
+/// Refines a pose by Gauss-Newton on pixel and inverse-depth residuals with Huber weights. After
+/// each of four rounds, observations above the 95 % quantile of chi^2 become outliers; they may
+/// become inliers again. The information is that of the inliers, multiplied by information_scale
+/// and divided by spread^2 if that is above 1. It is zero if fewer than six inliers remain.
+/// O(observations).
 RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,
                         const Pose& begin,

@@ -11,19 +11,19 @@ namespace loopbench {
 namespace {
 
 constexpr int kFocalRounds = 4;
-constexpr std::size_t kFewestToTell = 30;  // matches between two keyframes
-constexpr double kSearch = 0.03;           // radius over image width
-constexpr double kNotable = 0.05;          // of the factor from 1
-constexpr double kSure = 5.0;              // sigmas
+constexpr std::size_t kMinPairMatches = 30;  // between two keyframes
+constexpr double kSearchRadius = 0.03;       // relative to the image width
+constexpr double kMinDeviation = 0.05;       // of the factor from 1 for a warning
+constexpr double kSignificance = 5.0;        // [standard deviations]
 
-/// A match between two keyframes, the first one's with depth.
-struct Sight {
+/// A match between two keyframes; the feature of the first one has depth.
+struct MatchedFeatures {
   Feature first;
   Feature second;
 };
 
-struct SightPair {
-  std::vector<Sight> sights;
+struct KeyframePair {
+  std::vector<MatchedFeatures> matches;
   Pose first_from_second;
 };
 
@@ -32,11 +32,11 @@ Vector3 point_of(const Feature& f, const Camera& camera) {
       static_cast<double>(f.u), static_cast<double>(f.v), static_cast<double>(f.depth));
 }
 
-SightPair sights_between(const Keyframe& a,
-                         const Keyframe& b,
-                         const Camera& camera,
-                         const TrackOptions& options) {
-  SightPair out;
+KeyframePair match_pair(const Keyframe& a,
+                        const Keyframe& b,
+                        const Camera& camera,
+                        const TrackOptions& options) {
+  KeyframePair out;
   out.first_from_second = a.world_from_camera.inverse() * b.world_from_camera;
   const Features& features = a.features;
   std::vector<Seen> points;
@@ -52,16 +52,16 @@ SightPair sights_between(const Keyframe& a,
                                        b.features,
                                        camera,
                                        out.first_from_second,
-                                       kSearch * camera.width,
+                                       kSearchRadius * camera.width,
                                        options.match)) {
-    out.sights.push_back({features.points[rows[match.a]], b.features.points[match.b]});
+    out.matches.push_back({features.points[rows[match.a]], b.features.points[match.b]});
   }
   return out;
 }
 
-std::vector<Observation> sighted(const SightPair& pair, const Camera& camera) {
+std::vector<Observation> observations_of(const KeyframePair& pair, const Camera& camera) {
   std::vector<Observation> out;
-  for (const Sight& s : pair.sights) {
+  for (const MatchedFeatures& s : pair.matches) {
     const double depth = static_cast<double>(s.second.depth);
     out.push_back({point_of(s.first, camera),
                    static_cast<double>(s.second.u),
@@ -72,13 +72,13 @@ std::vector<Observation> sighted(const SightPair& pair, const Camera& camera) {
   return out;
 }
 
-/// The normal equation of the logarithm of the factor: curvature * d = -slope.
+/// Normal equation of the logarithm of the focal length factor: curvature * d = -gradient.
 struct FactorEquation {
   double curvature = 0.0;
-  double slope = 0.0;
+  double gradient = 0.0;
 };
 
-/// Of one pair, its pose eliminated.
+/// Normal equation of one pair with its pose eliminated (Schur complement).
 FactorEquation factor_equation(const std::vector<Observation>& observations,
                                const RefinedPose& pose,
                                const Camera& camera,
@@ -104,18 +104,18 @@ FactorEquation factor_equation(const std::vector<Observation>& observations,
     const Eigen::Vector2d at = camera.project(p);
     const Vector3 value(
         pixel * (at.x() - o.u), pixel * (at.y() - o.v), inverse_depth * (iz - o.inverse_depth));
-    // A longer focal length narrows the cone of points and spreads what they project to.
-    const Vector3 narrower = R * Vector3(-o.in_world.x(), -o.in_world.y(), 0.0);
-    const Vector3 wider(pixel * (at.x() - camera.cx), pixel * (at.y() - camera.cy), 0.0);
+    // A longer focal length moves the point towards the optical axis and scales its projection.
+    const Vector3 by_depth_point = R * Vector3(-o.in_world.x(), -o.in_world.y(), 0.0);
+    const Vector3 by_projection(pixel * (at.x() - camera.cx), pixel * (at.y() - camera.cy), 0.0);
     Eigen::Matrix<double, 3, 7> J;
     J.leftCols<3>() = -by_point;
     J.middleCols<3>(3) = by_point * hat(p);
-    J.col(6) = by_point * narrower + wider;
+    J.col(6) = by_point * by_depth_point + by_projection;
     H += J.transpose() * J;
     g += J.transpose() * value;
   }
-  const Eigen::LDLT<Matrix6> of_pose(H.topLeftCorner<6, 6>());
-  const Twist coupling = of_pose.solve(H.topRightCorner<6, 1>());
+  const Eigen::LDLT<Matrix6> pose_block(H.topLeftCorner<6, 6>());
+  const Twist coupling = pose_block.solve(H.topRightCorner<6, 1>());
   return {H(6, 6) - coupling.dot(H.topRightCorner<6, 1>()), g(6) - coupling.dot(g.head<6>())};
 }
 
@@ -124,45 +124,47 @@ FactorEquation factor_equation(const std::vector<Observation>& observations,
 FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
                        const Camera& camera,
                        const TrackOptions& options) {
-  std::vector<SightPair> pairs;
+  std::vector<KeyframePair> pairs;
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
-    SightPair pair = sights_between(keyframes[k - 1], keyframes[k], camera, options);
-    if (pair.sights.size() >= kFewestToTell) pairs.push_back(std::move(pair));
+    KeyframePair pair = match_pair(keyframes[k - 1], keyframes[k], camera, options);
+    if (pair.matches.size() >= kMinPairMatches) pairs.push_back(std::move(pair));
   }
   FocalCheck out;
   out.pairs = pairs.size();
   out.sigma = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kFocalRounds; ++round) {
-    Camera now = camera;
-    now.fx *= out.factor;
-    now.fy *= out.factor;
+    Camera scaled = camera;
+    scaled.fx *= out.factor;
+    scaled.fy *= out.factor;
     FactorEquation sum;
-    for (SightPair& pair : pairs) {
-      const std::vector<Observation> observations = sighted(pair, now);
-      const RefinedPose pose = refine_pose(observations, now, pair.first_from_second, options.pose);
-      if (pose.inliers < kFewestToTell / 2) continue;
+    for (KeyframePair& pair : pairs) {
+      const std::vector<Observation> observations = observations_of(pair, scaled);
+      const RefinedPose pose =
+          refine_pose(observations, scaled, pair.first_from_second, options.pose);
+      if (pose.inliers < kMinPairMatches / 2) continue;
       pair.first_from_second = pose.world_from_camera;
-      const FactorEquation one = factor_equation(observations, pose, now, options.pose);
-      const double believed =
+      const FactorEquation equation = factor_equation(observations, pose, scaled, options.pose);
+      const double weight =
           options.pose.information_scale / std::max(1.0, pose.spread * pose.spread);
-      sum.curvature += believed * one.curvature;
-      sum.slope += believed * one.slope;
+      sum.curvature += weight * equation.curvature;
+      sum.gradient += weight * equation.gradient;
     }
     if (!(sum.curvature > 0.0)) return out;
-    out.factor *= std::exp(std::clamp(-sum.slope / sum.curvature, -0.2, 0.2));
+    out.factor *= std::exp(std::clamp(-sum.gradient / sum.curvature, -0.2, 0.2));
     out.sigma = out.factor / std::sqrt(sum.curvature);
   }
   return out;
 }
 
 std::optional<std::string> focal_warning(const FocalCheck& check, const Camera& camera) {
-  const double off = check.factor - 1.0;
-  if (std::abs(off) < kNotable || std::abs(off) < kSure * check.sigma) return std::nullopt;
+  const double deviation = check.factor - 1.0;
+  if (std::abs(deviation) < kMinDeviation || std::abs(deviation) < kSignificance * check.sigma)
+    return std::nullopt;
   return fmt::format(
       "images and depth agree better with focal lengths {:.0f} % {} than the camera's ({:.0f} px "
       "instead of {:.0f}): do the intrinsics belong to these images?",
-      100.0 * std::abs(off),
-      off < 0.0 ? "shorter" : "longer",
+      100.0 * std::abs(deviation),
+      deviation < 0.0 ? "shorter" : "longer",
       check.factor * camera.fx,
       camera.fx);
 }

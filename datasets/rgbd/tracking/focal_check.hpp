@@ -1,4 +1,4 @@
-/// Do the images agree with the focal length that the camera is said to have?
+/// Consistency check of the assumed focal length with images and depth.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,20 @@
 namespace loopbench {
 
 struct FocalCheck {
-  double factor = 1.0;    ///< both focal lengths times this fit best [-]
-  double sigma = 0.0;     ///< of factor, as residuals say; infinite when nothing tells [-]
-  std::size_t pairs = 0;  ///< neighbouring keyframes that were compared
+  double factor = 1.0;    ///< estimated factor on both focal lengths [-]
+  double sigma = 0.0;     ///< standard deviation of factor; infinite if it is not observable [-]
+  std::size_t pairs = 0;  ///< number of pairs of consecutive keyframes used
 };
 
-/// Between neighbouring keyframes, measured depth turns pixels into points, and points into pixels
-/// and depth again; a wrong focal length bends that. Gauss-Newton over one factor common to all
-/// pairs and a pose for each, eliminated. No reference is looked at. The depth of a pixel is taken
-/// as it is: where depth was registered with wrong intrinsics it cannot tell by how much.
-/// O(keyframes * features).
+/// Estimates a common factor on both focal lengths from the reprojection of features with depth
+/// between consecutive keyframes, which is inconsistent for a wrong focal length. Gauss-Newton over
+/// the factor and one (eliminated) pose per pair. The reference is not used. If depth images were
+/// registered with wrong intrinsics, the estimated factor is biased. O(keyframes * features).
 FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
                        const Camera& camera,
                        const TrackOptions& options);
 
-/// What a user should know: the factor is off by more than a twentieth and surely so. Else nothing.
+/// Returns a warning if the factor differs from 1 by more than 5 % and five standard deviations.
 std::optional<std::string> focal_warning(const FocalCheck& check, const Camera& camera);
 
 }  // namespace loopbench

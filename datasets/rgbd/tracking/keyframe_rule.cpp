@@ -23,8 +23,8 @@ double novelty_due(const KeyframeOptions& o,
   if (o.target == 0 || frames < 2) return 1.0;
   constexpr double kFactor = 2.0;
   const double share = static_cast<double>(frame) / static_cast<double>(frames - 1);
-  const double wanted = 1.0 + share * static_cast<double>(o.target - 1);
-  return std::pow(kFactor, static_cast<double>(made) - wanted);
+  const double planned = 1.0 + share * static_cast<double>(o.target - 1);
+  return std::pow(kFactor, static_cast<double>(made) - planned);
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// When what the camera sees is new enough for a keyframe.
+/// Selection of keyframes during tracking.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +18,49 @@ struct KeyframeOptions {
 
 template <class Visit>
 void fields(KeyframeOptions& o, Visit visit) {
-  visit("keyframes.target", o.target, "about how many are wanted; 0: as the rules say", Between{0});
+  visit("keyframes.target",
+        o.target,
+        "approximate number of keyframes; 0: determined by the other options",
+        Between{0});
   visit("keyframes.tracked_min",
         o.tracked_min,
-        "share of the last keyframe's points still seen [-]",
+        "new keyframe below this share of tracked points of the last keyframe [-]",
         Between{0, 0.99});
-  visit("keyframes.common_min", o.common_min, "points still seen of it", Between{1});
-  visit("keyframes.parallax_max", o.parallax_max, "way over median depth [-]", Above{0});
-  visit("keyframes.angle_max", o.angle_max, "turned since [deg]", Above{0});
-  visit("keyframes.time_max", o.time_max, "passed since [s]", Above{0});
+  visit("keyframes.common_min",
+        o.common_min,
+        "new keyframe below this number of tracked points of the last keyframe",
+        Between{1});
+  visit("keyframes.parallax_max",
+        o.parallax_max,
+        "new keyframe above this distance to the last one, relative to the median depth [-]",
+        Above{0});
+  visit("keyframes.angle_max",
+        o.angle_max,
+        "new keyframe above this rotation angle to the last one [deg]",
+        Above{0});
+  visit("keyframes.time_max",
+        o.time_max,
+        "new keyframe above this time since the last one [s]",
+        Above{0});
 }
 
-/// How a frame stands to the last keyframe.
+/// Relation of a frame to the last keyframe.
 struct View {
-  std::size_t points = 0;  ///< that the keyframe saw
-  std::size_t common = 0;  ///< of them seen here too
-  double way = 0.0;        ///< between the two [m]
-  double depth = 1.0;      ///< median here [m]
-  double angle = 0.0;      ///< between the two [rad]
-  double time = 0.0;       ///< [s]
+  std::size_t points = 0;  ///< number of points observed in the keyframe
+  std::size_t common = 0;  ///< number of these points also observed in the frame
+  double way = 0.0;        ///< distance between the two [m]
+  double depth = 1.0;      ///< median depth of the frame [m]
+  double angle = 0.0;      ///< rotation angle between the two [rad]
+  double time = 0.0;       ///< time between the two [s]
 };
 
-/// The largest of the rules' measures, each 1 at its threshold: a keyframe is due from 1 on.
+/// Maximum over all criteria of the ratio of value and threshold. A frame becomes a keyframe if
+/// this reaches novelty_due().
 double novelty(const View& view, const KeyframeOptions& options);
 
-/// The novelty that a keyframe is due at, so that about `target` come out: it
-/// doubles for every keyframe too many that were made by now. 1 without a target.
+/// Novelty threshold for a new keyframe. With options.target it doubles for each keyframe (of
+/// `made`) above the number planned up to `frame` of `frames`, and halves for each missing one;
+/// otherwise 1.
 double novelty_due(const KeyframeOptions& options,
                    std::size_t made,
                    std::size_t frame,

@@ -5,9 +5,9 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMostLooks = 10.0;  // a point is no surer than after so many looks
+constexpr double kMaxObservations = 10.0;  // limit of the accumulated weight of a point
 
-/// Depth's standard deviation grows with its square.
+/// Inverse variance up to a factor: the standard deviation of depth is proportional to its square.
 double weight_at(double depth) { return 1.0 / (depth * depth * depth * depth); }
 
 }  // namespace
@@ -18,39 +18,40 @@ void LocalMap::add(std::size_t keyframe,
                    const std::vector<Match>& matches,
                    const Camera& camera,
                    const Pose& world_from_camera) {
-  looks_.bytes = features.bytes;
-  looks_.binary = features.binary;
+  features_.bytes = features.bytes;
+  features_.binary = features.binary;
   const auto bytes = static_cast<std::size_t>(features.bytes);
-  const auto place = [&](const Feature& f) {
+  const auto position = [&](const Feature& f) {
     return world_from_camera * camera.back_project(static_cast<double>(f.u),
                                                    static_cast<double>(f.v),
                                                    static_cast<double>(f.depth));
   };
-  std::vector<bool> known(features.size(), false);
+  std::vector<bool> matched(features.size(), false);
   for (const Match& match : matches) {
-    known[match.b] = true;
+    matched[match.b] = true;
     const Feature& feature = features.points[match.b];
     Seen& point = points_[match.a];
     if (feature.depth > 0.0f) {
       const double weight = weight_at(static_cast<double>(feature.depth));
       double& sum = weights_[match.a];
-      point.in_world = (sum * point.in_world + weight * place(feature)) / (sum + weight);
-      sum = std::min(sum + weight, kMostLooks * weight);
+      point.in_world = (sum * point.in_world + weight * position(feature)) / (sum + weight);
+      sum = std::min(sum + weight, kMaxObservations * weight);
     }
     point.octave = feature.octave;
     last_seen_[match.a] = keyframe;
-    std::copy_n(features.descriptor(match.b), bytes, looks_.descriptors.data() + match.a * bytes);
+    std::copy_n(
+        features.descriptor(match.b), bytes, features_.descriptors.data() + match.a * bytes);
   }
   if (keyframe >= window) forget(keyframe - window + 1);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const Feature& feature = features.points[i];
-    if (known[i] || !(feature.depth > 0.0f)) continue;
-    points_.push_back({place(feature), feature.octave, points_.size()});
+    if (matched[i] || !(feature.depth > 0.0f)) continue;
+    points_.push_back({position(feature), feature.octave, points_.size()});
     weights_.push_back(weight_at(static_cast<double>(feature.depth)));
     last_seen_.push_back(keyframe);
-    looks_.points.push_back(feature);
+    features_.points.push_back(feature);
     const std::uint8_t* row = features.descriptor(i);
-    looks_.descriptors.insert(looks_.descriptors.end(), row, row + bytes);
+    features_.descriptors.insert(features_.descriptors.end(), row, row + bytes);
   }
 }
 
@@ -63,7 +64,7 @@ std::vector<std::size_t> LocalMap::seen_by(std::size_t keyframe) const {
 }
 
 void LocalMap::forget(std::size_t before) {
-  const auto bytes = static_cast<std::size_t>(looks_.bytes);
+  const auto bytes = static_cast<std::size_t>(features_.bytes);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (last_seen_[k] < before) continue;
@@ -71,17 +72,17 @@ void LocalMap::forget(std::size_t before) {
     points_[kept].row = kept;
     weights_[kept] = weights_[k];
     last_seen_[kept] = last_seen_[k];
-    looks_.points[kept] = looks_.points[k];
+    features_.points[kept] = features_.points[k];
     if (kept != k) {
-      std::copy_n(looks_.descriptor(k), bytes, looks_.descriptors.data() + kept * bytes);
+      std::copy_n(features_.descriptor(k), bytes, features_.descriptors.data() + kept * bytes);
     }
     ++kept;
   }
   points_.resize(kept);
   weights_.resize(kept);
   last_seen_.resize(kept);
-  looks_.points.resize(kept);
-  looks_.descriptors.resize(kept * bytes);
+  features_.points.resize(kept);
+  features_.descriptors.resize(kept * bytes);
 }
 
 }  // namespace loopbench

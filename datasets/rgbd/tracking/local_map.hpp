@@ -1,4 +1,4 @@
-/// The points in space that the last keyframes saw.
+/// Local map: 3D points observed in the last keyframes.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace loopbench {
 class LocalMap {
  public:
   const std::vector<Seen>& points() const { return points_; }
-  const Features& looks() const { return looks_; }  ///< row k belongs to points()[k]
+  const Features& looks() const { return features_; }  ///< descriptor row k of points()[k]
 
-  /// Keyframe, counted from 0, that saw point k last.
+  /// Index of the last keyframe that observed point k.
   std::size_t last_seen(std::size_t k) const { return last_seen_[k]; }
 
-  /// Takes in keyframe `keyframe`: what it matched (a: point, b: feature) is moved to the mean
-  /// weighted by inverse variance of depth and looks as it does now; what has depth and matched
-  /// nothing becomes a point; what no keyframe has seen since `window` keyframes is forgotten.
-  /// O(points + features).
+  /// Adds a keyframe. Matched points (a: point, b: feature) are updated to the mean weighted by the
+  /// inverse variance of depth, and their descriptors are replaced. Unmatched features with depth
+  /// become new points. Points not observed in the last `window` keyframes are removed. O(points +
+  /// features).
   void add(std::size_t keyframe,
            std::size_t window,
            const Features& features,
@@ -29,8 +29,7 @@ class LocalMap {
            const Camera& camera,
            const Pose& world_from_camera);
 
-  /// Points that `keyframe` saw: each place in space once, which older points may repeat.
-  /// O(points).
+  /// Indices of the points last observed in `keyframe`. O(points).
   std::vector<std::size_t> seen_by(std::size_t keyframe) const;
 
   void clear() { *this = {}; }
@@ -41,7 +40,7 @@ class LocalMap {
   std::vector<Seen> points_;
   std::vector<double> weights_;
   std::vector<std::size_t> last_seen_;
-  Features looks_;
+  Features features_;
 };
 
 }  // namespace loopbench

@@ -5,8 +5,7 @@
 
 namespace loopbench {
 
-/// What each match measures: a point known in the world, where `features` see it. One per match,
-/// in their order. O(matches).
+/// Converts matches to observations of map points in an image, in the same order. O(matches).
 std::vector<Observation> observations(const std::vector<Seen>& points,
                                       const Features& features,
                                       const std::vector<Match>& matches);

@@ -16,16 +16,16 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
   }
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   cv::theRNG().state = 1;
-  cv::Vec3d turn;
-  cv::Vec3d shift;
+  cv::Vec3d rotation;
+  cv::Vec3d translation;
   std::vector<int> inliers;
   try {
     const bool found = cv::solvePnPRansac(points,
                                           pixels,
                                           K,
                                           cv::noArray(),
-                                          turn,
-                                          shift,
+                                          rotation,
+                                          translation,
                                           false,
                                           static_cast<int>(options.ransac_iterations),
                                           static_cast<float>(options.ransac_pixels),
@@ -33,11 +33,11 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                           inliers,
                                           cv::SOLVEPNP_AP3P);
     if (!found || inliers.size() < 4) return std::nullopt;
-  } catch (const cv::Exception&) {  // degenerate points end in its linear algebra
+  } catch (const cv::Exception&) {  // thrown by OpenCV for degenerate points
     return std::nullopt;
   }
-  const Pose camera_from_world{exp_so3({turn[0], turn[1], turn[2]}),
-                               {shift[0], shift[1], shift[2]}};
+  const Pose camera_from_world{exp_so3({rotation[0], rotation[1], rotation[2]}),
+                               {translation[0], translation[1], translation[2]}};
   if (!is_finite(camera_from_world)) return std::nullopt;
   return normalized(camera_from_world.inverse());
 }

@@ -7,14 +7,14 @@ namespace loopbench {
 namespace {
 
 constexpr int kRefineRounds = 4;
-constexpr int kSteps = 6;                   // a round
-constexpr double kInFront = 0.05;           // [m]
-constexpr double kChi2[] = {5.991, 7.815};  // 95 % of two and of three numbers
+constexpr int kSteps = 6;                   // per round
+constexpr double kMinPointDepth = 0.05;     // [m]
+constexpr double kChi2[] = {5.991, 7.815};  // 95 % quantiles for 2 and 3 degrees of freedom
 
 struct Residual {
   Vector3 value = Vector3::Zero();
   Eigen::Matrix<double, 3, 6> jacobian = Eigen::Matrix<double, 3, 6>::Zero();
-  bool ahead = false;
+  bool in_front = false;
 
   double square() const { return value.squaredNorm(); }
 };
@@ -25,8 +25,8 @@ Residual residual(const Observation& o,
                   const PoseOptions& options) {
   Residual out;
   const Vector3 p = camera_from_world * o.in_world;
-  if (p.z() < kInFront) return out;
-  out.ahead = true;
+  if (p.z() < kMinPointDepth) return out;
+  out.in_front = true;
   const double iz = 1.0 / p.z();
   const double pixel = 1.0 / (options.pixel_sigma * o.sigma);
   Matrix3 by_point = Matrix3::Zero();
@@ -39,7 +39,7 @@ Residual residual(const Observation& o,
     out.value.z() = weight * (iz - o.inverse_depth);
     by_point(2, 2) = -weight * iz * iz;
   }
-  // world_from_camera * exp(e) moves the point in the camera by -rho + hat(p) phi.
+  // The perturbation world_from_camera * exp(e) changes p by -rho + hat(p) phi.
   out.jacobian.leftCols<3>() = -by_point;
   out.jacobian.rightCols<3>() = by_point * hat(p);
   return out;
@@ -62,7 +62,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
       for (std::size_t i = 0; i < observations.size(); ++i) {
         if (!out.inlier[i]) continue;
         const Residual r = residual(observations[i], camera, camera_from_world, options);
-        if (!r.ahead) continue;
+        if (!r.in_front) continue;
         const double huber = std::min(1.0, std::sqrt(bound(observations[i]) / r.square()));
         const double weight = std::isfinite(huber) ? huber : 1.0;
         H += weight * r.jacobian.transpose() * r.jacobian;
@@ -78,21 +78,21 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
     out.inliers = 0;
     out.information.setZero();
     double sum = 0.0;
-    double numbers = 0.0;
+    double dimension = 0.0;
     for (std::size_t i = 0; i < observations.size(); ++i) {
       const Residual r = residual(observations[i], camera, camera_from_world, options);
-      out.inlier[i] = r.ahead && r.square() < bound(observations[i]);
+      out.inlier[i] = r.in_front && r.square() < bound(observations[i]);
       if (!out.inlier[i]) continue;
       ++out.inliers;
       out.information += r.jacobian.transpose() * r.jacobian;
       sum += r.square();
-      numbers += observations[i].inverse_depth > 0.0 ? 3.0 : 2.0;
+      dimension += observations[i].inverse_depth > 0.0 ? 3.0 : 2.0;
     }
     if (out.inliers < 6) {
       out.information.setZero();
       return out;
     }
-    out.spread = std::sqrt(sum / std::max(1.0, numbers - 6.0));
+    out.spread = std::sqrt(sum / std::max(1.0, dimension - 6.0));
   }
   out.information *= options.information_scale / std::max(1.0, out.spread * out.spread);
   out.information = (0.5 * (out.information + out.information.transpose())).eval();

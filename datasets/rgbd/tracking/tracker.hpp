@@ -1,4 +1,4 @@
-/// RGB-D odometry: every frame against the points that the last keyframes saw.
+/// RGB-D odometry: tracking of each frame against a local map.
 #pragma once
 
 #include <cstdint>
@@ -26,40 +26,47 @@ struct TrackOptions {
 
 template <class Visit>
 void fields(TrackOptions& o, Visit visit) {
-  visit("track.window", o.window, "keyframes whose points are kept", Between{1, 1000});
-  visit("track.inliers_min", o.inliers_min, "fewer and the frame is lost", Between{6});
-  visit("track.restart_after", o.restart_after, "lost so long: begin anew [s]", Between{0});
+  visit("track.window", o.window, "number of keyframes in the local map", Between{1, 1000});
+  visit("track.inliers_min",
+        o.inliers_min,
+        "minimum number of inliers of a tracked frame",
+        Between{6});
+  visit("track.restart_after",
+        o.restart_after,
+        "duration of a tracking loss after which a new map is started [s]",
+        Between{0});
   fields(o.match, visit);
   fields(o.pose, visit);
   fields(o.keyframes, visit);
 }
 
 struct Keyframe {
-  std::size_t frame = 0;  ///< of the source
+  std::size_t frame = 0;  ///< frame index in the source
   double stamp = 0.0;     ///< [s]
   Pose world_from_camera;
   Features features;
 };
 
-/// The world is the first keyframe's camera.
+/// Result of tracking. The world frame is the camera frame of the first keyframe.
 struct Tracked {
   std::vector<Keyframe> keyframes = {};
-  std::vector<Edge> odometry = {};            ///< one a pair of neighbours
-  std::vector<std::size_t> common_view = {};  ///< likewise
-  Trajectory frames = {};                     ///< tracked frames that are no keyframe
-  std::size_t lost = 0;                       ///< frames without a pose
-  std::size_t skipped = 0;                    ///< frames that could not be read
-  std::vector<std::string> notes = {};        ///< where tracking was lost, and what became of it
+  std::vector<Edge> odometry = {};            ///< one per pair of consecutive keyframes
+  std::vector<std::size_t> common_view = {};  ///< points common to these keyframes
+  Trajectory frames = {};                     ///< tracked frames that are not keyframes
+  std::size_t lost = 0;                       ///< number of frames without a pose
+  std::size_t skipped = 0;                    ///< number of frames that could not be read
+  std::vector<std::string> notes = {};        ///< tracking losses and recoveries
 };
 
-/// Feed every frame in order, then finish().
+/// Tracks an RGB-D camera. Call add() for each frame in order, then finish().
 ///
-/// A frame's pose is predicted with constant velocity, points are sought near where they should
-/// be (thrice as far when too few are found; when that fails too, the last keyframe's points by
-/// looks alone), and found by RANSAC and Gauss-Newton, twice. Fewer than inliers_min: lost, the
-/// frame has no pose. Lost for longer than restart_after: a new map is begun at the last pose,
-/// joined to the old one by an edge that knows next to nothing (0.5 m, 0.5 rad), and said in the
-/// notes.
+/// The pose of a frame is predicted with constant velocity. Map points are matched near their
+/// predicted projection, with a three times larger radius if there are few matches, or with the
+/// points of the last keyframe by descriptor only if this fails. The pose is estimated by RANSAC
+/// and Gauss-Newton, followed by a second guided matching. A frame with fewer than inliers_min
+/// inliers is lost and has no pose. After a loss of restart_after, a new map is started at the last
+/// pose. It is connected to the old one by an edge with standard deviations of 0.5 m and 0.5 rad,
+/// and a note is added.
 class Tracker {
  public:
   Tracker(const Camera& camera, std::size_t frames, const TrackOptions& options)
@@ -67,7 +74,7 @@ class Tracker {
 
   void add(std::size_t frame, double stamp, Features features);
 
-  /// Makes the last tracked frame a keyframe, if it is none. Call once.
+  /// Returns the result. The last tracked frame becomes a keyframe. Call once.
   Tracked finish();
 
  private:
@@ -81,23 +88,24 @@ class Tracker {
   };
 
   std::optional<Located> locate(const Features& features, const Pose& prediction) const;
-  std::vector<Match> everywhere(const Features& features) const;
-  std::optional<Located> settle(const Features& features, const std::vector<Match>& matches) const;
+  std::vector<Match> match_last_keyframe(const Features& features) const;
+  std::optional<Located> estimate_pose(const Features& features,
+                                       const std::vector<Match>& matches) const;
   Pose predicted(double stamp) const;
-  View view(const Located& here) const;
-  void begin(std::size_t frame, double stamp, Features features);
-  void miss(std::size_t frame, double stamp, Features features);
-  void make_keyframe(Located here);
+  View view(const Located& located) const;
+  void start_map(std::size_t frame, double stamp, Features features);
+  void handle_lost_frame(std::size_t frame, double stamp, Features features);
+  void make_keyframe(Located located);
 
   Camera camera_;
   std::size_t count_;
   TrackOptions options_;
   Tracked out_;
   LocalMap map_;
-  std::optional<Located> last_;    ///< tracked frame that is no keyframe
-  Trajectory recent_;              ///< the last two poses, for the velocity
-  std::optional<double> lost_at_;  ///< stamp of the first of a row of lost frames
-  std::size_t lost_row_ = 0;
+  std::optional<Located> last_;       ///< last tracked frame if it is not a keyframe
+  Trajectory recent_;                 ///< the last two poses, for the velocity
+  std::optional<double> lost_since_;  ///< stamp of the first of consecutive lost frames
+  std::size_t lost_count_ = 0;        ///< number of consecutive lost frames
 };
 
 }  // namespace loopbench
