@@ -36,7 +36,7 @@ std::vector<Loss> tracking_gaps(const Trajectory& reference,
                                 const std::vector<double>& estimate,
                                 double offset,
                                 double longest_pause) {
-  constexpr double kStanding = 0.05;  // [m/s], that of DiagnosticsOptions
+  constexpr double kStanding = 0.05;  // [m/s], as in DiagnosticsOptions
   constexpr double kRhythms = 10.0;
   std::vector<Loss> out = losses(reference, estimate, offset, longest_pause, kStanding);
   if (out.empty()) return out;

@@ -5,9 +5,9 @@
 namespace loopbench {
 namespace {
 
-constexpr double kSameAttitude = 1e-9;  // [rad]; interpolation of equal attitudes rounds to 1e-16
+constexpr double kSameAttitude = 1e-9;  // [rad]; interpolating equal orientations rounds to 1e-16
 constexpr std::size_t kEvidence = 10;   // poses
-constexpr double kStraight = 1e-6;      // width over length of what still counts as one line
+constexpr double kStraight = 1e-6;      // largest ratio of width to length of a straight line
 
 bool keeps_one_line(const Trajectory& trajectory) {
   const Vector3 first = trajectory.front().world_from_body.translation;

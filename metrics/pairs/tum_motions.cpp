@@ -41,7 +41,7 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
   return out;
 }
 
-/// The pairs, of poses of the estimate, that are no gap of the reference, and the poses they use.
+/// The pairs of estimate poses without a reference gap, and the poses they use.
 TumMotions laid_side_by_side(const Paired& whole,
                              double offset,
                              const Alignment& alignment,
@@ -63,7 +63,7 @@ TumMotions laid_side_by_side(const Paired& whole,
     }
   });
   TumMotions out;
-  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // of the poses in `out`
+  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // index into `out`
   const auto taken = [&](std::size_t i) {
     if (place[i] == kUnmatched) {
       place[i] = out.poses.estimate.size();

@@ -90,14 +90,15 @@ TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
     return why(config("{dataset: simulated}", metric, rest));
   };
   EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: frames}"),
-            "c.yaml:4: rpe: delta = 1.5: frames come whole");
+            "c.yaml:4: rpe: delta = 1.5: expected a whole number of frames");
   EXPECT_EQ(refusal("{metric: rpe, delta: 200, unit: deg}"),
-            "c.yaml:4: rpe: delta = 200.0: no turn is beyond half a circle");
+            "c.yaml:4: rpe: delta = 200.0: expected at most 180 degrees");
   EXPECT_EQ(refusal("{metric: ape, relation: point_distance_error_ratio}"),
-            "c.yaml:4: ape: relation = point_distance_error_ratio: is of motions: use rpe");
+            "c.yaml:4: ape: relation = point_distance_error_ratio: is defined only for relative "
+            "errors; use rpe");
   EXPECT_NE(refusal("{metric: segments, lengths: 8 apples}"), "");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}"),
-            "c.yaml:4: rpe: pairs = tum: looks at whole files; only a protocol can ask for it");
+            "c.yaml:4: rpe: pairs = tum: needs a protocol with pairs = tum");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}", "protocol: tum\n"), "");
   EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: s}"), "");
 }

@@ -128,8 +128,9 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
       bent_way(folder.path() / "marker.txt", {Rotation(0.5, 0.5, 0.5, 0.5), {0.1, -0.2, 0.3}});
   const std::string estimate = bent_way(folder.path() / "camera.txt", {});
   const std::string place = "0.1,-0.2,0.3,0.5,0.5,0.5,0.5";
-  EXPECT_THAT(eval({reference, estimate}),
-              HasSubstr("other body the reference seems to follow another body, at " + place));
+  EXPECT_THAT(
+      eval({reference, estimate}),
+      HasSubstr("other body the reference seems to track another body, with the offset " + place));
   const Json plain = eval_json({reference, estimate});
   EXPECT_TRUE(plain.contains("other_body"));
   EXPECT_GT(find(plain, "ate", "translation")["rmse"].get<double>(), 0.1);

@@ -134,14 +134,13 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
   const auto refusal = [](const std::string& text) {
     return why(config("- line", "- shift", "- ate", "protocol: " + text + "\n"));
   };
-  EXPECT_EQ(refusal("evoo"),
-            "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
+  EXPECT_EQ(refusal("evoo"), "c.yaml:7: protocol: unknown protocol 'evoo'; did you mean 'evo'?");
   EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is there twice");
   EXPECT_EQ(refusal("[]"), "c.yaml:7: protocol: is empty, expected a name");
   EXPECT_EQ(refusal("{sweep: {align: [se3, sim3]}}"),
             "c.yaml:7: protocol: is not swept; give a list of protocols");
   EXPECT_EQ(refusal("\n  base: kitti\n  offset: 1"),
-            "c.yaml:9: protocol: offset = 1.0: association index does not look at stamps");
+            "c.yaml:9: protocol: offset = 1.0: association index ignores stamps");
 }
 
 // What no option can refuse alone is found before anything runs, with its place.

@@ -83,9 +83,11 @@ TEST(BodyOffset, IsFoundWherePositionsBelongToAnotherPoint) {
   EXPECT_NEAR(found->fit.lever_explained, 1.0, 1e-12);
   EXPECT_EQ(found->fit.turn_explained, 0.0);
   EXPECT_LT(found->fit.deviation.maxCoeff(), 1e-9);
-  EXPECT_EQ(other_body(*found, {}),
-            "the reference seems to follow another body, at 0.3,-0.2,0.1 of the estimate's (+- "
-            "0.0,0.0,0.0 m): in turns, the place explains 100 % of how they differ");
+  EXPECT_EQ(
+      other_body(*found, {}),
+      "the reference seems to track another body, with the offset 0.3,-0.2,0.1 in the estimate's "
+      "body frame (+- "
+      "0.0,0.0,0.0 m): over rotations, the lever arm explains 100 % of the squared differences");
 }
 
 TEST(BodyOffset, IsFoundWhereAxesDiffer) {

@@ -68,7 +68,8 @@ TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
   const JudgedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
   for (const Score& score : gain_along(cell.evaluation, {})) {
     const bool is_free = score.axis == "x" || score.axis == "z" || score.relation == "angle";
-    EXPECT_EQ(score.why_undefined, is_free ? "there was no error before" : "") << score.axis;
+    EXPECT_EQ(score.why_undefined, is_free ? "the error before correction is zero" : "")
+        << score.axis;
     if (score.unit == "%" && score.axis != "" && !is_free) {
       EXPECT_EQ(score.statistics.rmse, 100.0);
     }
@@ -91,7 +92,7 @@ TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
       EXPECT_NEAR(number, -200.0, 1e-12);
     }
   }
-  EXPECT_EQ(gained(Statistic::median).why_undefined, "there was no error before");
+  EXPECT_EQ(gained(Statistic::median).why_undefined, "the error before correction is zero");
 }
 
 TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreJudged) {
@@ -164,7 +165,7 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   Problem problem;
   problem.keyframes = poses;
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs), {}); }),
-            "closure_residual: needs loop closures; files have none");
+            "closure_residual: needs loop closures, which files do not have");
   const JudgedCell none = corrected(problem, poses, poses);
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation, {}); }),
             "closure_residual: needs loop closures; the sequence has none");
@@ -193,7 +194,7 @@ TEST(LocalShape, ByHand) {
 TEST(LocalShape, RefusesFiles) {
   const Trajectory poses = line({0, 0, 0, 0, 0, 0});
   EXPECT_EQ(why<std::runtime_error>([&] { local_shape(evaluate(poses, poses, kAsIs), {}); }),
-            "local_shape: needs keyframes before correction; files have none");
+            "local_shape: needs keyframes before correction, which files do not have");
 }
 
 }  // namespace

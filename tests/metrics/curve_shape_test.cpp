@@ -102,12 +102,12 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
   poses[1].stamp = 1.0;
   poses[1].world_from_body.translation.x() = 1.0;
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(evaluate(poses, poses, kAsIs), {}); }),
-            "jumps: needs a curve; files have none");
+            "jumps: needs a curve, which files do not have");
   Problem problem;
   problem.keyframes = poses;
   const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(cell.evaluation, {}); }),
-            "jumps: needs three keyframes");
+            "jumps: needs at least three keyframes");
   problem.keyframes.push_back({1.0 + 1e-15, poses[1].world_from_body});
   problem.keyframes[2].stamp = std::nextafter(1.0, 2.0);
   const JudgedCell coarse(poses,
@@ -116,7 +116,7 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
                           Times::keyframes,
                           Protocol{.align = Align::none});
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
-            "jumps: the stamps around 1.0 s are too coarse to look beside a keyframe");
+            "jumps: the stamps around 1.0 s are too coarse for four samples beside a keyframe");
 }
 
 TEST(Jerk, ByHandOnACubic) {
@@ -158,7 +158,7 @@ TEST(Jerk, OfAStraightReferenceHasNoRatio) {
   problem.keyframes = poses;
   const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(jerk(cell.evaluation, {.rate = 1.0, .max_gap = 2.0}).at(2).why_undefined,
-            "the reference has no jerk to compare with");
+            "the reference has zero jerk");
 }
 
 }  // namespace

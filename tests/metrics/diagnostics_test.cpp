@@ -120,8 +120,8 @@ TEST(PositionOnly, RotationIsRefusedAndPositionIsNot) {
   const Trajectory reference = positions_only(Rotation::Identity());
   const Evaluation e = evaluate(reference, with_a_stop(), {});
   const std::string why =
-      "the reference keeps one attitude while its path turns: it holds positions only, so rotation "
-      "is not judged";
+      "the reference has a constant orientation although its path is curved: it holds only "
+      "positions, so rotation is not judged";
   EXPECT_EQ(why_no_attitude(e), why);
   const auto absolute = ate(e, {});
   EXPECT_EQ(absolute[0].why_undefined, "");

@@ -109,10 +109,11 @@ Trajectory bend(bool turns) {
 
 TEST(Evaluation, AFirstPoseWithoutAttitudeAlignsNothing) {
   for (const Align align : {Align::origin, Align::posyaw_origin}) {
-    EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
-              "alignment " + to_text(align) +
-                  ": the reference keeps one attitude while its path turns: it holds positions "
-                  "only, so its first pose aligns nothing; align by se3, sim3 or none");
+    EXPECT_EQ(
+        why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
+        "alignment " + to_text(align) +
+            ": the reference has a constant orientation although its path is curved: it holds only "
+            "positions, so its first pose does not define a rotation; align by se3, sim3 or none");
     EXPECT_NO_THROW(evaluate(bend(true), bend(true), {.align = align}));
     EXPECT_NO_THROW(evaluate(bend(false), bend(false), {.align = align}));
   }
@@ -123,7 +124,7 @@ TEST(Evaluation, CoordinatesBeyondDoublesSquaresAreToldSo) {
   Trajectory far = bend(true);
   far[3].world_from_body.translation.x() = 1e160;
   EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(true), far, Protocol{}); }),
-            "alignment se3: 20 pairs lie too far apart for double precision, so the rotation is "
+            "alignment se3: 20 pairs are too far apart for double precision, so the rotation is "
             "not unique; align by origin or none");
 }
 
@@ -151,7 +152,7 @@ TEST(Evaluation, SaysWhatDidNotMeet) {
               evaluate(at({0, 1}), at({0.5}), interpolating);
             }),
             "no pose of the estimate (0.5 .. 0.5 s, offset 0.0 s) matches the reference (0.0 .. "
-            "1.0 s): association interpolate wants a reference gap of at most 0.5 s");
+            "1.0 s): association interpolate accepts reference gaps of at most 0.5 s");
   EXPECT_EQ(why<std::runtime_error>([] { evaluate({}, at({0}), kPlain); }),
             "the reference has no poses");
   EXPECT_EQ(why<std::runtime_error>([] { evaluate(at({0}), {}, kPlain); }),

@@ -230,7 +230,7 @@ TEST(Golden, RandomPairsHaveNoDelta) {
   const Evaluation judged =
       evaluate(file("gt.txt"), file("est_drift.txt"), named_protocol("tum", random).rules);
   EXPECT_EQ(why<Undefined>([&] { rpe(judged, {.delta = 1.0, .unit = DeltaUnit::s}); }),
-            "rpe: pairs tum_random have no stretch of 1.0 s; ask for rpe without delta and unit");
+            "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
   EXPECT_EQ(rpe(judged, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
             620u);
 }

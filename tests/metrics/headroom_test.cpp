@@ -78,9 +78,9 @@ TEST(SmoothingHeadroom, ASteadyDriftGainsNothing) {
 TEST(SmoothingHeadroom, RefusesNoErrorAndNoTime) {
   const auto none = [](double) { return Vector3::Zero().eval(); };
   EXPECT_EQ(why<std::runtime_error>([&] { smoothing_headroom(straying(10, none), {}); }),
-            "smoothing_headroom: there is no error to take away");
+            "smoothing_headroom: the error is zero");
   EXPECT_EQ(why<std::runtime_error>([&] { smoothing_headroom(straying(1, none), {}); }),
-            "smoothing_headroom: needs two poses at different times");
+            "smoothing_headroom: needs two poses with different stamps");
 }
 
 TEST(MovingAverage, ByHandShrinksAtTheEndsAndBesideHoles) {

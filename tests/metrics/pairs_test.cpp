@@ -234,9 +234,9 @@ TEST(StretchPairs, RefuseWhatNoStretchCanBe) {
       stretch_pairs(poses, poses, PairRule::all, {delta, unit, 0.1});
     });
   };
-  EXPECT_EQ(refusal(1.5, DeltaUnit::frames), "delta = 1.5: frames come whole");
-  EXPECT_EQ(refusal(181.0, DeltaUnit::deg), "delta = 181.0: no turn is beyond half a circle");
-  EXPECT_EQ(refusal(4.0, DeltaUnit::rad), "delta = 4.0: no turn is beyond half a circle");
+  EXPECT_EQ(refusal(1.5, DeltaUnit::frames), "delta = 1.5: expected a whole number of frames");
+  EXPECT_EQ(refusal(181.0, DeltaUnit::deg), "delta = 181.0: expected at most 180 degrees");
+  EXPECT_EQ(refusal(4.0, DeltaUnit::rad), "delta = 4.0: expected at most 180 degrees");
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(Rpe, PointDistancesCompareLengthsOfMotions) {
 
 TEST(Rpe, TumPairsAreForProtocolsThatAskForThem) {
   EXPECT_EQ(why<OptionError>([] { rpe(two_poses(), {.pairs = RpePairs::tum}); }),
-            "pairs = tum: looks at whole files; only a protocol can ask for it");
+            "pairs = tum: needs a protocol with pairs = tum");
 }
 
 }  // namespace

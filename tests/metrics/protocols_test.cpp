@@ -58,47 +58,45 @@ TEST(Protocols, ChangesAreToldAndNonChangesAreNot) {
 
 TEST(Protocols, WhatIsAskedForHasToMatter) {
   EXPECT_EQ(refusal("kitti", {{"max_diff", 0.001}}),
-            "max_diff = 0.001: association index does not look at it");
+            "max_diff = 0.001: association index does not use it");
   EXPECT_EQ(refusal("loopbench", {{"association", word("interpolate")}, {"max_diff", 0.02}}),
-            "max_diff = 0.02: association interpolate does not look at it");
-  EXPECT_EQ(refusal("evo", {{"max_gap", 0.5}}),
-            "max_gap = 0.5: association evo does not look at it");
+            "max_diff = 0.02: association interpolate does not use it");
+  EXPECT_EQ(refusal("evo", {{"max_gap", 0.5}}), "max_gap = 0.5: association evo does not use it");
   EXPECT_NO_THROW(named_protocol("evo", {{"association", word("interpolate")}, {"max_gap", 0.5}}));
 }
 
 TEST(Protocols, AnUnknownNameIsAnsweredWithTheKnownOnes) {
   const std::string got = why<InputError>([] { named_protocol("evoo"); });
-  EXPECT_EQ(got.find("no protocol is named 'evoo' (known: loopbench, evo, tum, "), 0u) << got;
+  EXPECT_EQ(got.find("unknown protocol 'evoo' (known: loopbench, evo, tum, "), 0u) << got;
 }
 
 TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("evo", {{"align_first", std::int64_t{100}}}),
-            "align_first = 100: only least squares look at several pairs, not origin or none");
+            "align_first = 100: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal("loopbench", {{"align_first", std::int64_t{2}}}),
-            "align_first = 2: too few for least squares; one pose is align: origin");
-  EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}),
-            "offset = 1.0: association index does not look at stamps");
+            "align_first = 2: too few pairs for least squares; for one pose use align: origin");
+  EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}), "offset = 1.0: association index ignores stamps");
   EXPECT_EQ(refusal("tum", {{"pairs_from", word("reference")}}),
-            "pairs_from = reference: pairs tum are those of the estimate");
+            "pairs_from = reference: pairs tum always use the estimate");
   EXPECT_EQ(refusal("tum", {{"project", word("xy")}}),
-            "project = xy: pairs tum are taken from the files, not flattened");
+            "project = xy: pairs tum use the unprojected files");
   EXPECT_EQ(refusal("evo", {{"pairs", word("tum_random")}, {"pairs_from", word("reference")}}),
-            "pairs_from = reference: pairs tum_random are those of the estimate");
+            "pairs_from = reference: pairs tum_random always use the estimate");
   EXPECT_EQ(refusal("evo", {{"max_pairs", std::int64_t{0}}}),
-            "max_pairs = 0: only pairs tum and tum_random are drawn");
+            "max_pairs = 0: applies only to pairs tum and tum_random");
   EXPECT_EQ(refusal("tum", {{"pairs", word("tum_random")}, {"max_pairs", std::int64_t{0}}}),
-            "max_pairs = 0: pairs tum_random would be every pose with every other; use tum");
+            "max_pairs = 0: pairs tum_random needs a limit above 0; for all pairs use tum");
   EXPECT_EQ(refusal("rpg", {{"segments.precision", word("float32")}}),
             "segments.precision = float32: is the KITTI devkit's: end beyond, form kitti, angle "
             "trace");
   EXPECT_EQ(refusal("kitti", {{"segments.end", word("nearest")}}),
-            "segments.tolerance = 0: no end would be near enough");
+            "segments.tolerance = 0: expected more than zero");
   EXPECT_EQ(refusal("ov_eval", {{"segments.tolerance", word("8")}}),
-            "segments.tolerance = 8: as wide as a length, so a start would end it");
+            "segments.tolerance = 8: expected less than every length");
   EXPECT_EQ(refusal("rpg", {{"segments.step", std::int64_t{2}}}),
-            "segments.step = 2: end rpg starts at every pose");
+            "segments.step = 2: segments.end = rpg requires step 1");
   EXPECT_EQ(refusal("evo", {{"segments.lengths", word("ten")}}),
-            "segments.lengths: 'ten': expected metres or a share, like 100 or 20%");
+            "segments.lengths: 'ten': expected a length in metres or %, as 100 or 20%");
   EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 breaks 0 <= ddof <= 1");
 }
 
