@@ -158,7 +158,7 @@ NamedProtocol named_protocol(const std::string& name, const Params& changes) {
   if (found == known.end()) {
     std::string names;
     for (const ProtocolEntry& entry : known) names += (names.empty() ? "" : ", ") + entry.name;
-    throw InputError("unknown protocol '" + name + "' (known: " + names + ")");
+    throw InputError("no protocol is named '" + name + "' (known: " + names + ")");
   }
   NamedProtocol out{found->name, found->version, {}, with(found->protocol, changes)};
   check(out.rules);

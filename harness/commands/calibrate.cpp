@@ -24,7 +24,7 @@ struct CalibrateArguments {
 };
 
 constexpr std::size_t kStretches[] = {1, 5, 20, 50};
-constexpr std::size_t kSegment = 10;  // of the bootstrap, in stretches
+constexpr std::size_t kSegment = 10;  // block length of the bootstrap, in edge groups
 constexpr std::uint64_t kSeed = 1;
 
 std::vector<Residuals> residuals_of(const std::vector<std::shared_ptr<const Sequence>>& sequences,
@@ -69,8 +69,8 @@ int calibrate(const CalibrateArguments& arguments) {
   }
   out.sequences = residuals_of(loaded, labels, out.every);
   if (out.sequences.empty()) {
-    throw InputError(arguments.config + ": no dataset has two stretches of " +
-                     std::to_string(out.every) + " edges; make --every smaller");
+    throw InputError(arguments.config + ": no dataset has two groups of " +
+                     std::to_string(out.every) + " edges; use a smaller --every");
   }
   for (const std::size_t edges : kStretches) {
     const std::vector<Residuals> at = residuals_of(loaded, labels, edges);
@@ -93,21 +93,21 @@ int calibrate(const CalibrateArguments& arguments) {
 void add_calibrate(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand(
-      "calibrate", "Learn motion_drift's variances from sequences whose truth is known");
-  command->add_option("config", arguments->config, "YAML file whose datasets to learn from")
+      "calibrate", "Estimate noise variances for motion_drift from sequences with a reference");
+  command->add_option("config", arguments->config, "YAML config with the training datasets")
       ->required();
-  command->add_option("--train", arguments->train, "Only datasets whose label matches")
+  command->add_option("--train", arguments->train, "Train only on datasets whose label matches")
       ->type_name("REGEX");
   command
       ->add_option("--every",
                    arguments->every,
-                   "Edges taken as one: a longer stretch drowns jitter that does not add up")
+                   "Number of consecutive edges combined into one; longer groups suppress jitter")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--draws", arguments->draws, "Of the bootstrap")
+  command->add_option("--draws", arguments->draws, "Number of bootstrap samples")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  command->add_option("--data", arguments->data, "Folder with real data")
+  command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
   command->add_option("--out", arguments->out, "YAML file to write")->type_name("FILE");

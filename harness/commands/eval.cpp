@@ -12,12 +12,12 @@
 namespace loopbench {
 namespace {
 
-/// A file's poses, and its matrices as printed when it holds some and they are wanted.
+/// Poses of a file, and its printed matrices if it holds matrices and they are needed.
 struct Loaded {
   Trajectory poses;
   std::vector<PoseMatrix> matrices;
   ReadFindings mended;
-  std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
+  std::string unstamped;  ///< file and format if the stamps were generated, otherwise empty
 };
 
 Judgement failure(const EvalArguments& a,
@@ -33,7 +33,7 @@ Judgement failure(const EvalArguments& a,
   return out;
 }
 
-/// The same reader for reference and estimate, differing in format only.
+/// Reader for reference and estimate, which differ only in format.
 struct Reader {
   const EvalArguments& arguments;
   bool wants_matrices = false;
@@ -56,7 +56,7 @@ struct Reader {
     if (options.format == Format::g2o || (is_kitti && !options.times)) {
       out.unstamped = file + ": is " + to_text(options.format);
     }
-    if (out.poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
+    if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
     if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
     return out;
   }
@@ -67,7 +67,7 @@ struct Reader {
   }
 };
 
-/// Numbered poses beside stamped ones would be paired by chance. `one`, `other`: Loaded::unstamped.
+/// Rejects a file without stamps paired with a stamped file. `one`, `other`: Loaded::unstamped.
 std::string why_two_clocks(const EvalArguments& a,
                            const Protocol& protocol,
                            const std::string& one,
@@ -88,7 +88,7 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 
 std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
-  for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
+  for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // validates early
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
       !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
@@ -101,7 +101,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
-  ReadFindings mended;  // these two of the reference
+  ReadFindings mended;  // for the current reference
   std::string unstamped;
   PrintedPoses printed;
   for (const FilePair& pair : files) {
@@ -141,7 +141,8 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
         out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
         if (is_alone) {
-          throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+          throw InputError(pair.estimate + " with reference " + pair.reference + ": " +
+                           error.what());
         }
         out.push_back(failure(a, pair, protocol, error.what()));
       }
@@ -151,7 +152,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
     }
   }
   if (!a.times.empty() && !reader.has_used_times) {
-    throw InputError(a.times + ": is a times file, but no file here is KITTI poses");
+    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
   }
   return out;
 }
@@ -176,7 +177,7 @@ int eval(const EvalArguments& a) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<EvalArguments>();
-  CLI::App* command = app.add_subcommand("eval", "Judge trajectory files against a reference");
+  CLI::App* command = app.add_subcommand("eval", "Evaluate trajectory files against a reference");
   declare(*command, *a);
   command->callback([a, &exit_code] { exit_code = eval(*a); });
 }

@@ -130,7 +130,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
     each.add("gravity", length.text, "deg", kDegrees, std::move(errors.gravity));
   }
   if (all.errors.rotation_rate.empty()) {
-    throw Undefined("segments: no stretch of the reference (" +
+    throw Undefined("segments: no segment of the reference (" +
                     to_text(evaluation.reference_length) + " m) has a length of " +
                     (is_own ? options.lengths : rule.lengths));
   }

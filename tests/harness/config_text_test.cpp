@@ -77,7 +77,7 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
             "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
   EXPECT_EQ(refusal("exclude: raw\n"),
             "c.yaml:5: exclude: expected a list of {dataset, method} patterns");
-  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a word");
+  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a string");
   EXPECT_EQ(why(config("{dataset: simulated, keyframes: {}}")),
             "c.yaml:2: keyframes: has no value");
   EXPECT_EQ(

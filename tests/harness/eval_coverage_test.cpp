@@ -48,12 +48,13 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   EXPECT_EQ(judged[1]["status"], "incomplete");
   EXPECT_EQ(judged[1]["coverage"], 1.0);  // all of its own five poses
   EXPECT_LT(judged[1]["span"], 0.01);
-  EXPECT_EQ(judged[1]["why"],
-            "judged 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
-            "% that another estimate covers");
+  EXPECT_EQ(
+      judged[1]["why"],
+      "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
+      "% of another estimate");
   const std::string table = eval(both, kExitSomeCellsFailed);
   EXPECT_THAT(table, HasSubstr("| poses [%] | time [%] |"));
-  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: judged 5 of 5 poses over 0.4 %"));
+  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: evaluated 5 of 5 poses over 0.4 %"));
 
   std::vector<std::string> accepted = both;
   accepted.push_back("--min-coverage=0");

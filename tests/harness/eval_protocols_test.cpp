@@ -136,14 +136,14 @@ TEST(Eval, WritesTheErrorOfEveryPose) {
 TEST(Eval, RefusesProtocolsThatCannotBe) {
   const std::string tum = golden("gt.txt");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evoo"}),
-            "unknown protocol 'evoo'; did you mean 'evo'?");
+            "no protocol is named 'evoo'; did you mean 'evo'?");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--set=ddof"}),
-            "--set: 'ddof' is not FIELD=VALUE, for example ddof=1");
+            "--set: 'ddof': expected FIELD=VALUE, for example ddof=1");
   EXPECT_THROW(eval({tum, tum, "--set=dof=1"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-r", "fulll"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-u", "feet"}), OptionError);
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=origin", "-s"}),
-            "align = origin: has no form with scale; use se3 or none");
+            "align = origin: has no variant with scale; use se3 or none");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--protocol=evo", "--n_to_align=9"}),
             "align_first = 9: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--protocol=kitti", "--t_max_diff=0.001"}),

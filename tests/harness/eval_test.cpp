@@ -137,7 +137,7 @@ TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
   }
   const std::string why =
       refusal<InputError>({golden("gt.txt"), golden("est_drift.txt"), "--times=" + times});
-  EXPECT_EQ(why, times + ": is a times file, but no file here is KITTI poses");
+  EXPECT_EQ(why, times + ": is a times file, but no file has KITTI poses");
 }
 
 TEST(Eval, PrintsATableForPeople) {
@@ -213,7 +213,7 @@ TEST(Eval, NothingThatWasAskedForIsNoSuccess) {
   const Json judged =
       eval_json({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
   EXPECT_EQ(judged["status"], "undefined");
-  EXPECT_EQ(judged["why"], "nothing that was asked for is defined here");
+  EXPECT_EQ(judged["why"], "none of the requested metrics is defined");
   EXPECT_TRUE(judged["metrics"].empty());
   EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 635 poses is 1e+09 frames before another");
   const std::string text =
@@ -260,7 +260,7 @@ TEST(Eval, RefusesWhatItCannotJudge) {
   const std::string kitti = golden("kitti_gt.txt");
   const std::string tum = golden("gt.txt");
   EXPECT_EQ(refusal<InputError>({tum, kitti, "--period=0.1"})
-                .find(kitti + " against " + tum + ": no pose of"),
+                .find(kitti + " with reference " + tum + ": no pose of"),
             0u);
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=best"}),
             "align = best: expected one of se3 | sim3 | scale | posyaw | origin | posyaw_origin | "

@@ -80,7 +80,8 @@ TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {
 }
 
 TEST(Grid, RefusesWithFileAndLine) {
-  EXPECT_EQ(why("method: m\na: [1, 2]\n"), "c.yaml:2: a: a list belongs under 'sweep' or 'zip'");
+  EXPECT_EQ(why("method: m\na: [1, 2]\n"),
+            "c.yaml:2: a: lists are accepted only under 'sweep' or 'zip'");
   EXPECT_EQ(why("method: m\na:\n"), "c.yaml:2: a: has no value");
   EXPECT_EQ(why("method: m\nsweep: {a: 3}\n"), "c.yaml:2: a: expected a list or {from, to, steps}");
   EXPECT_EQ(why("method: m\nsweep: {a: []}\n"),
@@ -96,7 +97,7 @@ TEST(Grid, RefusesWithFileAndLine) {
   EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 0}}\n"),
             "c.yaml:2: steps: expected a whole number, 1 to 100000");
   EXPECT_EQ(why("method: m\nsweep: {a: {from: -1e308, to: 1e308, steps: 3}}\n"),
-            "c.yaml:2: a range from, to must not be wider than a double is");
+            "c.yaml:2: the range from .. to is too wide for double precision");
   EXPECT_EQ(why("method: m\nsweep:\n  a: {from: 1, to: 101, steps: 101}\n"
                 "  b: {from: 1, to: 100, steps: 100}\n"),
             "c.yaml:1: sweeps over more than 10000 combinations");

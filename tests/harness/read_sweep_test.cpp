@@ -68,14 +68,14 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
   EXPECT_EQ(why(config("- dataset: line\n    bais: 0.5")),
             "c.yaml:3: line: bais: unknown option (has: bias, seed); did you mean 'bias'?");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, by: 1}")),
-            "c.yaml:4: by: both stages have it; say shift.by or straight.by");
+            "c.yaml:4: by: both stages have this option; use shift.by or straight.by");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, fial: true}")),
             "c.yaml:4: no option of either stage is named 'fial'; did you mean 'fail'?");
   EXPECT_EQ(why(config("- line", "- straight + shift")),
             "c.yaml:4: straight + shift: is smoother + corrector; stages compose as corrector + "
             "smoother");
   EXPECT_EQ(why(config("- line", "- shift\n  - shift")),
-            "c.yaml:5: two entries of methods are called 'shift'; give one a label");
+            "c.yaml:5: two entries of methods have the label 'shift'; set label in one");
   EXPECT_EQ(why(config("- line", "- shift", "- {metric: ate, power: 7}")),
             "c.yaml:6: ate: power = 7 breaks 1 <= power <= 2");
 }
@@ -134,11 +134,11 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
   const auto refusal = [](const std::string& text) {
     return why(config("- line", "- shift", "- ate", "protocol: " + text + "\n"));
   };
-  EXPECT_EQ(refusal("evoo"), "c.yaml:7: protocol: unknown protocol 'evoo'; did you mean 'evo'?");
-  EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is there twice");
+  EXPECT_EQ(refusal("evoo"), "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
+  EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is listed twice");
   EXPECT_EQ(refusal("[]"), "c.yaml:7: protocol: is empty, expected a name");
   EXPECT_EQ(refusal("{sweep: {align: [se3, sim3]}}"),
-            "c.yaml:7: protocol: is not swept; give a list of protocols");
+            "c.yaml:7: protocol: cannot be swept; use a list of protocols");
   EXPECT_EQ(refusal("\n  base: kitti\n  offset: 1"),
             "c.yaml:9: protocol: offset = 1.0: association index ignores stamps");
 }

@@ -178,7 +178,7 @@ TEST(Group, IsAWordInTheConfig) {
     sweep_of("  - {dataset: simulated, group: [a, b]}\n", folder);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a word"));
+    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a string"));
   }
 }
 

@@ -67,7 +67,7 @@ TEST(Protocols, WhatIsAskedForHasToMatter) {
 
 TEST(Protocols, AnUnknownNameIsAnsweredWithTheKnownOnes) {
   const std::string got = why<InputError>([] { named_protocol("evoo"); });
-  EXPECT_EQ(got.find("unknown protocol 'evoo' (known: loopbench, evo, tum, "), 0u) << got;
+  EXPECT_EQ(got.find("no protocol is named 'evoo' (known: loopbench, evo, tum, "), 0u) << got;
 }
 
 TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
