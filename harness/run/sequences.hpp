@@ -1,4 +1,4 @@
-/// The sequences of a sweep, each loaded once and let go when its last cell is done.
+/// Loads each sequence of a sweep once and frees it after its last cell.
 #pragma once
 
 #include <map>
@@ -14,21 +14,21 @@
 
 namespace loopbench {
 
-/// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
+/// Whether each dataset of the sweep has a `seed` option, so that repeats differ.
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
 
 /// Loads the sequence of a cell, with the seed of its repeat. Throws InputError with the dataset's
-/// label when a file is missing or broken.
+/// label if a file is missing or invalid.
 Sequence load_sequence(const Cell& cell,
                        const Sweep& sweep,
                        const Catalogue& catalogue,
                        const DataRoot& root);
 
-/// What is kept about the sequence of a cell; its dataset's `group` goes before the source. Throws
+/// Metadata of the sequence of a cell; the dataset's `group` overrides the source. Throws
 /// InputError.
 SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep);
 
-/// The dataset's options in full, defaults included, with the seed of this repeat.
+/// All options of the dataset including defaults, with the seed of this repeat.
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
 
 /// Thread-safe.
@@ -39,14 +39,14 @@ class Sequences {
             DataRoot root,
             const std::vector<Cell>& cells);
 
-  /// The sequence of a cell, loaded by whoever asks first. Throws InputError with the dataset's
-  /// label when a file is missing or broken.
+  /// The sequence of a cell, loaded by the first caller. Throws InputError with the dataset's label
+  /// if a file is missing or invalid.
   std::shared_ptr<const Sequence> get(const Cell& cell);
 
-  /// What is kept about it. Only after get().
+  /// Metadata of the sequence. Only after get().
   std::shared_ptr<const SequenceFacts> facts(const Cell& cell);
 
-  /// Says that a cell will not ask again.
+  /// Declares that a cell does not need its sequence any more.
   void done(const Cell& cell);
 
  private:
@@ -54,14 +54,14 @@ class Sequences {
     std::mutex mutex;
     std::shared_ptr<const Sequence> sequence;
     std::shared_ptr<const SequenceFacts> facts;
-    std::size_t waiting = 0;  ///< cells not done yet
+    std::size_t waiting = 0;  ///< unfinished cells
   };
   using Key = std::pair<std::size_t, int>;  // dataset, repeat
 
   const Sweep& sweep_;
   const Catalogue& catalogue_;
   DataRoot root_;
-  std::map<Key, Slot> slots_;  ///< complete after construction: only the slots' insides change
+  std::map<Key, Slot> slots_;  ///< keys are fixed after construction; only slots change
 };
 
 }  // namespace loopbench

@@ -23,24 +23,24 @@ void set_aside(const std::filesystem::path& file) {
     if (std::filesystem::exists(file)) {
       std::filesystem::rename(file, file.parent_path() / "previous.sqlite");
     }
-    // Left by a kill: they belong to the file just moved and would corrupt the new one.
+    // Log files left by a killed process belong to the moved file and would corrupt the new one.
     for (const char* tail : {"-wal", "-shm"}) std::filesystem::remove(file.string() + tail);
   } catch (const std::filesystem::filesystem_error& error) {
     throw InputError(file.string() + ": cannot be written: " + error.code().message());
   }
 }
 
-/// WAL with NORMAL survives a killed process; only a power cut may lose the last cells, whole. The
-/// log is copied into the file every 16 MB, some hundred cells with traces: each copy waits for the
-/// disk.
+/// WAL with NORMAL is safe if the process is killed; a power cut can lose the last cells, each
+/// completely. The log is copied into the file every 16 MB, some hundred cells with traces, because
+/// each copy waits for the disk.
 void make_ready(Database& database) {
   database.execute(
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
 }
 
-/// SQLite reads a file that was cut off as far as it goes.
+/// SQLite does not detect that the end of a file is missing.
 void check_size(Database& database, const std::filesystem::path& file) {
-  if (std::filesystem::exists(file.string() + "-wal")) return;  // its end may lie there
+  if (std::filesystem::exists(file.string() + "-wal")) return;  // can hold the end of the file
   Statement pages =
       database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
   const std::int64_t whole = pages.step() ? pages.integer() : 0;
@@ -54,7 +54,7 @@ void check_size(Database& database, const std::filesystem::path& file) {
                   whole));
 }
 
-/// Killed between making the file and its tables.
+/// Whether the process was killed between creating the file and its tables.
 bool is_empty(Database& database) {
   Statement count = database.prepare("SELECT count(*) FROM sqlite_master");
   return count.step() && count.integer() == 0;
@@ -69,7 +69,7 @@ void say_run(Database& database, const CellKeys& keys) {
   say("loopbench", kVersion);
   say("sweep", sweep.name);
   say("config", sweep.text);
-  std::string rules;  // in full, one protocol a line
+  std::string rules;  // in full, one protocol per line
   for (const NamedProtocol& protocol : sweep.protocols) {
     rules +=
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
@@ -81,7 +81,7 @@ void say_run(Database& database, const CellKeys& keys) {
   renew_texts(database, "run");
 }
 
-/// Whether the store says of its run what it would say now: a default may have changed in the code.
+/// Whether the stored description of the run is current: a default in the code can have changed.
 bool says_the_same(Database& database, const CellKeys& keys) {
   const auto is = [&](const std::string& key, const std::string& text) {
     Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
@@ -91,7 +91,7 @@ bool says_the_same(Database& database, const CellKeys& keys) {
          is("methods", keys.methods_in_full());
 }
 
-/// What the cells of this run say they are made by.
+/// Provenance of the cells of this run.
 std::string made_key(const std::map<std::string, std::string>& provenance) {
   Fields fields;
   for (const auto& [key, value] : provenance) fields.add(key).add(value);
@@ -134,9 +134,9 @@ Store::~Store() {
   writer_.reset();
   if (!database_) return;
   try {
-    database_->execute("PRAGMA journal_mode = DELETE");  // leaves one file, nothing beside it
+    database_->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
   } catch (const std::exception&) {
-    // Another reader holds it: the -wal file stays and is merged by the next one to open it.
+    // Another process reads it: the -wal file remains until the next process opens it.
   }
 }
 
@@ -147,8 +147,8 @@ void Store::create() {
   if (failed) throw InputError(file_.string() + ": cannot be written: " + failed.message());
   if (!lock_) {
     lock_ = std::make_unique<FolderLock>(folder);
-    if (std::filesystem::exists(file_)) {  // the folder was not there a moment ago
-      throw InputError(file_.string() + ": another sweep wrote it meanwhile; run again");
+    if (std::filesystem::exists(file_)) {  // created since the check above
+      throw InputError(file_.string() + ": another sweep created it in the meantime; run again");
     }
   }
   if (!empty_) set_aside(file_);
@@ -177,7 +177,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
-  // Digests are of tables, but a cell is replaced by way of an index.
+  // Digests cover tables, but cells are replaced through an index.
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
