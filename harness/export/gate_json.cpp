@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Which score it is, without its numbers.
+/// Identification of a score, without its numbers.
 Json question(const GateScore& s) {
   Json out{{"protocol", s.protocol},
            {"times", s.times},
@@ -80,7 +80,7 @@ Json written(const Tolerance& limit) {
   return out;
 }
 
-/// Every statistic that some limit is about.
+/// All statistics that have a limit.
 std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
   std::vector<std::string> out;
   for (const Tolerance& limit : limits) {

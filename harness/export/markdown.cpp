@@ -5,8 +5,8 @@
 namespace loopbench {
 namespace {
 
-/// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
-/// or a sign: names like uniform_position and p < 0.05 stay readable.
+/// Escapes `_` only at word boundaries, and `<` and `&` only before a letter or a sign, so that
+/// names such as uniform_position and p < 0.05 remain readable.
 std::string escaped_markdown(const std::string& text) {
   const std::string line = one_line(text);
   const auto is_word = [&](std::size_t i) {

@@ -17,7 +17,7 @@ std::string listed(const std::vector<std::string>& list) {
   return out;
 }
 
-/// The list that goes with a key, keys in the order they first came.
+/// The list of a key, keys in order of first appearance.
 template <class Key>
 class Lists {
  public:

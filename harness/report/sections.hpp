@@ -1,4 +1,4 @@
-/// The parts of a report that are plain HTML.
+/// Static HTML sections of a report.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace loopbench {
 
-/// How much was run and with what outcome, and the headline verdict in large type.
+/// Summary: number of cells by status, and the headline verdict in large type.
 std::string summary_html(const ReportContent& content);
 
-/// A verdict for every score.
+/// Verdict for every score.
 std::string verdicts_html(const ReportContent& content);
 
 /// The headline comparison in full.

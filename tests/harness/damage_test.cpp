@@ -127,10 +127,10 @@ TEST_F(Damage, NamesTheCellAndWhatToDo) {
   change(
       "UPDATE score SET rmse = rmse * 0.999 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
   const std::string said = refusal(file_);
-  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not what was written"),
+  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not as written"),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("makes it again"), std::string::npos) << said;
+  EXPECT_NE(said.find("to recompute it"), std::string::npos) << said;
   const Ran again = run(kUsual);
   EXPECT_EQ(again.cells, Labels{"b / shifted"});
   EXPECT_EQ(again.resumed.damaged, Labels{"b / shifted"});

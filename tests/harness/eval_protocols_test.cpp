@@ -104,7 +104,7 @@ TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
   const std::vector<std::string> asked{
       golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
   const std::string why =
-      "judged 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
+      "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
   const Json judged = eval_json(asked, kExitSomeCellsFailed);
   EXPECT_EQ(judged["status"], "incomplete");
   EXPECT_EQ(judged["why"], why);

@@ -250,7 +250,7 @@ TEST(Eval, WritesOverNoneOfItsInputs) {
   const std::string mine = (folder.path() / "mine.txt").string();
   const std::string link = (folder.path() / "." / "link").string();
   EXPECT_EQ(refusal<InputError>({golden("gt.txt"), mine, "--per-pose=" + link}),
-            link + ": is read by this command, so it is not written over");
+            link + ": is an input of this command and is not overwritten");
   EXPECT_THROW(eval({golden("gt.txt"), link, "--per-pose=" + mine}), InputError);
   EXPECT_THROW(eval({mine, golden("gt.txt"), "--per-pose=" + mine}), InputError);
   EXPECT_EQ(std::filesystem::file_size(mine), std::filesystem::file_size(golden("est_drift.txt")));

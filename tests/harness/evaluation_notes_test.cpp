@@ -42,7 +42,7 @@ TEST(EvaluationNotes, OfASequenceNameTheTimeThatIsBridged) {
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
             "tracking gaps: 30.1 s between keyframes are bridged without a measurement, and not "
-            "judged (max_estimate_gap)");
+            "evaluated (max_estimate_gap)");
 }
 
 TEST(EvaluationNotes, OfASequenceNameLittleCoverageAndFewPairs) {

@@ -48,7 +48,7 @@ TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
 TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
   const std::vector<Record> g = gains({ate("raw", 1e-16), ate("uniform", 0.15)}, "raw");
   EXPECT_EQ(g[1].status, "declined");
-  EXPECT_EQ(g[1].why, "the baseline raw has no error here that could be reduced");
+  EXPECT_EQ(g[1].why, "the error of the baseline raw is zero");
 }
 
 TEST(RunTimes, AreOnePerCellAndTimes) {
@@ -107,7 +107,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   records[3].axis = "x";
   for (const std::size_t i : {1u, 2u, 3u}) {
     records[i].status = "incomplete";
-    records[i].why = "judged 1 of 9 poses";
+    records[i].why = "evaluated 1 of 9 poses";
   }
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
@@ -116,7 +116,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
   EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
   EXPECT_EQ(tables[0].notes,
-            (std::vector<std::string>{"raw, worse: incomplete: judged 1 of 9 poses"}));
+            (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
   EXPECT_TRUE(gains(records, "worse").empty());
 }
@@ -151,7 +151,8 @@ TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
   EXPECT_NE(
-      text.find("\nroom,0,\"a, \"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
+      text.find("\nroom,0,\"a, "
+                "\"\"b\"\"\",,false,false,,,keyframes,ate,ate,translation,3d,m,lower,,0,0.1,"),
       std::string::npos)
       << text;
   records[0].statistics.rmse = 1.0 / 3.0;

@@ -49,7 +49,7 @@ TEST(Gate, FailsOnWhatVanishedOrFailsNewly) {
   const GateReport score = after([](Snapshot& now) { now.cells[0].scores[0].status = "failed"; });
   EXPECT_EQ(score.findings.at(0).score, "ate translation 3d, dense, loopbench");
   const GateReport pairs = after([](Snapshot& now) { now.cells[0].scores[0].pairs = 399; });
-  EXPECT_EQ(pairs.findings.at(0).what, "judged 399 pose pairs, was 400");
+  EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
 }
 
 TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
@@ -171,16 +171,16 @@ TEST(Gate, TellsTheOptionsThatDiffer) {
     });
   };
   EXPECT_EQ(with("simulated: laps=2, path=room; a.txt 3 beef"),
-            "the baseline is of another sequence 'room': it has 'simulated: laps=1', these "
+            "the baseline has another sequence 'room': it has 'simulated: laps=1', these "
             "results have 'simulated: laps=2'");
   EXPECT_EQ(with("simulated: laps=1, path=room; a.txt 3 cafe"),
-            "the baseline is of another sequence 'room': it has 'a.txt 3 beef', these results "
+            "the baseline has another sequence 'room': it has 'a.txt 3 beef', these results "
             "have 'a.txt 3 cafe'");
 }
 
 TEST(Gate, RefusesOtherInputsAndProtocols) {
   EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences["room"] = "path=city"; }); }),
-            "the baseline is of another sequence 'room': it has 'path=room', these results have "
+            "the baseline has another sequence 'room': it has 'path=room', these results have "
             "'path=city'");
   EXPECT_NE(refusal_of([] { after([](Snapshot& now) { now.protocols.clear(); }); }), "");
   EXPECT_NE(refusal_of([] { after([](Snapshot& n) { n.protocols["loopbench [1]"] = ""; }); }), "");
@@ -193,7 +193,7 @@ TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
   for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
   for (const GateExtent extent : {GateExtent::whole, GateExtent::part}) {
     EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
-              "the baseline is of another sweep: no cell of 'outliers' is among these results");
+              "the baseline belongs to another sweep: the results contain no cell of 'outliers'");
   }
 }
 

@@ -78,9 +78,8 @@ TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
 TEST(PlantedRegression, AnHonestMethodReplacedByAnOracleUnderItsLabel) {
   expect_named(caught_definition([](Snapshot& now) { now.methods["uniform"] = "paper_oracle"; }),
                {"another method 'uniform'", "'paper_oracle'"});
-  expect_named(
-      caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
-      {"room / uniform", "oracle: the method or its data is shown the reference, was not"});
+  expect_named(caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
+               {"room / uniform", "oracle: the method or its data uses the reference, was not"});
 }
 
 TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
@@ -187,11 +186,11 @@ TEST(PlantedRegression, LessOfTheTrajectoryJudged) {
   expect_named(caught_records([](Record& r) {
                  if (r.cell == 1) r.pairs = 399;
                }),
-               {"room / uniform", "judged 399 pose pairs, was 400"});
+               {"room / uniform", "evaluated 399 pose pairs, was 400"});
   expect_named(caught_records([](Record& r) {
                  if (r.cell == 1) r.possible = 4000;
                }),
-               {"room / uniform", "judged 400 of 4000 possible pose pairs, was 400 of 400"});
+               {"room / uniform", "evaluated 400 of 4000 possible pose pairs, was 400 of 400"});
 }
 
 TEST(PlantedRegression, AnotherUnitOrDirection) {

@@ -100,7 +100,7 @@ TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
                            "told to fail",
                            "told to decline",
-                           "scores without a number",
+                           "undefined scores",
                            "told to be undefined",
                            "verdict for every score",
                            "Protocol of every number",

@@ -99,7 +99,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
     EXPECT_GT(r.statistics.rmse, 0.0);  // kept all the same
     if (!is_short) continue;
     ++incomplete;
-    EXPECT_EQ(r.why, "judged 4 of 4 poses over 33.3 % of the reference's time, below 50.0 %");
+    EXPECT_EQ(r.why, "evaluated 4 of 4 poses over 33.3 % of the reference's time, below 50.0 %");
   }
   EXPECT_EQ(incomplete, 3);
   for (const Record& r : records) {  // what the metric could not do at all stays failed

@@ -43,7 +43,7 @@ TEST(SequenceFacts, TellOfAReferenceThatFollowsAnotherBody) {
   const auto notes = [&] { return sequence_facts(sequence, false).notes; };
   EXPECT_EQ(notes(), std::vector{found});
   sequence.provenance.body_from_reference = Pose{};  // the dataset could have been told
-  EXPECT_EQ(notes(), std::vector{found + "; reference_body of the dataset takes it in"});
+  EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
   sequence.reference = sequence.problem.keyframes;
   EXPECT_TRUE(notes().empty());
 }

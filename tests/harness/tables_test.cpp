@@ -67,9 +67,10 @@ TEST(Where, KeepsTheReasonsOfCellsWithoutScores) {
 TEST(Where, RefusesByName) {
   EXPECT_EQ(refusal_of([] { where({"metrc=ate"}); }),
             "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
-  EXPECT_EQ(refusal_of([] { where({"ate"}); }),
-            "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
-            "method=\"a, b\"");
+  EXPECT_EQ(
+      refusal_of([] { where({"ate"}); }),
+      "where: 'ate': expected FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
+      "method=\"a, b\"");
   EXPECT_EQ(refusal_of([] { where({"method~("}); }),
             "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");

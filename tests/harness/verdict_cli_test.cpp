@@ -206,7 +206,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
                 "datasets: [{dataset: simulated, path: room, keyframes: 50, label: room}]\n"
                 "methods: [raw]\nmetrics: [ate]\ntimes: keyframes\n");
   EXPECT_EQ(run("run other.yaml --out o").exit_code, 0);
-  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline is of another sequence"));
+  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline has another sequence"));
   folder_->file("evo.yaml", std::string(kConfig) + "protocol: evo\n");
   EXPECT_EQ(run("run evo.yaml --out e --only 'room / raw'").exit_code, 0);
   EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench ["));
@@ -249,7 +249,7 @@ TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {
                                 "calibrate c.yaml --out c.yaml"}) {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
-    EXPECT_TRUE(has(result.err, ": is read by this command, so it is not written over\n"))
+    EXPECT_TRUE(has(result.err, ": is an input of this command and is not overwritten\n"))
         << arguments << result.err;
   }
   EXPECT_EQ(read("r/results.sqlite"), store);

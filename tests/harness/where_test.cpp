@@ -27,7 +27,7 @@ TEST(Where, SelectsLabelsWithCommas) {
 }
 
 TEST(Where, NamesAQuoteThatIsNotClosed) {
-  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': a quote is not closed");
+  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': missing closing quote");
 }
 
 TEST(SplitList, KeepsWhatBracketsAndQuotesHold) {
