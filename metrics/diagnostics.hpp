@@ -29,6 +29,7 @@ struct Diagnostics {
   /// Pairs that use a pose a second time (association evo), and pairs whose estimate stamp is
   /// before that of the previous pair (association tum, around bursts). Repeated or unsorted stamps
   /// inside one file are handled by the readers, which reject them or, on request, keep one.
+  std::size_t repeated = 0;
   std::size_t crossing = 0;
   double off_unit =
       0.0;       ///< largest | |q| - 1 |; readers reject values above a limit and normalise

@@ -17,10 +17,10 @@
 namespace loopbench {
 namespace {
 
-/// Looks at the workers' memory this far apart: a process fills some tens of megabytes in between.
+/// Interval between memory checks of the workers: a process allocates some tens of megabytes in it.
 constexpr int kMemoryWatch = 20;  // [ms]
 
-/// The highest core this process may use: the first ones get most of the interrupts.
+/// The highest core this process may use, since the first ones handle most interrupts.
 int last_core() {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -37,13 +37,13 @@ std::string signal_name(int signal) {
   return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
 }
 
-/// A worker, the jobs it has not answered yet, in order, and what has come of its answers.
+/// A worker, its unanswered jobs in order, and the answers received so far.
 struct Seat {
   std::unique_ptr<WorkerProcess> process;
   std::deque<Job> jobs;
   std::string bytes;
   std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
-  std::optional<CellResult> verdict;  ///< why the sweep ended it, for the cell it names
+  std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, for its current cell
 };
 
 class IsolatedSweep {
@@ -61,7 +61,7 @@ class IsolatedSweep {
         pinned_(context.sweep.serial ? last_core() : -1) {}
 
   void run() {
-    // A wrong path in the last dataset must not cost the hour before it.
+    // Load all sequences first, so that a wrong path in the last dataset is reported immediately.
     for (const std::size_t cell : queue_.first_of_datasets()) loads_.push_back({cell, true});
     work();
     loads_done_ = true;
@@ -69,7 +69,7 @@ class IsolatedSweep {
   }
 
  private:
-  /// Until nothing is left to give out and all is answered.
+  /// Runs until all jobs are assigned and answered.
   void work() {
     for (;;) {
       for (Seat& seat : seats_) fill(seat);
@@ -88,14 +88,14 @@ class IsolatedSweep {
     }
   }
 
-  /// One job under way and one waiting, so that a worker never waits for the sweep; only one when
-  /// nothing else may run meanwhile.
+  /// One running and one queued job per worker, so that a worker does not wait for the sweep; only
+  /// one job if nothing else may run at the same time.
   void fill(Seat& seat) {
     const std::size_t depth = context_.sweep.serial ? 1 : 2;
     while (seat.jobs.size() < depth && !stop_) {
       std::optional<Job> job;
       if (!loads_.empty()) {
-        // One each: the others should load theirs meanwhile.
+        // One each, so that the other workers load their sequences in parallel.
         if (!seat.jobs.empty()) return;
         job = loads_.front();
         loads_.pop_front();
@@ -111,7 +111,7 @@ class IsolatedSweep {
     }
   }
 
-  /// Until a worker says something, or a limit may be reached.
+  /// Waits until a worker answers or a limit can be reached.
   void wait() {
     std::vector<pollfd> sockets;
     int longest = -1;  // [ms]
@@ -130,14 +130,14 @@ class IsolatedSweep {
         at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
       }
     }
-    poll(sockets.data(), sockets.size(), longest);  // an interrupt ends it too: `stop` may be set
+    poll(sockets.data(), sockets.size(), longest);  // also ended by an interrupt, which sets `stop`
   }
 
   static double busy_for(const Seat& seat) {
     return 1e-9 * static_cast<double>(steady_nanoseconds() - seat.process->board().since);
   }
 
-  /// Ends a worker that is beyond a limit.
+  /// Kills a worker that exceeds a limit.
   void watch(Seat& seat) {
     const Board& board = seat.process->board();
     const std::uint64_t job = board.job;
@@ -148,7 +148,7 @@ class IsolatedSweep {
     verdict.cell = context_.cells[job];
     if (limits.seconds > 0.0 && busy_for(seat) > limits.seconds) {
       verdict.status = Status::timeout;
-      verdict.why = fmt::format("{} took longer than the limit of {} s", doing, limits.seconds);
+      verdict.why = fmt::format("{} exceeded the time limit of {} s", doing, limits.seconds);
     } else if (const std::int64_t size = limits.memory > 0 ? seat.process->resident_memory() : 0;
                size > limits.memory) {
       verdict.status = Status::out_of_memory;
@@ -171,7 +171,7 @@ class IsolatedSweep {
       if (header.size > seat.bytes.size() - at - sizeof header) break;
       const std::string_view body(seat.bytes.data() + at + sizeof header, header.size);
       if (!take(seat, header, body)) {
-        // It has written over its own memory: whatever else it says is worth nothing.
+        // It has corrupted its own memory, so its other answers are not reliable.
         seat.process->kill();
         at = seat.bytes.size();
         break;
@@ -181,7 +181,7 @@ class IsolatedSweep {
     seat.bytes.erase(0, at);
   }
 
-  /// False for what no sound worker would say.
+  /// False for invalid messages, which only a corrupted worker sends.
   bool take(Seat& seat, const Header& header, std::string_view body) {
     if (seat.jobs.empty() || header.cell != seat.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
@@ -216,10 +216,11 @@ class IsolatedSweep {
     std::shared_ptr<const SequenceFacts>& kept = facts_[queue_.group_of(cell)];
     if (kept &&
         !std::ranges::equal(kept->inputs, facts->inputs, {}, &InputFile::hash, &InputFile::hash)) {
-      throw InputError(facts->inputs.front().path + " or a file read with it changed meanwhile");
+      throw InputError(facts->inputs.front().path +
+                       " or a file read with it changed during the run");
     }
     if (kept) return;
-    // Every worker loads its own, but once is enough for who reads it.
+    // Every worker loads its own copy, but the notes are printed once.
     tell(context_.sweep.datasets[context_.cells[cell].dataset].label, facts->notes);
     kept = std::move(facts);
   }
@@ -228,11 +229,11 @@ class IsolatedSweep {
     const std::size_t group = queue_.group_of(cell);
     result.facts = facts_[group];
     flag_trained_on_judged(result, context_.sweep);
-    if (queue_.finish(cell)) facts_[group].reset();  // nobody asks again
+    if (queue_.finish(cell)) facts_[group].reset();  // no longer needed
     finished_(result);
   }
 
-  /// A worker has ended: the cell it was in is told how, those after it go to another.
+  /// Handles the end of a worker: sets the result of its current cell and requeues the others.
   void bury(Seat& seat) {
     const WorkerProcess::End end = seat.process->end();
     const bool loading = seat.process->board().loading;
@@ -245,20 +246,20 @@ class IsolatedSweep {
     const Job first = jobs.front();
     const Cell& cell = context_.cells[first.cell];
     if (verdict && verdict->cell.index != cell.index) {
-      give_back(jobs);  // it had answered before the end came
+      give_back(jobs);  // it had answered everything
       return;
     }
     jobs.pop_front();
     give_back(jobs);
-    if (first.only_load) return;  // it will be told of each of its cells
+    if (first.only_load) return;  // each of its cells will report the failure
     CellResult result = verdict ? *verdict : CellResult{};
     result.cell = cell;
     if (!verdict) {
       result.status = Status::crashed;
       if (end.signal != 0) result.signal = signal_name(end.signal);
       result.why = end.signal != 0 ? "ended by " + result.signal
-                                   : fmt::format("ended its process, exit code {}", end.exit_code);
-      if (end.signal == 9) result.why += ", not by this program: was memory out?";
+                                   : fmt::format("exited, exit code {}", end.exit_code);
+      if (end.signal == 9) result.why += ", not by this program (system out of memory?)";
       if (loading && !idle) result.why += ", while loading its sequence";
     }
     result.worker = {true, context_.sweep.serial, context_.sweep.serial};

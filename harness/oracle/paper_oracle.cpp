@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// The reference as the keyframes' world has it: p = R^T (p_reference - t) / scale.
+/// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
 Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference, Align align) {
   Protocol protocol;
   protocol.align = align;
@@ -21,7 +21,7 @@ Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference,
   return out;
 }
 
-/// Mean squared distance to the reference over the edges a window stands for [m^2].
+/// Mean squared distance to the reference over the edges of a window [m^2].
 manifold::PieceJudge nearest_to(const Polyline& reference) {
   return [&reference](const manifold::PlanarPiece& piece,
                       const manifold::Window& window,
@@ -40,7 +40,7 @@ manifold::PieceJudge nearest_to(const Polyline& reference) {
         ++count;
       }
     }
-    return count > 0.0 ? sum / count : 0.0;  // the first family where there is no reference
+    return count > 0.0 ? sum / count : 0.0;  // selects the first family outside the reference
   };
 }
 
@@ -59,7 +59,7 @@ std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem, Report&
   manifold::PieceJudge judge;
   if (options_.reference_families) judge = nearest_to(reference);
   std::shared_ptr<const manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
-  report.notes.push_back("oracle: was shown the reference");
+  report.notes.push_back("oracle: uses the reference");
   if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
   return std::make_unique<ReferenceAbscissa>(
       std::move(fitted), std::move(reference), options_.reference_abscissa);

@@ -3,7 +3,7 @@
 namespace loopbench {
 namespace {
 
-using namespace manifold;  // NOLINT: what this file takes apart
+using namespace manifold;  // NOLINT: this file accesses its internals
 
 template <class Piece>
 constexpr bool is_function_of_x = false;

@@ -19,13 +19,13 @@ std::string comparison_html(const ReportContent& content);
 /// Methods by scores, a table for each sequence, times and protocol.
 std::string scores_html(const ReportContent& content);
 
-/// Cells that did not end well, by reason.
+/// Failed cells and undefined scores, by reason.
 std::string failures_html(const ReportContent& content);
 
-/// Costs, what methods report of themselves, growth with size, accuracy against time.
+/// Costs, values reported by the methods, scaling with size, accuracy against time.
 std::string costs_html(const ReportContent& content);
 
-/// Protocols in full, by what and from what it was made, the config.
+/// Protocols, provenance, input files, config.
 std::string provenance_html(const ReportContent& content);
 
 }  // namespace loopbench

@@ -15,12 +15,13 @@
 namespace loopbench {
 namespace {
 
-using namespace manifold;  // NOLINT: the method's steps are this file's vocabulary
+using namespace manifold;  // NOLINT: this file uses the method's steps
 
 constexpr std::array kFamilies{Family::poly2, Family::poly3, Family::sin1, Family::rat02};
 constexpr const char* kNames[] = {"parabola", "cubic", "sine", "rational"};
-constexpr std::size_t kNodes = 5;  // one more than the cubic has unknowns: nobody interpolates
-constexpr double kTie = 0.01;      // [of the smaller error]
+constexpr std::size_t kNodes =
+    5;                         // one more than the cubic has unknowns, so no exact interpolation
+constexpr double kTie = 0.01;  // relative to the smaller error
 
 struct Range {
   double low, high;
@@ -28,13 +29,13 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-/// What the article prints beside its figures.
+/// Values printed beside the article's figures.
 struct Quoted {
   const char* where;
   const char* sequence;
-  std::size_t family;  // into kFamilies
+  std::size_t family;  // index into kFamilies
   Range speed;         // [m/s]
-  Range kappa;         // no unit given; read as [rad] per keyframe
+  Range kappa;         // printed without unit; assumed [rad] per keyframe
 };
 constexpr Quoted kQuoted[] = {
     {"Figure 5 a c e", "fr1_room", 0, {0.3845, 0.7014}, {0.002, 0.04}},
@@ -47,7 +48,7 @@ constexpr Quoted kQuoted[] = {
     {"Text, special segment", "fr3_office", 3, {0.1006, 0.1770}, {0.1271, 0.2248}},
 };
 
-/// Squared distances of each family to the truth; a window it refuses is a parabola's, as in dm.
+/// Squared distances of each family to the reference; a rejected window uses a parabola, as in dm.
 struct Contest {
   std::array<double, kFamilies.size()> squares{};
   std::array<std::size_t, kFamilies.size()> refused{};
@@ -72,7 +73,7 @@ struct Contest {
   }
 };
 
-/// The truth at the stamps of the keyframes it knows: what a family misses then is its own doing.
+/// The reference at the keyframe stamps, so that the remaining error is due to the family.
 Trajectory true_keyframes(const PaperCell& raw) {
   const Polyline truth(raw.dense.reference);
   std::vector<double> known;
@@ -82,7 +83,7 @@ Trajectory true_keyframes(const PaperCell& raw) {
   return truth.sample(known);
 }
 
-/// The true path, its z up, and nodes on it.
+/// The reference path, its z axis up, and nodes on it.
 struct Run {
   explicit Run(const PaperCell& raw) : Run(raw, true_keyframes(raw)) {}
   Run(const PaperCell& raw, const Trajectory& keyframes)

@@ -68,12 +68,13 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return curve;
 }
 
-/// All scores of one metric, or one row with the reason why there are none. `row` has its labels.
-return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
-       std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) && std::isfinite(s.sse);
+bool is_finite(const Statistics& s) {
+  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
+         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
+         std::isfinite(s.sse);
 }
 
-/// All scores of one metric, or one row that says why there are none. `row` says what of.
+/// All scores of one metric, or one row with the reason why there are none. `row` has its labels.
 void score(CellResult& result,
            const MetricChoice& choice,
            ScoreResult row,

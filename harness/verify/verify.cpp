@@ -16,7 +16,7 @@ namespace {
 constexpr std::array kParts{"status", "scores", "report", "trace"};
 
 struct Print {
-  std::array<Hash, kParts.size()> parts;  ///< in that order
+  std::array<Hash, kParts.size()> parts;  ///< in the order of kParts
   bool ended_its_worker = false;
 };
 
@@ -50,7 +50,7 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const std::vector<Manner>& manners,
                                const std::atomic<bool>& stop,
                                const std::function<void(const std::string& manner)>& step) {
-  std::map<std::size_t, std::size_t> place;  // of a cell by its position
+  std::map<std::size_t, std::size_t> place;  // index of a cell by its position
   for (std::size_t i = 0; i < cells.size(); ++i) place.emplace(cells[i].index, i);
   std::vector<std::optional<Print>> first(cells.size());
   std::vector<Difference> out;

@@ -70,7 +70,7 @@ TEST(GateText, IsMarkdownAndJUnit) {
     now.cells[0].method = "ra<w>&\"";
   });
   const std::string text = markdown(report, "quick");
-  EXPECT_EQ(text.find("### quick: FAILS\n\n| cell "), 0u) << text;
+  EXPECT_EQ(text.find("### quick: FAILED\n\n| cell "), 0u) << text;
   EXPECT_NE(text.find("| room / raw                |"), std::string::npos) << text;
   EXPECT_NE(text.find("- 2 regressions, 0 improvements, 1 new cell in 16 cells and 15 scores\n"),
             std::string::npos)
@@ -89,7 +89,7 @@ TEST(GateText, IsMarkdownAndJUnit) {
   EXPECT_NE(junit(check(odd, sweep()), "q").find("name=\"room / ra&lt;w&gt;&amp;&quot;\""),
             std::string::npos);
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
-            "### quick: passes\n\n"
+            "### quick: passed\n\n"
             "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n");
 }
 

@@ -25,7 +25,7 @@ TEST(Gate, NamesTheCellWhoseNumberMovedBeyondItsLimit) {
   EXPECT_FALSE(report.passes());
   EXPECT_EQ(report.findings[0].cell, "room (repeat 1) / uniform");
   EXPECT_EQ(report.findings[0].score, "ate translation 3d, dense, loopbench");
-  EXPECT_EQ(report.findings[0].what, "rmse 0.550605 m, was 0.55 (+0.11 %, may move 0.000551)");
+  EXPECT_EQ(report.findings[0].what, "rmse 0.550605 m, was 0.55 (+0.11 %, limit 0.000551)");
   EXPECT_TRUE(after([](Snapshot& now) { rmse(now, 3) *= 1.0009; }).findings.empty());
 }
 
@@ -100,7 +100,7 @@ TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
     ASSERT_EQ(few.notes.size(), 1u);
     EXPECT_EQ(few.notes[0],
               "no test for small consistent losses of 2 methods: 2 independent runs or groups "
-              "reach p = 0.25 at best, level 0.01 needs 7");
+              "reach at best p = 0.25, level 0.01 needs 7");
   }
 }
 
@@ -154,7 +154,7 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   now.cells[1].scores.back().values["rmse"] = 16.1;
   const GateReport slow = check(timed, now);
   ASSERT_EQ(slow.findings.size(), 1u);
-  EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, may move 6)");
+  EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, limit 6)");
   now = sweep();
   add_times(now, 12.0);  // a fifth on all runs
   EXPECT_FALSE(check(timed, now).passes());

@@ -38,7 +38,7 @@ TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
   EXPECT_EQ(refusal("\\99999999999"),
             "'\\99999999999' is not a regular expression (invalid escape sequence: \\9)");
   EXPECT_EQ(refusal("(?!a)"), "'(?!a)' is not a regular expression (invalid perl operator: (?!)");
-  EXPECT_EQ(refusal(std::string(1'001, 'a')), "a pattern of more than 1000 characters");
+  EXPECT_EQ(refusal(std::string(1'001, 'a')), "the pattern is longer than 1000 characters");
   EXPECT_EQ(refusal("\xff"), "'\xff' is not a regular expression (invalid UTF-8)");
   try {
     Pattern::of_option("--only", "[");

@@ -142,7 +142,7 @@ TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
     return std::ranges::any_of(of.notes, [&](const std::string& n) { return n.starts_with(note); });
   };
   for (const Listing& of : {listing, costs(cells), reported(cells), scaling(cells)}) {
-    EXPECT_TRUE(has(of, "oracle: the method or its data was shown the reference")) << of.title;
+    EXPECT_TRUE(has(of, "oracle: the method or its data uses the reference")) << of.title;
     EXPECT_TRUE(has(of, "closures are oracle (measured in the reference): s")) << of.title;
   }
   EXPECT_EQ(costs(cells).rows[1][0], "leaky (oracle)");

@@ -99,7 +99,7 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
                        "- shift",
                        "- ate",
                        "exclude: [{method: '" + std::string(50'000, '(') + "'}]\n")),
-            "c.yaml:7: method: a pattern of more than 1000 characters");
+            "c.yaml:7: method: the pattern is longer than 1000 characters");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
             "c.yaml:7: min_coverage = 80.0 breaks 0 <= min_coverage <= 1");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),
@@ -134,7 +134,8 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
   const auto refusal = [](const std::string& text) {
     return why(config("- line", "- shift", "- ate", "protocol: " + text + "\n"));
   };
-  EXPECT_EQ(refusal("evoo"), "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
+  EXPECT_EQ(refusal("evoo"),
+            "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
   EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is listed twice");
   EXPECT_EQ(refusal("[]"), "c.yaml:7: protocol: is empty, expected a name");
   EXPECT_EQ(refusal("{sweep: {align: [se3, sim3]}}"),

@@ -164,7 +164,7 @@ TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
   const std::string apart = run(table + " --split sequence").out;
   EXPECT_FALSE(has(apart, "**")) << apart;
   EXPECT_TRUE(has(apart,
-                  "- no best is marked: 4 independent runs a cell cannot prove a difference at "
+                  "- no best is marked: 4 independent runs per cell cannot prove a difference at "
                   "0.05"));
 }
 
@@ -172,7 +172,7 @@ TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
   const CommandResult result = run("check r --baseline b.json --junit j.xml --markdown m.md");
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_EQ(result.out,
-            "### c: passes\n\n- 0 regressions, 0 improvements, 0 new cells in 24 cells and 48 "
+            "### c: passed\n\n- 0 regressions, 0 improvements, 0 new cells in 24 cells and 48 "
             "scores\n");
   EXPECT_EQ(read("m.md"), result.out);
   EXPECT_TRUE(has(read("j.xml"), "tests=\"24\" failures=\"0\""));
@@ -190,7 +190,7 @@ TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
   folder_->file("moved.json", text);
   const CommandResult result = run("check r --baseline moved.json --junit moved.xml");
   EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_TRUE(has(result.out, "### c: FAILS\n")) << result.out;
+  EXPECT_TRUE(has(result.out, "### c: FAILED\n")) << result.out;
   EXPECT_TRUE(has(result.out, "| room / uniform | ate translation 3d, keyframes, loopbench |"))
       << result.out;
   EXPECT_TRUE(has(read("moved.xml"), "name=\"room / uniform\">\n    <failure "));
