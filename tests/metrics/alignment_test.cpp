@@ -56,7 +56,7 @@ TEST(Alignment, HoldsFarFromTheOrigin) {
   const Trajectory reference = random_walk(random, 1000);
   const Pose far{exp_so3({0.3, -0.2, 0.9}), {5e6, -4e6, 1e3}};  // UTM
   const Trajectory estimate = moved_by(far, 1.0, reference);
-  // Rounding of 5e6 m itself is 1e-9 m; nothing may be lost beyond that.
+  // Rounding of 5e6 m is 1e-9 m; the alignment must not lose more.
   const Alignment found = align(reference, estimate, Align::se3);
   EXPECT_LT(worst(reference, moved(found, estimate)), 1e-7);
 }
@@ -173,7 +173,7 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
     const Alignment found = align(reference, estimate, type);
     EXPECT_LT(worst(reference, moved(found, estimate)), 1e-12);
   }
-  // What is turned about x stays so, and the z axis stays up.
+  // A rotation about x is preserved, and the z axis stays vertical.
   const Trajectory tilted =
       moved_by({exp_so3(Vector3(0.3, 0.0, 0.0)), Vector3::Zero()}, 1.0, reference);
   const Alignment found = align(reference, tilted, Align::posyaw);
@@ -205,7 +205,7 @@ TEST(Alignment, FirstPairsDecideAloneWhenAsked) {
   EXPECT_LT(
       (there[0].world_from_body.translation - reference[0].world_from_body.translation).norm(),
       1e-12);
-  // More than there are is all there are.
+  // More pairs than exist means all pairs.
   EXPECT_TRUE(is_close(align(reference, estimate, Align::se3, 500).reference_from_estimate,
                        align(reference, estimate, Align::se3).reference_from_estimate,
                        0.0,

@@ -20,7 +20,7 @@ Trajectory at(const std::vector<double>& stamps) {
 const Protocol kPlain{.max_diff = 0.1, .align = Align::none};
 
 TEST(Evaluation, CountsPairsPossibleAndSpan) {
-  // Reference lasts 8 s; the estimate is judged from 2 to 6 s and loses one pose in the hole.
+  // The reference lasts 8 s; the estimate is evaluated from 2 to 6 s and one pose lies in the gap.
   const Evaluation got = evaluate(at({0, 1, 2, 3, 5, 6, 7, 8}), at({2, 3, 4, 5, 6.05}), kPlain);
   EXPECT_EQ(got.coverage.pairs, 4u);
   EXPECT_EQ(got.coverage.possible, 5u);
@@ -50,17 +50,17 @@ TEST(Evaluation, TimeLostIsNotJudged) {
   };
   const Trajectory whole = at(every(0.5, 0.0, 40.0));
   EXPECT_EQ(span(whole, whole), 1.0);
-  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // silent from 3.5 to 36.5 s
-  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // the reference's own hole
-  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart all along
+  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // no poses from 3.5 to 36.5 s
+  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // gap of the reference itself
+  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart everywhere
   Trajectory standing = whole;
   for (auto& [stamp, pose] : standing) pose.translation.x() = stamp < 20.0 ? 0.0 : 1.0;
-  EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: nothing to make keyframes of
+  EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: at rest, no keyframes expected
 }
 
 TEST(Evaluation, ABridgedTrackingGapIsNotJudged) {
   const Trajectory whole = at(every(0.5, 0.0, 40.0));
-  const std::vector<double> keyframes = ends(0.5);  // nothing from 3.5 to 36.5 s
+  const std::vector<double> keyframes = ends(0.5);  // none from 3.5 to 36.5 s
   const Polyline chord(at(keyframes));
   const auto judged = [&](const Protocol& rules, const std::vector<double>& tracked = {}) {
     return evaluate(whole, chord, keyframes, Times::dense, rules, tracked).coverage;
@@ -95,7 +95,7 @@ TEST(Evaluation, SparseKeyframesAreNoTrackingGap) {
   EXPECT_EQ(got.bridged, 0.0);
 }
 
-/// A quarter of a circle with the attitude of its start, or turning along.
+/// A quarter circle with constant or tangential orientation.
 Trajectory bend(bool turns) {
   Trajectory out;
   for (int i = 0; i < 20; ++i) {

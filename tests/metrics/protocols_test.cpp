@@ -100,7 +100,7 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 breaks 0 <= ddof <= 1");
 }
 
-/// 1 m and 0.1 s a pose along x.
+/// Steps of 1 m in 0.1 s along x.
 Trajectory road(int size) {
   Trajectory out;
   for (int i = 0; i < size; ++i) out.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0, 0)}});
@@ -113,7 +113,7 @@ Evaluation judged(const std::string& name,
   return evaluate(reference, estimate, named_protocol(name).rules);
 }
 
-// ov_eval and eth3d stand on their code alone, without numbers of the originals: rule by rule.
+// ov_eval and eth3d are tested rule by rule against their code, without numbers from the originals.
 
 TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
   const double tilt = 0.1;
@@ -131,7 +131,7 @@ TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
 
 TEST(OvEval, SegmentsStartEverywhereAndStdDividesByOneLess) {
   Trajectory estimate = road(21);
-  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the way
+  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the path
   const std::vector<Score> got = segments(judged("ov_eval", road(21), estimate), {});
   std::set<std::string> axes;
   for (const Score& score : got) axes.insert(score.axis);
@@ -158,7 +158,7 @@ TEST(OvEval, AnEndExactlyHalfAMetreOffIsNone) {
   EXPECT_EQ(find(segments(judged("ov_eval", off, off), {}), "translation", "8 m").count, 1u);
 }
 
-/// 40 steps along x, then 40 along y, 10 ms each, turning; `at` says how many have been gone.
+/// 40 steps along x, then 40 along y, 10 ms each, rotating; `at` is the number of steps done.
 Pose on_the_corner(double step, double at) {
   const double x = std::min(at, 40.0);
   return {exp_so3(Vector3(0.0, 0.0, 0.01 * at)), Vector3(step * x, step * (at - x), 0.0)};
@@ -168,7 +168,7 @@ TEST(Eth3d, InterpolatesTheReferenceOverAtMostASeventyFifth) {
   Trajectory reference;
   Trajectory estimate;
   for (int i = 0; i <= 80; ++i) {
-    // Without 20 its neighbours are 20 ms apart, and what lies between has no reference.
+    // Without 20 its neighbours are 20 ms apart, and there is no reference between them.
     if (i != 20) reference.push_back({0.01 * i, on_the_corner(0.1, i)});
     if (i < 80) estimate.push_back({0.01 * (i + 0.5), on_the_corner(0.1, i + 0.5)});
   }
@@ -186,8 +186,8 @@ TEST(Eth3d, ErrorsAreOfTheMetresGoneAndNothingIsScaled) {
   }
   const Evaluation got = judged("eth3d", reference, estimate);
   EXPECT_EQ(got.alignment.scale, 1.0);
-  // Five steps are 0.505 m for 0.5 m, and a hundredth too long: 1 % of what was gone, less across
-  // the corner. 20 steps are 2.02 m.
+  // Five steps are 0.505 m for 0.5 m and 1 % too long: error 1 % of the distance travelled, less
+  // across the corner. 20 steps are 2.02 m.
   const std::vector<Score> scores = segments(got, {});
   for (const char* length : {"0.5 m", "1 m", "1.5 m", "2 m"}) {
     EXPECT_NEAR(find(scores, "translation", length).max, 1.0, 1e-9) << length;
