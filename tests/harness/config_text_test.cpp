@@ -1,5 +1,4 @@
-/// What a scalar means depends on the option it is given to; and what has the wrong shape is
-/// rejected.
+/// Interpretation of scalars depends on the option's type; values of the wrong type are rejected.
 #include <gtest/gtest.h>
 
 #include "harness/catalogue.hpp"

@@ -1,4 +1,4 @@
-// How much of a trajectory `eval` judged, and what it says when that is little.
+// Coverage of a trajectory in `eval`, and messages about low coverage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using namespace test;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A spiral at `speed`, poses every `step` from `begin` to `end`, with an error that waves.
+/// A spiral at `speed`, poses every `step` from `begin` to `end`, with a sinusoidal error.
 std::string spiral(double begin, double end, double step, double speed, double error) {
   std::string out;
   for (int i = 0; begin + i * step <= end; ++i) {
@@ -59,7 +59,7 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   std::vector<std::string> accepted = both;
   accepted.push_back("--min-coverage=0");
   EXPECT_EQ(eval_json(accepted)[1]["status"], "ok");
-  eval({reference_, short_});  // alone there is nothing to compare with
+  eval({reference_, short_});  // without a second estimate there is no comparison
 }
 
 TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {

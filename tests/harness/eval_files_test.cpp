@@ -1,4 +1,4 @@
-// Which files `eval` takes for what: folders of other tools, clocks, positions alone.
+// Input files of `eval`: folders of other tools, stamps, files with positions only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST(Eval, TellsWhatReadingMended) {
   EXPECT_NEAR(find(judged, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
 }
 
-/// A bent way of 100 poses, followed at `aside` of the body.
+/// A curved path of 100 poses, tracked at the lever arm `aside`.
 std::string bent_way(const std::filesystem::path& file, const Pose& aside) {
   Trajectory poses;
   Pose pose;

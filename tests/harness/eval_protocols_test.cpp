@@ -1,4 +1,4 @@
-/// eval under other tools' protocols, habits and folders.
+/// eval with other tools' protocols, options and folders.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -108,7 +108,7 @@ TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
   const Json judged = eval_json(asked, kExitSomeCellsFailed);
   EXPECT_EQ(judged["status"], "incomplete");
   EXPECT_EQ(judged["why"], why);
-  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // kept all the same
+  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
   EXPECT_NE(eval(asked, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
             std::string::npos);
   const Json enough = eval_json({asked[0], asked[1], "--min-coverage=0.96"});

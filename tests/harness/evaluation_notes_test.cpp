@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// 100 s round a circle at 10 Hz, estimated at `stamps`.
+/// 100 s on a circle at 10 Hz, estimated at `stamps`.
 Sequence estimated_at(const std::vector<double>& stamps) {
   const auto at = [](double stamp) {
     const double angle = 0.05 * stamp;

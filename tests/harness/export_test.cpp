@@ -111,7 +111,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   }
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // the second repeat does not enter
+  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // without the second repeat
   EXPECT_EQ(tables[0].cells[0][0].records, 1u);
   EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
   EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
@@ -126,7 +126,7 @@ TEST(Pivot, RefusesToAverageDifferentScores) {
   records[1].relation = "rotation";
   records[1].unit = "deg";
   EXPECT_EQ(pivot(records, TableSpec{})[0].columns,
-            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // the unit keeps them apart
+            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // distinguished by the unit
   records[1].unit = "m";
   EXPECT_THROW(pivot(records, TableSpec{}), InputError);
 }

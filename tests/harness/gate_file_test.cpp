@@ -1,4 +1,4 @@
-/// Baselines as files, reports of the gate as text.
+/// Baseline files, and reports of the gate as text.
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"

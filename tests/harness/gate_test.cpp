@@ -1,4 +1,4 @@
-/// What passes the gate, and what does not.
+/// Pass and fail conditions of the gate.
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
@@ -77,10 +77,10 @@ TEST(Gate, FindsALossTooSmallForAnyOneNumber) {
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_FALSE(report.passes());
   EXPECT_EQ(report.findings[0].cell, "uniform");
-  // One-sided 2^-8, however many methods and scores are tested.
+  // One-sided 2^-8 for any number of tested methods and scores.
   EXPECT_EQ(report.findings[0].what, "rmse worse over 8 runs, by 0.05 % on average: p = 0.0039");
   EXPECT_TRUE(creep(-5e-4).findings.empty());
-  EXPECT_TRUE(creep(5e-7).findings.empty());  // another compiler's last digits
+  EXPECT_TRUE(creep(5e-7).findings.empty());  // rounding of another compiler
 }
 
 TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
@@ -149,7 +149,7 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   };
   add_times(timed.snapshot, 10.0);
   Snapshot now = sweep();
-  add_times(now, 10.9);  // within the limit, and less than the tenth that a test takes for a move
+  add_times(now, 10.9);  // within the limit, and below the tie threshold of a tenth
   EXPECT_TRUE(check(timed, now).findings.empty());
   now.cells[1].scores.back().values["rmse"] = 16.1;
   const GateReport slow = check(timed, now);

@@ -75,7 +75,7 @@ TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {
   EXPECT_EQ(texts("{from: 0, to: 0.7, steps: 8}"),
             "a=0.0 a=0.1 a=0.2 a=0.3 a=0.4 a=0.5 a=0.6 a=0.7 ");
   EXPECT_EQ(texts("{from: 0.001, to: 1, steps: 4, log: true}"), "a=0.001 a=0.01 a=0.1 a=1.0 ");
-  // What was written stays to its last digit.
+  // Written values keep all digits.
   EXPECT_EQ(texts("{from: 0.30000000000000004, to: 1, steps: 2}"), "a=0.30000000000000004 a=1.0 ");
 }
 

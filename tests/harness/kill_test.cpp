@@ -1,4 +1,4 @@
-/// Sweeps that end before their time, from outside: killed, out of disk, in each other's way.
+/// Sweeps that end early: killed, disk full, concurrent runs.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -50,7 +50,7 @@ class Ended : public testing::Test {
     return process;
   }
 
-  /// Its exit code, or 128 and the signal.
+  /// Exit code, or 128 plus the signal.
   static int wait(pid_t process) {
     int status = 0;
     waitpid(process, &status, 0);
@@ -161,7 +161,7 @@ TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
 
 TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
   folder_.file("c.yaml", kConfig);
-  const CommandResult result = run("run c.yaml --out /proc/self");  // root may write anywhere else
+  const CommandResult result = run("run c.yaml --out /proc/self");  // not writable even for root
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("results.sqlite: cannot be opened"), std::string::npos) << result.err;
 }

@@ -32,7 +32,7 @@ TEST(Pattern, BracketsOfTheTextAreTextWhenEscaped) {
 
 TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
   EXPECT_EQ(refusal("("), "'(' is not a regular expression (missing ): ()");
-  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // no repetition: literal braces
+  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // not a repetition: literal braces
   EXPECT_EQ(refusal("a{1001}"),
             "'a{1001}' is not a regular expression (invalid repetition size: {1001})");
   EXPECT_EQ(refusal("\\99999999999"),

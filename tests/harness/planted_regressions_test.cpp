@@ -1,4 +1,4 @@
-/// Regressions planted into a sweep that its baseline must not let pass, each caught and named.
+/// Regressions planted into a sweep: the gate must detect and name each of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 
 using namespace gate_sweep;
 
-/// The report as text, or the reason why the baseline does not apply; empty: passes.
+/// The report as text, or the reason why the baseline does not apply; empty if it passes.
 std::string caught(const Snapshot& now, const Baseline& before = baseline()) {
   std::string out;
   try {
-    // By way of its file: what is not written is not held.
+    // Through a file: values that are not written cannot be checked.
     const GateReport report = check(parse_baseline(json(before), "b.json"), now);
     if (!report.passes()) out = markdown(report, "quick");
   } catch (const InputError& error) {
@@ -172,7 +172,7 @@ TEST(PlantedRegression, OtherContentOfTheDataset) {
   Snapshot other = snapshot_of(now);
   other.contents = {{"room", "cafe"}};
   expect_named(caught(other, hashed), {"other content of the sequence 'room'", "beef", "cafe"});
-  other.machine = "another CPU";  // where last digits may differ
+  other.machine = "another CPU";  // last digits can differ
   EXPECT_EQ(caught(other, hashed), "");
   expect_named(markdown(check(hashed, other), "quick"), {"contents of sequences are not compared"});
 }

@@ -19,7 +19,7 @@ std::string why(const std::string& text) {
   return "";
 }
 
-/// A valid config with `line` put in place of one of its parts.
+/// A valid config in which `line` replaces one of its parts.
 std::string config(const std::string& datasets = "- line",
                    const std::string& methods = "- shift",
                    const std::string& metrics = "- ate",
@@ -144,7 +144,7 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
             "c.yaml:9: protocol: offset = 1.0: association index ignores stamps");
 }
 
-// What no option can refuse alone is found before anything runs, with its place.
+// Contradictions between options are found before the sweep starts, with their line.
 TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
   const auto refusal = [](const std::string& dataset) {
     const std::string text = "datasets:\n  - {" + dataset + "}\nmethods: [raw]\nmetrics: [ate]\n";

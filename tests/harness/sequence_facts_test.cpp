@@ -42,7 +42,7 @@ TEST(SequenceFacts, TellOfAReferenceThatFollowsAnotherBody) {
       "m): over rotations, the lever arm explains 100 % of the squared differences";
   const auto notes = [&] { return sequence_facts(sequence, false).notes; };
   EXPECT_EQ(notes(), std::vector{found});
-  sequence.provenance.body_from_reference = Pose{};  // the dataset could have been told
+  sequence.provenance.body_from_reference = Pose{};  // the dataset supports the option
   EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
   sequence.reference = sequence.problem.keyframes;
   EXPECT_TRUE(notes().empty());

@@ -1,4 +1,4 @@
-/// compare, table and check from outside: formats, exit codes, messages.
+/// compare, table and check as processes: formats, exit codes, messages.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -17,7 +17,7 @@ const char* const kConfig =
     "times: keyframes\n"
     "repeats: 4\n";
 
-/// One sweep of eight runs, made once; every test reads it.
+/// One sweep of eight runs, computed once and used by every test.
 class VerdictCli : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -49,7 +49,7 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(
       has(result.out, "\n- over 8 runs\n- claims hold for other instances of these 2 sequences"))
       << result.out;
-  EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // the same bits twice
+  EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // reproducible
   const CommandResult few = run("compare r --where unit=m,sequence=room,repeat=0");
   EXPECT_TRUE(has(few.out, "nothing is proven: ")) << few.out;
 }
@@ -179,7 +179,7 @@ TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
 }
 
 TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
-  // The baseline's first error of uniform on the room, a hundredth lower than it was.
+  // The baseline's first error of uniform on the room, reduced by 1 %.
   std::string text = read("b.json");
   const std::string cell = "{\"sequence\":\"room\",\"repeat\":0,\"method\":\"uniform\"";
   const std::size_t begin = text.find("\"rmse\":[", text.find(cell)) + 8;
