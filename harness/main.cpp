@@ -47,14 +47,14 @@ int run(CLI::App& app,
     std::ranges::reverse(last_first);  // CLI11 expects this order
     app.parse(std::move(last_first));
   } catch (const CLI::ParseError& error) {
-    std::ostringstream told;
-    if (app.exit(error, told, told) == 0) {
-      const std::string text = told.str();
+    std::ostringstream parser_output;
+    if (app.exit(error, parser_output, parser_output) == 0) {
+      const std::string text = parser_output.str();
       if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_error = errno;
       return kExitOk;
     }
     const std::string unknown = unknown_word(app, error);
-    fmt::print(stderr, "{}", printable(unknown.empty() ? told.str() : unknown));
+    fmt::print(stderr, "{}", printable(unknown.empty() ? parser_output.str() : unknown));
     return kExitBadInput;
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);

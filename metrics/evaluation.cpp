@@ -146,7 +146,7 @@ std::string why_no_attitude(const Evaluation& evaluation) {
     return "the " + whose +
            " has a constant orientation although its path is curved: it holds only positions, so "
            "rotation is not "
-           "judged";
+           "evaluated";
   };
   if (is_position_only(evaluation.reference)) return text("reference");
   if (is_position_only(evaluation.estimate)) return text("estimate");

@@ -37,7 +37,7 @@ struct Coverage {
 /// With `tum` pairs can cross around bursts, so the estimate's stamps can decrease.
 struct Evaluation {
   Trajectory reference;
-  Trajectory estimate;  ///< after alignment; both lists are projected if the protocol says so
+  Trajectory estimate;  ///< after alignment; both lists are projected by the protocol
   Alignment alignment;
   Coverage coverage;
   Protocol protocol;

@@ -66,7 +66,7 @@ std::vector<double> third(const std::vector<double>& errors,
   return out;
 }
 
-Evaluation judged_before(const Context& context) {
+Evaluation evaluate_raw(const Context& context) {
   const Problem& problem = needed(context.problem, "gain_along", "keyframes before correction");
   const Trajectory& reference = needed(context.reference, "gain_along", "the complete reference");
   return evaluate(reference,
@@ -80,7 +80,7 @@ Evaluation judged_before(const Context& context) {
 }  // namespace
 
 std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptions&) {
-  const Evaluation raw = judged_before(evaluation.context);
+  const Evaluation raw = evaluate_raw(evaluation.context);
   if (raw.reference.size() != evaluation.reference.size()) {
     throw std::runtime_error("gain_along: " + std::to_string(raw.reference.size()) +
                              " pairs before, " + std::to_string(evaluation.reference.size()) +

@@ -53,22 +53,23 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
         std::clamp(time + offset, reference.front().stamp, reference.back().stamp));
   }
   const Trajectory ours = curve.sample(times);
-  const Trajectory theirs = Polyline(reference).sample(reference_times);
+  const Trajectory reference_samples = Polyline(reference).sample(reference_times);
 
   std::vector<double> estimate_jerk;
   std::vector<double> reference_jerk;
   double gap_until = -std::numeric_limits<double>::infinity();  // end of the last gap so far
-  std::size_t looked = 0;
+  std::size_t next_pose = 0;
   for (std::size_t i = 0; i + 3 < times.size(); ++i) {
     // Only the last gap that begins before the end of the interval can overlap it.
-    while (looked + 1 < reference.size() && reference[looked].stamp < theirs[i + 3].stamp) {
-      const double gap = reference[looked + 1].stamp - reference[looked].stamp;
-      if (gap > options.max_gap + kStampRounding) gap_until = reference[looked + 1].stamp;
-      ++looked;
+    while (next_pose + 1 < reference.size() &&
+           reference[next_pose].stamp < reference_samples[i + 3].stamp) {
+      const double gap = reference[next_pose + 1].stamp - reference[next_pose].stamp;
+      if (gap > options.max_gap + kStampRounding) gap_until = reference[next_pose + 1].stamp;
+      ++next_pose;
     }
-    if (gap_until > theirs[i].stamp) continue;
+    if (gap_until > reference_samples[i].stamp) continue;
     estimate_jerk.push_back(evaluation.alignment.scale * jerk_of(&ours[i]));
-    reference_jerk.push_back(jerk_of(&theirs[i]));
+    reference_jerk.push_back(jerk_of(&reference_samples[i]));
   }
   if (estimate_jerk.empty()) {
     throw Undefined("jerk: curve and reference have no four consecutive samples in common at " +

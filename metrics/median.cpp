@@ -14,17 +14,17 @@ constexpr std::size_t kMedianSample = 4096;
 /// Two values that very likely enclose the median: those 5 sigma of the sample's rank around its
 /// median.
 std::pair<double, double> middle_bracket(std::span<const double> values) {
-  constexpr std::size_t kAside = 160;
+  constexpr std::size_t kMargin = 160;
   std::vector<double> sample(kMedianSample);
   for (std::size_t k = 0; k < kMedianSample; ++k)
     sample[k] = values[values.size() * k / kMedianSample];
   const auto at = [&](std::size_t rank) {
     return sample.begin() + static_cast<std::ptrdiff_t>(rank);
   };
-  std::nth_element(sample.begin(), at(kMedianSample / 2 - kAside), sample.end());
-  const double low = *at(kMedianSample / 2 - kAside);
-  std::nth_element(at(kMedianSample / 2 - kAside), at(kMedianSample / 2 + kAside), sample.end());
-  return {low, *at(kMedianSample / 2 + kAside)};
+  std::nth_element(sample.begin(), at(kMedianSample / 2 - kMargin), sample.end());
+  const double low = *at(kMedianSample / 2 - kMargin);
+  std::nth_element(at(kMedianSample / 2 - kMargin), at(kMedianSample / 2 + kMargin), sample.end());
+  return {low, *at(kMedianSample / 2 + kMargin)};
 }
 
 /// The values from low to high, and the number of values below.

@@ -102,7 +102,7 @@ void take_closest_first(const std::vector<Node>& nodes,
   std::vector<std::uint32_t> previous(n);
   std::vector<std::uint32_t> next(n);
   std::vector<bool> is_taken(n, false);
-  const auto offer = [&](std::uint32_t left, std::uint32_t right) {
+  const auto add_candidate = [&](std::uint32_t left, std::uint32_t right) {
     if (left == kNone || right == kNone) return;
     if (crossing == Crossing::refused && nodes[right].is_past_a_pair) return;
     const double gap = nodes[right].time - nodes[left].time;
@@ -112,7 +112,7 @@ void take_closest_first(const std::vector<Node>& nodes,
   for (std::uint32_t k = 0; k < n; ++k) {
     previous[k] = k == 0 ? kNone : k - 1;
     next[k] = k + 1 == n ? kNone : k + 1;
-    offer(previous[k], k);
+    add_candidate(previous[k], k);
   }
   while (!queue.empty()) {
     const Candidate best = queue.top();
@@ -125,7 +125,7 @@ void take_closest_first(const std::vector<Node>& nodes,
     if (crossing == Crossing::refused) continue;
     if (before != kNone) next[before] = after;
     if (after != kNone) previous[after] = before;
-    offer(before, after);
+    add_candidate(before, after);
   }
 }
 

@@ -31,9 +31,9 @@ void check_segments(const SegmentRule& rule) {
     refuse("segments.tolerance", rule.tolerance, "expected more than zero");
   }
   for (const Length& length : wanted) {
-    const bool is_share_of_it = miss.is_share && miss.value >= 1.0;
+    const bool exceeds_share = miss.is_share && miss.value >= 1.0;
     const bool is_longer = !miss.is_share && !length.is_share && miss.value >= length.value;
-    if (is_share_of_it || is_longer) {
+    if (exceeds_share || is_longer) {
       refuse("segments.tolerance", rule.tolerance, "expected less than every length");
     }
   }

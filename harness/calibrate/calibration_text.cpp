@@ -26,7 +26,7 @@ std::string list(const std::vector<std::string>& names) {
   return fmt::format("[{}]", fmt::join(out, ", "));
 }
 
-std::string told(const std::optional<double>& value) {
+std::string likelihood_text(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f}", *value) : "none";
 }
 
@@ -76,8 +76,10 @@ std::string calibration_yaml(const Calibration& c) {
   }
   out += "# Log likelihood per error of held-out sequences: translation, rotation.\n";
   for (const Rung& rung : c.rungs) {
-    out += fmt::format(
-        "#   {:22} {} {}\n", rung.method, told(rung.held_out[0]), told(rung.held_out[1]));
+    out += fmt::format("#   {:22} {} {}\n",
+                       rung.method,
+                       likelihood_text(rung.held_out[0]),
+                       likelihood_text(rung.held_out[1]));
   }
   for (std::size_t r = 0; r < c.rungs.size(); ++r) {
     out += c.rungs[r].method + ":\n";

@@ -36,7 +36,7 @@ Judgement failure(const EvalArguments& a,
 /// Reader for reference and estimate, which differ only in format.
 struct Reader {
   const EvalArguments& arguments;
-  bool wants_matrices = false;
+  bool reads_matrices = false;
   bool has_used_times = false;
 
   Loaded read(const std::string& file, const std::string& format_word) {
@@ -57,7 +57,7 @@ struct Reader {
       out.unstamped = file + ": is " + to_text(options.format);
     }
     if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
-    if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
+    if (is_kitti && reads_matrices) out.matrices = read_kitti_matrices(file);
     return out;
   }
 
@@ -68,10 +68,10 @@ struct Reader {
 };
 
 /// Rejects a file without stamps paired with a stamped file. `one`, `other`: Loaded::unstamped.
-std::string why_two_clocks(const EvalArguments& a,
-                           const Protocol& protocol,
-                           const std::string& one,
-                           const std::string& other) {
+std::string why_stamps_mismatch(const EvalArguments& a,
+                                const Protocol& protocol,
+                                const std::string& one,
+                                const std::string& other) {
   const bool looks_at_stamps = protocol.association != Association::index;
   if (a.period || !looks_at_stamps || one.empty() == other.empty()) return "";
   return one + other +
@@ -90,14 +90,14 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
   const std::vector<NamedProtocol> rules = protocols(a);
   for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // validates early
   const ReferenceBody body = reference_body(a);
-  const bool wants_digits =
+  const bool keeps_matrices =
       !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
         return p.rules.form == ErrorForm::kitti || p.rules.association == Association::evo;
       });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
-  Reader reader{a, wants_digits};
+  Reader reader{a, keeps_matrices};
   std::vector<Judgement> out;
   std::string read_last;
   Trajectory reference;
@@ -131,7 +131,7 @@ std::vector<Judgement> judgements(const EvalArguments& a) {
                                  {std::max(mended.off_unit, loaded.mended.off_unit),
                                   mended.repeated + loaded.mended.repeated},
                                  pose_of(body)};
-      const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
+      const std::string why = why_stamps_mismatch(a, protocol.rules, unstamped, loaded.unstamped);
       if (is_alone && !why.empty()) throw InputError(why);
       if (!why.empty()) {
         out.push_back(failure(a, pair, protocol, why));
@@ -168,9 +168,9 @@ int eval(const EvalArguments& a) {
   } else {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  const bool is_whole =
+  const bool all_ok =
       std::ranges::all_of(all, [](const Judgement& j) { return status(j) == "ok"; });
-  return is_whole ? kExitOk : kExitSomeCellsFailed;
+  return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::string status(const Judgement& j) {
 }
 
 void compare_coverage(std::vector<Judgement>& judgements) {
-  constexpr double kFarLess = 0.5;
+  constexpr double kMuchLess = 0.5;
   const auto key = [](const Judgement& j) { return j.reference + "\n" + j.protocol.label(); };
   std::map<std::string, double> most;
   for (const Judgement& j : judgements) {
@@ -55,7 +55,7 @@ void compare_coverage(std::vector<Judgement>& judgements) {
   for (Judgement& j : judgements) {
     const double best = most.at(key(j));
     if (!j.why_failed.empty() || !j.why_incomplete.empty()) continue;
-    if (j.coverage.least() >= kFarLess * best) continue;
+    if (j.coverage.least() >= kMuchLess * best) continue;
     j.why_incomplete = fmt::format(
         "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
         "{:.1f} % of another estimate",

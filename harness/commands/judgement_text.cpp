@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-std::string in_words(const Params& options) {
+std::string options_text(const Params& options) {
   std::string out;
   for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
   return out;
@@ -89,15 +89,15 @@ std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
 
 std::string label(const JudgedMetric& metric) {
   Params rest = metric.options;
-  for (const char* told_elsewhere : {"relation", "each"}) rest.erase(told_elsewhere);
+  for (const char* in_heading : {"relation", "each"}) rest.erase(in_heading);
   const auto delta = rest.find("delta");
   const auto unit = rest.find("unit");
-  if (delta == rest.end() || unit == rest.end()) return metric.name + in_words(rest);
+  if (delta == rest.end() || unit == rest.end()) return metric.name + options_text(rest);
   std::string out =
       fmt::format("{} {} {}", metric.name, std::get<double>(delta->second), to_text(unit->second));
   rest.erase("delta");
   rest.erase("unit");
-  return out + in_words(rest);
+  return out + options_text(rest);
 }
 
 std::string text(const Judgement& j) {

@@ -45,10 +45,10 @@ void expect_truths(const Path& truths, const Path& algorithms) {
     for (const Path& dataset : sorted(algorithm)) {
       if (std::ranges::none_of(sorted(dataset), is_text)) continue;
       const std::string name = dataset.filename().string();
-      const auto is_of_it = [&](const Path& truth) {
+      const auto is_reference_of_it = [&](const Path& truth) {
         return is_text(truth) && truth.stem() == dataset.filename();
       };
-      if (std::ranges::any_of(sorted(truths), is_of_it)) continue;
+      if (std::ranges::any_of(sorted(truths), is_reference_of_it)) continue;
       throw InputError(dataset.string() + ": has runs, but there is no reference " + name +
                        ".txt in " + truths.string());
     }
@@ -80,9 +80,10 @@ Params rpg_settings(const Path& folder) {
     if (key == "align_type") {
       out["align"] = align_of(value, frames == 1, file);
     } else if (key != "align_num_frames") {
-      throw input_error(file,
-                        value.line,
-                        "no setting is named '" + key + "', expected align_type or align_num_frames");
+      throw input_error(
+          file,
+          value.line,
+          "no setting is named '" + key + "', expected align_type or align_num_frames");
     }
   }
   if (frames > 1) out["align_first"] = frames;

@@ -103,7 +103,7 @@ std::string printed_tables(const std::filesystem::path& file) {
   return text.substr(0, text.rfind("\n<!-- "));
 }
 
-void say_damage(const Resumed& resumed, const std::filesystem::path& store) {
+void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
   if (!resumed.damaged.empty()) {
     fmt::print(
         stderr,
@@ -138,7 +138,7 @@ int run(const RunArguments& arguments, const Source& source) {
       std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
   const Resumed resumed =
       store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
-  say_damage(resumed, file);
+  report_damage(resumed, file);
   const std::vector<Cell>& missing = resumed.missing;
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
@@ -165,12 +165,12 @@ int run(const RunArguments& arguments, const Source& source) {
   if (done + resumed.there == 0) return kExitInterrupted;
 
   // Writing the tables of many cells takes longer than checking that none is missing.
-  const bool as_it_was =
+  const bool is_up_to_date =
       resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
       std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
   const std::string text =
-      as_it_was ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
-  if (!as_it_was) store->exported();
+      is_up_to_date ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
+  if (!is_up_to_date) store->exported();
   store.reset();
   fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",
              text,

@@ -35,7 +35,7 @@ std::string text(const std::vector<Table>& tables, TableFormat format) {
   return out;
 }
 
-ExportFormat carrier(TableFormat format) {
+ExportFormat container_format(TableFormat format) {
   switch (format) {
     case TableFormat::terminal:
       return ExportFormat::terminal;
@@ -68,7 +68,7 @@ int print_table(TableArguments arguments) {
       arguments.format == TableFormat::rows
           ? csv(records)
           : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
-  deliver(shown, carrier(arguments.format), "tables", arguments.store, arguments.out);
+  deliver(shown, container_format(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
 

@@ -71,7 +71,7 @@ std::string result(const Comparison& c, const MethodVerdict& method) {
   return out;
 }
 
-std::string why_nothing(const Comparison& c) {
+std::string why_no_comparison(const Comparison& c) {
   for (const Gap& gap : c.gaps) {
     if (!gap.is_ranked && gap.method == c.options.baseline) {
       return "the baseline " + gap.method + " has no value on any run: nothing is compared";
@@ -136,7 +136,7 @@ std::string unit_text(const Comparison& c) {
 }
 
 std::string verdict(const Comparison& c) {
-  if (c.methods.empty()) return why_nothing(c);
+  if (c.methods.empty()) return why_no_comparison(c);
   const auto leaders = names_where(c, [](const MethodVerdict& m) { return m.is_leader; });
   const std::string over = "; over " + unit_text(c);
   if (c.is_best_proven || leaders.size() == c.methods.size()) return best_text(c, leaders) + over;

@@ -90,9 +90,9 @@ const auto& found(Find find,
 
 /// The stage of a setting and its name in that stage: `uniform.rotation`, or `rotation` if only one
 /// stage has this option.
-std::pair<std::size_t, std::string> owner(const Setting& setting,
-                                          const std::vector<const MethodEntry*>& stages,
-                                          const std::string& file) {
+std::pair<std::size_t, std::string> stage_of(const Setting& setting,
+                                             const std::vector<const MethodEntry*>& stages,
+                                             const std::string& file) {
   std::vector<std::size_t> having;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -181,7 +181,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   for (GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
     std::vector<std::vector<Setting>> by_stage(stages.size());
     for (Setting& setting : point.settings) {
-      const auto [stage, name] = owner(setting, stages, file);
+      const auto [stage, name] = stage_of(setting, stages, file);
       std::vector<Setting> own{{name, setting.value, setting.line, setting.text}};
       keep_text(own, stages[stage]->options);
       setting.value = own.front().value;
@@ -190,10 +190,10 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
     MethodChoice choice{label_of(text, label, point), {}, calibrated.trained_on};
     for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      for (const Setting& learnt :
+      for (const Setting& estimated :
            calibrated.by_method[stages[i]->name]) {  // the entry's own settings have priority
-        if (std::ranges::count(by_stage[i], learnt.name, &Setting::name) == 0) {
-          by_stage[i].push_back(learnt);
+        if (std::ranges::count(by_stage[i], estimated.name, &Setting::name) == 0) {
+          by_stage[i].push_back(estimated);
         }
       }
       choice.stages[i].options = to_params(by_stage[i]);

@@ -95,9 +95,9 @@ void expect_utf8(const std::string& text, const std::string& file) {
   int more = 0;  // continuation bytes that the current character still needs
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool is_rest = (byte & 0xC0U) == 0x80U;
+    const bool is_continuation = (byte & 0xC0U) == 0x80U;
     const bool is_start = byte < 0x80U || (byte >= 0xC2U && byte < 0xF5U);
-    if (more > 0 ? !is_rest : !is_start) {
+    if (more > 0 ? !is_continuation : !is_start) {
       throw input_error(file, line, "is not UTF-8 text, expected YAML");
     }
     if (more > 0) {

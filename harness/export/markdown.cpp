@@ -18,13 +18,13 @@ std::string escaped_markdown(const std::string& text) {
     const bool is_tag =
         i + 1 < line.size() &&
         (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
-    const bool opens = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
+    const bool is_emphasis = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
     if (c == '<' && is_tag) {
       out += "&lt;";
     } else if (c == '&' && is_tag) {
       out += "&amp;";
     } else {
-      if (opens || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
+      if (is_emphasis || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
       out += c;
     }
   }

@@ -24,8 +24,8 @@ std::vector<std::string> split(const std::string& rule) {
   bool is_quoted = false;
   for (const char c : rule) {
     std::string& part = parts.back();
-    const bool may_open = part.empty() || part.back() == '=' || part.back() == '~';
-    if (c == '"' && (is_quoted || may_open)) is_quoted = !is_quoted;
+    const bool can_open = part.empty() || part.back() == '=' || part.back() == '~';
+    if (c == '"' && (is_quoted || can_open)) is_quoted = !is_quoted;
     if (is_quoted) {
       part += c;
       continue;

@@ -46,20 +46,20 @@ FilePath link_target(FilePath file) {
   return file;
 }
 
-bool is_standard_output(const struct stat& there) {
+bool is_standard_output(const struct stat& status) {
   struct stat out {};
-  return ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == there.st_dev &&
-         out.st_ino == there.st_ino;
+  return ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == status.st_dev &&
+         out.st_ino == status.st_ino;
 }
 
 /// Writes into pipes and devices instead of replacing them.
-void write_into(const FilePath& file, const struct stat& there, const std::string& text) {
+void write_into(const FilePath& file, const struct stat& status, const std::string& text) {
   // Standard output is written at its current position: opening it again would write from the
   // start of the file.
-  const bool is_ours = is_standard_output(there);
-  if (is_ours) std::fflush(stdout);
+  const bool is_own_output = is_standard_output(status);
+  if (is_own_output) std::fflush(stdout);
   const int descriptor =
-      is_ours ? ::dup(STDOUT_FILENO) : ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+      is_own_output ? ::dup(STDOUT_FILENO) : ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   const int reason = descriptor < 0 ? errno : write_and_close(descriptor, text);
   if (reason != 0) throw cannot_write(file, std::strerror(reason));
 }
@@ -88,14 +88,14 @@ void write_file(const FilePath& file, const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stdout);  // main() reports write errors
     return;
   }
-  struct stat there {};
-  const bool exists = ::stat(file.c_str(), &there) == 0;
-  if (exists && S_ISDIR(there.st_mode)) throw cannot_write(file, "is a folder");
-  if (exists && (!S_ISREG(there.st_mode) || is_standard_output(there))) {
-    return write_into(file, there, text);
+  struct stat status {};
+  const bool exists = ::stat(file.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) throw cannot_write(file, "is a folder");
+  if (exists && (!S_ISREG(status.st_mode) || is_standard_output(status))) {
+    return write_into(file, status, text);
   }
   // Renaming ignores the file's permissions, and root bypasses them.
-  const bool is_read_only = exists && (there.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
+  const bool is_read_only = exists && (status.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
   if (is_read_only || (exists && ::access(file.c_str(), W_OK) != 0)) {
     throw cannot_write(file, is_read_only ? "is read-only" : std::strerror(errno));
   }
@@ -106,7 +106,7 @@ void write_file(const FilePath& file, const std::string& text) {
   FilePath part;
   const int descriptor = create_beside(target, part);
   if (descriptor < 0) throw cannot_write(file, std::strerror(errno));
-  if (exists) ::fchmod(descriptor, there.st_mode & 0777);
+  if (exists) ::fchmod(descriptor, status.st_mode & 0777);
   const int reason = write_and_close(descriptor, text);
   if (reason == 0) std::filesystem::rename(part, target, error);
   if (reason == 0 && !error) return;

@@ -39,7 +39,7 @@ double loss(const GateScore& score, double before, double now) {
 }
 
 /// Reason why the two numbers cannot be compared, or empty.
-std::string other_meaning(const GateScore& before, const GateScore& now) {
+std::string why_not_comparable(const GateScore& before, const GateScore& now) {
   if (now.metric != before.metric) {
     return fmt::format("metric '{}', was '{}'", now.metric, before.metric);
   }
@@ -143,7 +143,7 @@ class Checker {
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, name(cell), name(before), what);
     };
-    if (const std::string other = other_meaning(before, now); !other.empty()) {
+    if (const std::string other = why_not_comparable(before, now); !other.empty()) {
       regression(other);
       return;
     }

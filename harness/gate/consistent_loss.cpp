@@ -13,7 +13,7 @@ namespace loopbench {
 namespace {
 
 /// A change below this share of the absolute limit is a rounding error.
-constexpr double kLeastMove = 1e-3;
+constexpr double kSmallestChange = 1e-3;
 
 std::string gate_group(const GateCell& cell) {
   if (!cell.group.empty()) return "group " + cell.group;
@@ -47,7 +47,7 @@ void ConsistentLosses::add(const GateCell& cell,
   Series& series = series_[{cell.method, name(score), statistic}];
   if (!cell.content.empty() && std::ranges::count(series.contents, cell.content) > 0) return;
   const bool is_tie =
-      tied(before, now, limit.tie) || std::abs(now - before) <= kLeastMove * limit.absolute;
+      tied(before, now, limit.tie) || std::abs(now - before) <= kSmallestChange * limit.absolute;
   if (score.better == Better::target) {
     before = std::abs(before - score.target);
     now = std::abs(now - score.target);

@@ -38,7 +38,7 @@ std::string signal_name(int signal) {
 }
 
 /// A worker, its unanswered jobs in order, and the answers received so far.
-struct Seat {
+struct WorkerSlot {
   std::unique_ptr<WorkerProcess> process;
   std::deque<Job> jobs;
   std::string bytes;
@@ -57,7 +57,7 @@ class IsolatedSweep {
         finished_(finished),
         queue_(context.cells),
         facts_(context.cells.size()),
-        seats_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
+        slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
         pinned_(context.sweep.serial ? last_core() : -1) {}
 
   void run() {
@@ -72,17 +72,18 @@ class IsolatedSweep {
   /// Runs until all jobs are assigned and answered.
   void work() {
     for (;;) {
-      for (Seat& seat : seats_) fill(seat);
-      if (std::ranges::all_of(seats_, [](const Seat& seat) { return seat.jobs.empty(); })) return;
+      for (WorkerSlot& slot : slots_) fill(slot);
+      if (std::ranges::all_of(slots_, [](const WorkerSlot& slot) { return slot.jobs.empty(); }))
+        return;
       wait();
-      for (Seat& seat : seats_) {
-        if (!seat.process) continue;
-        const bool alive = seat.process->receive(seat.bytes);
-        read_answers(seat);
+      for (WorkerSlot& slot : slots_) {
+        if (!slot.process) continue;
+        const bool alive = slot.process->receive(slot.bytes);
+        read_answers(slot);
         if (alive) {
-          watch(seat);
+          watch(slot);
         } else {
-          bury(seat);
+          reap(slot);
         }
       }
     }
@@ -90,24 +91,24 @@ class IsolatedSweep {
 
   /// One running and one queued job per worker, so that a worker does not wait for the sweep; only
   /// one job if nothing else may run at the same time.
-  void fill(Seat& seat) {
+  void fill(WorkerSlot& slot) {
     const std::size_t depth = context_.sweep.serial ? 1 : 2;
-    while (seat.jobs.size() < depth && !stop_) {
+    while (slot.jobs.size() < depth && !stop_) {
       std::optional<Job> job;
       if (!loads_.empty()) {
         // One each, so that the other workers load their sequences in parallel.
-        if (!seat.jobs.empty()) return;
+        if (!slot.jobs.empty()) return;
         job = loads_.front();
         loads_.pop_front();
-        seat.group = queue_.group_of(job->cell);
+        slot.group = queue_.group_of(job->cell);
       } else if (loads_done_) {
-        const auto cell = queue_.next(seat.group);
+        const auto cell = queue_.next(slot.group);
         if (cell) job = Job{*cell, false};
       }
       if (!job) return;
-      if (!seat.process) seat.process = std::make_unique<WorkerProcess>(context_, pinned_);
-      seat.jobs.push_back(*job);
-      seat.process->send(*job);
+      if (!slot.process) slot.process = std::make_unique<WorkerProcess>(context_, pinned_);
+      slot.jobs.push_back(*job);
+      slot.process->send(*job);
     }
   }
 
@@ -119,37 +120,37 @@ class IsolatedSweep {
       const int bound = static_cast<int>(std::clamp<std::int64_t>(milliseconds, 1, 60000));
       longest = longest < 0 ? bound : std::min(longest, bound);
     };
-    for (const Seat& seat : seats_) {
-      if (!seat.process || seat.jobs.empty()) continue;
-      sockets.push_back({seat.process->socket(), POLLIN, 0});
+    for (const WorkerSlot& slot : slots_) {
+      if (!slot.process || slot.jobs.empty()) continue;
+      sockets.push_back({slot.process->socket(), POLLIN, 0});
       const Limits& limits = context_.sweep.limits;
       if (limits.memory > 0) at_most(kMemoryWatch);
       if (limits.seconds > 0.0) {
-        const bool idle = seat.process->board().job == Board::kIdle;
-        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(seat) * 1e3);
+        const bool idle = slot.process->board().job == Board::kIdle;
+        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(slot) * 1e3);
         at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
       }
     }
     poll(sockets.data(), sockets.size(), longest);  // also ended by an interrupt, which sets `stop`
   }
 
-  static double busy_for(const Seat& seat) {
-    return 1e-9 * static_cast<double>(steady_nanoseconds() - seat.process->board().since);
+  static double busy_for(const WorkerSlot& slot) {
+    return 1e-9 * static_cast<double>(steady_nanoseconds() - slot.process->board().since);
   }
 
   /// Kills a worker that exceeds a limit.
-  void watch(Seat& seat) {
-    const Board& board = seat.process->board();
+  void watch(WorkerSlot& slot) {
+    const Board& board = slot.process->board();
     const std::uint64_t job = board.job;
-    if (seat.verdict || job == Board::kIdle) return;
+    if (slot.verdict || job == Board::kIdle) return;
     const char* doing = board.loading ? "loading its sequence" : "the cell";
     const Limits& limits = context_.sweep.limits;
     CellResult verdict;
     verdict.cell = context_.cells[job];
-    if (limits.seconds > 0.0 && busy_for(seat) > limits.seconds) {
+    if (limits.seconds > 0.0 && busy_for(slot) > limits.seconds) {
       verdict.status = Status::timeout;
       verdict.why = fmt::format("{} exceeded the time limit of {} s", doing, limits.seconds);
-    } else if (const std::int64_t size = limits.memory > 0 ? seat.process->resident_memory() : 0;
+    } else if (const std::int64_t size = limits.memory > 0 ? slot.process->resident_memory() : 0;
                size > limits.memory) {
       verdict.status = Status::out_of_memory;
       verdict.why =
@@ -158,32 +159,32 @@ class IsolatedSweep {
       return;
     }
     verdict.signal = "SIGKILL";
-    seat.verdict = verdict;
-    seat.process->kill();
+    slot.verdict = verdict;
+    slot.process->kill();
   }
 
-  void read_answers(Seat& seat) {
+  void read_answers(WorkerSlot& slot) {
     std::size_t at = 0;
     for (;;) {
       Header header;
-      if (seat.bytes.size() - at < sizeof header) break;
-      std::memcpy(&header, seat.bytes.data() + at, sizeof header);
-      if (header.size > seat.bytes.size() - at - sizeof header) break;
-      const std::string_view body(seat.bytes.data() + at + sizeof header, header.size);
-      if (!take(seat, header, body)) {
+      if (slot.bytes.size() - at < sizeof header) break;
+      std::memcpy(&header, slot.bytes.data() + at, sizeof header);
+      if (header.size > slot.bytes.size() - at - sizeof header) break;
+      const std::string_view body(slot.bytes.data() + at + sizeof header, header.size);
+      if (!take(slot, header, body)) {
         // It has corrupted its own memory, so its other answers are not reliable.
-        seat.process->kill();
-        at = seat.bytes.size();
+        slot.process->kill();
+        at = slot.bytes.size();
         break;
       }
       at += sizeof header + header.size;
     }
-    seat.bytes.erase(0, at);
+    slot.bytes.erase(0, at);
   }
 
   /// False for invalid messages, which only a corrupted worker sends.
-  bool take(Seat& seat, const Header& header, std::string_view body) {
-    if (seat.jobs.empty() || header.cell != seat.jobs.front().cell) return false;
+  bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
+    if (slot.jobs.empty() || header.cell != slot.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
     if (header.kind == Header::Kind::loaded) {
       auto facts = std::make_shared<SequenceFacts>();
@@ -197,7 +198,7 @@ class IsolatedSweep {
       result.cell = context_.cells[header.cell];
       finish(result, header.cell);
     }
-    seat.jobs.pop_front();
+    slot.jobs.pop_front();
     return true;
   }
 
@@ -234,14 +235,14 @@ class IsolatedSweep {
   }
 
   /// Handles the end of a worker: sets the result of its current cell and requeues the others.
-  void bury(Seat& seat) {
-    const WorkerProcess::End end = seat.process->end();
-    const bool loading = seat.process->board().loading;
-    const bool idle = seat.process->board().job == Board::kIdle;
-    seat.process.reset();
-    seat.bytes.clear();
-    std::deque<Job> jobs = std::exchange(seat.jobs, {});
-    const std::optional<CellResult> verdict = std::exchange(seat.verdict, std::nullopt);
+  void reap(WorkerSlot& slot) {
+    const WorkerProcess::End end = slot.process->end();
+    const bool loading = slot.process->board().loading;
+    const bool idle = slot.process->board().job == Board::kIdle;
+    slot.process.reset();
+    slot.bytes.clear();
+    std::deque<Job> jobs = std::exchange(slot.jobs, {});
+    const std::optional<CellResult> verdict = std::exchange(slot.verdict, std::nullopt);
     if (jobs.empty()) return;
     const Job first = jobs.front();
     const Cell& cell = context_.cells[first.cell];
@@ -281,7 +282,7 @@ class IsolatedSweep {
   std::deque<Job> loads_;
   bool loads_done_ = false;
   std::vector<std::shared_ptr<const SequenceFacts>> facts_;  ///< by group
-  std::vector<Seat> seats_;
+  std::vector<WorkerSlot> slots_;
   int pinned_;
 };
 

@@ -8,7 +8,9 @@ namespace loopbench {
 namespace {
 
 /// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
-Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference, Align align) {
+Trajectory aligned_reference(const Trajectory& keyframes,
+                             const Trajectory& reference,
+                             Align align) {
   Protocol protocol;
   protocol.align = align;
   const Alignment to_reference = evaluate(reference, keyframes, protocol).alignment;
@@ -35,8 +37,8 @@ manifold::PieceJudge nearest_to(const Polyline& reference) {
         const double u = static_cast<double>(k) / parts;
         const double time = std::lerp(nodes.stamps[edge], nodes.stamps[edge + 1], u);
         if (!(time >= reference.start() && time <= reference.end())) continue;
-        const Vector3 seen = reference.at(time).translation - nodes.base;
-        sum += (asked(piece, spline.at(edge, time)) - seen).squaredNorm();
+        const Vector3 reference_point = reference.at(time).translation - nodes.base;
+        sum += (asked(piece, spline.at(edge, time)) - reference_point).squaredNorm();
         ++count;
       }
     }
@@ -55,7 +57,7 @@ std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem, Report& report) const {
-  Polyline reference(in_world_of(problem.keyframes, reference_, options_.reference_align));
+  Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
   manifold::PieceJudge judge;
   if (options_.reference_families) judge = nearest_to(reference);
   std::shared_ptr<const manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);

@@ -45,7 +45,7 @@ std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
   return fields.hashed();
 }
 
-std::string of_judging(const Sweep& sweep, const Catalogue& catalogue) {
+std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
   for (const NamedProtocol& protocol : sweep.protocols) {
     fields.add(protocol.label()).add(protocol.version).add(to_text(echo(protocol.rules)));
@@ -70,7 +70,7 @@ CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root
       catalogue_(catalogue),
       root_(std::move(root)),
       build_(std::move(build)),
-      judged_(of_judging(sweep, catalogue)) {
+      judged_(evaluation_fields(sweep, catalogue)) {
   for (const MethodChoice& choice : sweep.methods) methods_.push_back(of_method(choice, catalogue));
 }
 

@@ -57,12 +57,12 @@ const char* word(int sign) { return sign < 0 ? "lowers" : sign > 0 ? "raises" : 
 /// "N3 lowers the y ATE": compares each row of ours with ORB_SLAM2's row of the same table.
 Claim ordering(const Judge& judge, const ReportedRow& row) {
   const ReportedRow& base = printed(row.table, kBaseline);
-  const int told = judge.compare(row.ate, base.ate);
+  const int printed_order = judge.compare(row.ate, base.ate);
   Claim claim = judge.claim(row.sequence,
                             fmt::format("Table {}: {} {} the {} ATE ({} against {})",
                                         row.table,
                                         row.variant,
-                                        word(told),
+                                        word(printed_order),
                                         row.axis,
                                         row.ate,
                                         base.ate));
@@ -75,7 +75,7 @@ Claim ordering(const Judge& judge, const ReportedRow& row) {
   const auto b_dense = axis_numbers(*raw, row.axis, Times::dense);
   if (!a || !b || !a_dense || !b_dense) return claim;
   const int at_keyframes = judge.compare(a->ate, b->ate);
-  claim.verdict = at_keyframes == told ? Verdict::holds : Verdict::does_not_hold;
+  claim.verdict = at_keyframes == printed_order ? Verdict::holds : Verdict::does_not_hold;
   claim.because =
       fmt::format("{} it: {:.4f} against {:.4f} m at keyframes, {:.4f} against {:.4f} between",
                   word(at_keyframes),

@@ -122,9 +122,9 @@ struct Run {
     for (std::size_t edge = range.first; edge < range.last; ++edge) {
       for (; pose != truth.end() && pose->stamp <= nodes.stamps[edge + 1]; ++pose) {
         const Place place = spline.at(edge, pose->stamp);
-        const Vector3 seen = pose->world_from_body.translation - nodes.base;
+        const Vector3 reference_point = pose->world_from_body.translation - nodes.base;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-          contest.squares[k] += (asked(pieces[k], place) - seen).squaredNorm();
+          contest.squares[k] += (asked(pieces[k], place) - reference_point).squaredNorm();
         }
         ++contest.samples;
       }

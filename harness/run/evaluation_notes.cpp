@@ -91,7 +91,7 @@ std::vector<std::string> evaluation_notes(const Trajectory& reference,
 }
 
 std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep& sweep) {
-  constexpr double kLittle = 0.5;
+  constexpr double kLowCoverage = 0.5;
   std::vector<std::string> out;
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty() || problem.keyframes.empty()) return out;
@@ -105,7 +105,7 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
                                                protocol.rules,
                                                tracked_stamps(problem));
         const Coverage& covered = evaluation.coverage;
-        if (covered.least() < kLittle) {
+        if (covered.least() < kLowCoverage) {
           note_once(
               out,
               fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 /// Runs `work` and converts any exception to a status with its message: declined for Undefined
 /// metrics, otherwise failed.
 template <class Result, class Work>
-void fenced(Result& result, Work work) {
+void catch_errors(Result& result, Work work) {
   try {
     work();
   } catch (const Undefined& reason) {
@@ -83,7 +83,7 @@ void score(CellResult& result,
   row.metric = choice.metric.name;
   row.label = choice.label;
   row.coverage = evaluation.coverage;
-  fenced(row, [&] {
+  catch_errors(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
       result.scores.push_back(row);
@@ -115,7 +115,7 @@ void judge(CellResult& result,
   const std::vector<double> tracked = tracked_stamps(sequence.problem);
   const Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
-  fenced(none, [&] {
+  catch_errors(none, [&] {
     Evaluation evaluation =
         evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
@@ -205,7 +205,7 @@ CellResult run_cell(const Cell& cell,
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];
   result.oracle_method = is_shown_reference(choice, catalogue);
-  fenced(result, [&] {
+  catch_errors(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;

@@ -17,17 +17,17 @@ void for_each_index(std::size_t count,
                     const std::atomic<bool>& stop,
                     const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
-  std::atomic<bool> broken = false;
+  std::atomic<bool> has_failed = false;
   std::exception_ptr first;
   std::mutex mutex;
   const auto worker = [&] {
-    for (std::size_t i = next++; i < count && !stop && !broken; i = next++) {
+    for (std::size_t i = next++; i < count && !stop && !has_failed; i = next++) {
       try {
         work(i);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();
-        broken = true;
+        has_failed = true;
       }
     }
   };

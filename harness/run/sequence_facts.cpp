@@ -18,12 +18,12 @@ namespace {
 std::string reference_of_other_body(const Sequence& sequence) {
   const Trajectory& keyframes = sequence.problem.keyframes;
   if (sequence.reference.empty() || is_position_only(sequence.reference)) return "";
-  const auto there = poses_at(sequence.reference, stamps(keyframes), {});
+  const auto reference_poses = poses_at(sequence.reference, stamps(keyframes), {});
   Trajectory estimate, reference;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    if (!there[i]) continue;
+    if (!reference_poses[i]) continue;
     estimate.push_back(keyframes[i]);
-    reference.push_back({keyframes[i].stamp, *there[i]});
+    reference.push_back({keyframes[i].stamp, *reference_poses[i]});
   }
   const auto offset = body_offset(reference, estimate, {});
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;

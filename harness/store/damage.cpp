@@ -94,7 +94,7 @@ Sound remove_damaged(Database& database, const std::filesystem::path& file, bool
     throw InputError(
         file.string() +
         ": is damaged and cannot be repaired; --fresh keeps it as previous.sqlite and starts "
-        "anew");
+        "a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.whole) out.removed.push_back(label_of(cell.record));

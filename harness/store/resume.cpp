@@ -103,19 +103,20 @@ std::vector<Row*> claim(Rows& rows,
 }  // namespace
 
 Resumed match(Database& database,
-              const Sound& there,
+              const Sound& stored_rows,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  Rows rows = rows_of(there.cells);
-  const std::vector<Row*> claimed = claim(rows, keys_now(there.sequences, keys, all), all, sweep);
+  Rows rows = rows_of(stored_rows.cells);
+  const std::vector<Row*> claimed =
+      claim(rows, keys_now(stored_rows.sequences, keys, all), all, sweep);
   DigestWriter digests(database);
 
   Resumed out;
-  out.damaged = there.removed;
-  out.lost = there.lost;
+  out.damaged = stored_rows.removed;
+  out.lost = stored_rows.lost;
   out.unchanged = true;
   Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
   for (const auto& [key, same_key] : rows) {

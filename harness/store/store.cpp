@@ -48,7 +48,7 @@ void check_size(Database& database, const std::filesystem::path& file) {
   if (size >= whole) return;
   throw InputError(
       fmt::format("{}: is damaged ({} bytes of {}); --fresh keeps it as previous.sqlite and starts "
-                  "anew",
+                  "a new store",
                   file.string(),
                   size,
                   whole));
@@ -60,29 +60,29 @@ bool is_empty(Database& database) {
   return count.step() && count.integer() == 0;
 }
 
-void say_run(Database& database, const CellKeys& keys) {
+void write_run(Database& database, const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
-  const auto say = [&](const std::string& key, const std::string& text) {
+  const auto set_value = [&](const std::string& key, const std::string& text) {
     insert.bind(key).bind(text).run();
   };
-  say("loopbench", kVersion);
-  say("sweep", sweep.name);
-  say("config", sweep.text);
+  set_value("loopbench", kVersion);
+  set_value("sweep", sweep.name);
+  set_value("config", sweep.text);
   std::string rules;  // in full, one protocol per line
   for (const NamedProtocol& protocol : sweep.protocols) {
     rules +=
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
-  say("protocol", rules);
-  say("metrics", keys.metrics_in_full());
-  say("methods", keys.methods_in_full());
-  say("baseline", sweep.baseline);
+  set_value("protocol", rules);
+  set_value("metrics", keys.metrics_in_full());
+  set_value("methods", keys.methods_in_full());
+  set_value("baseline", sweep.baseline);
   renew_texts(database, "run");
 }
 
 /// Whether the stored description of the run is current: a default in the code can have changed.
-bool says_the_same(Database& database, const CellKeys& keys) {
+bool is_run_current(Database& database, const CellKeys& keys) {
   const auto is = [&](const std::string& key, const std::string& text) {
     Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
     return row.bind(key).step() && row.text() == text;
@@ -98,7 +98,7 @@ std::string made_key(const std::map<std::string, std::string>& provenance) {
   return fields.hashed();
 }
 
-void say_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
+void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
   const std::string made = made_key(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
   for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
@@ -157,7 +157,7 @@ void Store::create() {
   Transaction transaction(*database_);
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  say_run(*database_, keys_);
+  write_run(*database_, keys_);
   renew_texts(*database_, "provenance");
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
@@ -173,7 +173,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Transaction transaction(*database_);
   const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
-  out.unchanged = out.unchanged && says_the_same(*database_, keys_);
+  out.unchanged = out.unchanged && is_run_current(*database_, keys_);
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
@@ -181,7 +181,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    say_run(*database_, keys_);
+    write_run(*database_, keys_);
   }
   transaction.commit();
   return out;
@@ -192,7 +192,7 @@ void Store::write(const CellResult& result) {
   if (!writer_) {
     Transaction transaction(*database_);
     changes();
-    say_provenance(*database_, provenance_);
+    write_provenance(*database_, provenance_);
     transaction.commit();
     writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
   }

@@ -14,7 +14,7 @@ namespace loopbench {
 namespace {
 
 template <class T>
-void put_behind(std::vector<T>& list, const std::vector<T>& more) {
+void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
@@ -23,9 +23,9 @@ struct Together {
   SegmentErrors errors;
 
   void add(const SegmentErrors& more) {
-    put_behind(errors.start, more.start);
-    put_behind(errors.translation_share, more.translation_share);
-    put_behind(errors.rotation_rate, more.rotation_rate);
+    append(errors.start, more.start);
+    append(errors.translation_share, more.translation_share);
+    append(errors.rotation_rate, more.rotation_rate);
   }
 
   /// Ordered by start, the order in which the devkit sums floats.

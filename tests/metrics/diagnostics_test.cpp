@@ -121,7 +121,7 @@ TEST(PositionOnly, RotationIsRefusedAndPositionIsNot) {
   const Evaluation e = evaluate(reference, with_a_stop(), {});
   const std::string why =
       "the reference has a constant orientation although its path is curved: it holds only "
-      "positions, so rotation is not judged";
+      "positions, so rotation is not evaluated";
   EXPECT_EQ(why_no_attitude(e), why);
   const auto absolute = ate(e, {});
   EXPECT_EQ(absolute[0].why_undefined, "");
