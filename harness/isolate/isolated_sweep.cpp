@@ -17,8 +17,7 @@
 namespace loopbench {
 namespace {
 
-/// Interval between memory checks of the workers: a process allocates some tens of megabytes in it.
-constexpr int kMemoryWatch = 20;  // [ms]
+constexpr int kMemoryWatch = 20;  // [ms], between memory checks of the workers
 
 /// The highest core this process may use, since the first ones handle most interrupts.
 int last_core() {
@@ -153,8 +152,7 @@ class IsolatedSweep {
     } else if (const std::int64_t size = limits.memory > 0 ? slot.process->resident_memory() : 0;
                size > limits.memory) {
       verdict.status = Status::out_of_memory;
-      verdict.why =
-          fmt::format("{} grew to {} bytes, above the limit of {}", doing, size, limits.memory);
+      verdict.why = fmt::format("{} grew to {} bytes, limit {}", doing, size, limits.memory);
     } else {
       return;
     }

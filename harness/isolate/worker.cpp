@@ -60,10 +60,10 @@ void begin(Board& board, std::uint64_t job, bool loading) {
 }
 
 /// Detects a method that exceeded the limit between two checks by the sweep.
-void obey(const Limits& limits, CellResult& result) {
+void apply_limits(const Limits& limits, CellResult& result) {
   if (limits.memory <= 0 || result.peak_memory.value_or(0) <= limits.memory) return;
   result.status = Status::out_of_memory;
-  result.why = "grew to " + std::to_string(*result.peak_memory) + " bytes, above the limit of " +
+  result.why = "grew to " + std::to_string(*result.peak_memory) + " bytes, limit " +
                std::to_string(limits.memory);
   result.scores.clear();
   result.trace = {};
@@ -102,7 +102,7 @@ void serve(const WorkerContext& context, int socket, Board& board, int pinned) {
     begin(board, job.cell, false);
     CellResult result = run_cell(cell, context.sweep, entry->sequence, context.catalogue);
     result.worker = how;
-    obey(context.sweep.limits, result);
+    apply_limits(context.sweep.limits, result);
     board.job = Board::kIdle;
     Packer packed;
     packed(result);
