@@ -24,44 +24,44 @@ using namespace loopbench;
 
 namespace {
 
-/// Names and texts of files get into messages.
+/// Messages can contain names and contents of files.
 int fail(const std::string& why, int exit_code) {
   fmt::print(stderr, "{}\n", printable("loopbench: " + why));
   return exit_code;
 }
 
-/// Of a reader that has heard enough there is nothing to say, as when SIGPIPE ends us.
+/// A closed pipe is no error, as with SIGPIPE.
 int fail_to_print(int reason) {
   if (reason == EPIPE) return 128 + SIGPIPE;
   const std::string why = reason == 0 ? "" : std::string(": ") + std::strerror(reason);
   return fail("cannot write to standard output" + why, kExitBadInput);
 }
 
-/// `print_error` is the errno of a failure to print, when that is known.
+/// `print_error` is the errno of a failed print, if known.
 int run(CLI::App& app,
         const std::vector<std::string>& words,
         const int& exit_code,
         int& print_error) {
   try {
     std::vector<std::string> last_first = spelt_as_declared(app, words);
-    std::ranges::reverse(last_first);  // CLI11 wants them so
+    std::ranges::reverse(last_first);  // CLI11 expects this order
     app.parse(std::move(last_first));
   } catch (const CLI::ParseError& error) {
-    std::ostringstream told;
-    if (app.exit(error, told, told) == 0) {
-      const std::string text = told.str();
+    std::ostringstream parser_output;
+    if (app.exit(error, parser_output, parser_output) == 0) {
+      const std::string text = parser_output.str();
       if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_error = errno;
       return kExitOk;
     }
     const std::string unknown = unknown_word(app, error);
-    fmt::print(stderr, "{}", printable(unknown.empty() ? told.str() : unknown));
+    fmt::print(stderr, "{}", printable(unknown.empty() ? parser_output.str() : unknown));
     return kExitBadInput;
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);
   } catch (const OptionError& error) {
     return fail(error.what(), kExitBadInput);
   } catch (const std::system_error& error) {
-    // fmt throws these when nobody takes what it prints.
+    // fmt throws these if standard output cannot be written.
     if (std::ferror(stdout) != 0) {
       print_error = error.code().value();
       return kExitBadInput;
@@ -76,11 +76,11 @@ int run(CLI::App& app,
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Which method corrects a trajectory best after a loop is detected?", "loopbench"};
+  CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 some cells failed or got worse, 2 unusable input or output, "
+      "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
       "3 internal error, 130 interrupted.");
   int exit_code = kExitOk;
   add_run(app, exit_code, {source_commit, source_state});
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
   add_verify(app, exit_code);
   int print_error = 0;
   const int out = run(app, {argv + 1, argv + argc}, exit_code, print_error);
-  // What is printed is printed when it has left the buffer.
+  // Output counts as written only after the buffer is flushed.
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return out;
   return fail_to_print(print_error != 0 ? print_error : errno);

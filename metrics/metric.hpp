@@ -18,44 +18,45 @@ struct Score {
   std::string axis;      ///< "x", "y", "z", "3d"
   std::string unit;      ///< "m", "deg"
   Statistics statistics;
-  std::string why_undefined = {};  ///< set when this number means nothing here: no statistics then
+  std::string why_undefined = {};  ///< set if the score is undefined; it has no statistics then
   Better better = Better::lower;
   double target = 0.0;  ///< best value where `better` is target
 };
 
-/// The score with another direction than `lower`.
+/// Returns the score with the given direction instead of `lower`.
 inline Score directed(Score score, Better better, double target = 0.0) {
   score.better = better;
   score.target = target;
   return score;
 }
 
-/// The scores as descriptions: no value of them is better than another.
+/// Returns the scores as descriptions: no value is better than another.
 inline std::vector<Score> descriptions(std::vector<Score> scores) {
   for (Score& score : scores) score.better = Better::neither;
   return scores;
 }
 
-/// A number that is no distribution: count 1, std 0, every other statistic the (signed) value.
-/// Throws std::runtime_error when it is not finite.
+/// Score of a single value: count 1, std 0, every other statistic the (signed) value. Throws
+/// std::runtime_error if it is not finite.
 Score single(std::string relation, std::string axis, std::string unit, double value);
 
 struct MetricEntry {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
-  std::function<void(const Params&)> check;  ///< throws OptionError; judges nothing
-  /// Throws OptionError where the options do not fit the protocol; null: they fit any.
+  std::function<void(const Params&)> check;  ///< throws OptionError; computes nothing
+  /// Throws OptionError if the options contradict the protocol; null: they fit any protocol.
   std::function<void(const Params&, const Protocol&)> check_protocol = {};
-  /// Throws OptionError on bad options, Undefined when the sequence has nothing to measure,
-  /// std::runtime_error when the estimate cannot be measured.
+  /// Throws OptionError for invalid options, Undefined if the sequence does not define the metric,
+  /// std::runtime_error if the estimate cannot be evaluated.
   std::function<std::vector<Score>(const Evaluation&, const Params&)> score;
-  bool needs_reference = true;  ///< false: judges from the context alone, also without a reference
+  bool needs_reference = true;  ///< false: uses only the context and runs without a reference
 };
 
-/// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry. What no field
-/// can reject alone is rejected by `void check_combination(const Options&)`, what does not fit a
-/// protocol by `void check_protocol(const Options&, const Protocol&)`, where there are these.
+/// Wraps `std::vector<Score> score(const Evaluation&, const Options&)` as an entry. If they exist,
+/// `void check_combination(const Options&)` rejects inconsistent fields, and
+/// `void check_protocol(const Options&, const Protocol&)` rejects options that contradict the
+/// protocol.
 template <class Options, class Function>
 MetricEntry metric(std::string name, std::string summary, Function score) {
   MetricEntry out;
@@ -77,7 +78,7 @@ MetricEntry metric(std::string name, std::string summary, Function score) {
   return out;
 }
 
-/// The same for a metric that looks at the problem and the estimate only.
+/// The same for a metric that uses only the problem and the estimate.
 template <class Options, class Function>
 MetricEntry metric_without_reference(std::string name, std::string summary, Function score) {
   MetricEntry out = metric<Options>(std::move(name), std::move(summary), score);
@@ -85,7 +86,7 @@ MetricEntry metric_without_reference(std::string name, std::string summary, Func
   return out;
 }
 
-/// Every built-in.
+/// All built-in metrics.
 std::vector<MetricEntry> metrics();
 
 }  // namespace loopbench

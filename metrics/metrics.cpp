@@ -34,39 +34,50 @@ Score single(std::string relation, std::string axis, std::string unit, double va
 
 std::vector<MetricEntry> metrics() {
   return {
-      metric<AteOptions>("ate", "distance and angle of each pose from its reference", ate),
+      metric<AteOptions>(
+          "ate", "absolute trajectory error: distance and rotation angle of each pose", ate),
       metric<AxisErrorOptions>("axis_error", "position error along x, y and z", axis_error),
       metric<ApeOptions>("ape", "absolute error in one of evo's pose relations", ape),
-      metric<RpeOptions>("rpe", "error of the motion over frames, seconds, metres or turns", rpe),
+      metric<RpeOptions>(
+          "rpe", "relative pose error over frames, seconds, metres or rotation angles", rpe),
       metric<SegmentsOptions>("segments", "drift over sub-trajectories of given lengths", segments),
-      metric<AlongCrossOptions>(
-          "along_cross", "position error along, across and above the way travelled", along_cross),
-      metric<GainAlongOptions>(
-          "gain_along", "what was gained on the raw keyframes, by axis and third", gain_along),
-      metric<ClosureResidualOptions>(
-          "closure_residual", "what the loop closures still disagree with", closure_residual),
+      metric<AlongCrossOptions>("along_cross",
+                                "position error along, across and above the direction of travel",
+                                along_cross),
+      metric<GainAlongOptions>("gain_along",
+                               "improvement over the raw keyframes, by axis and third of the path",
+                               gain_along),
+      metric<ClosureResidualOptions>("closure_residual",
+                                     "residuals of the loop closures after the correction",
+                                     closure_residual),
       metric_without_reference<GraphCostOptions>(
-          "graph_cost", "squared Mahalanobis errors of all edges, summed", graph_cost),
-      metric<LocalShapeOptions>(
-          "local_shape", "how far neighbouring keyframes moved against each other", local_shape),
-      metric<JumpsOptions>("jumps", "jumps of the curve and its derivatives at keyframes", jumps),
+          "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
+      metric<LocalShapeOptions>("local_shape",
+                                "change of the relative poses between neighbouring keyframes",
+                                local_shape),
+      metric<JumpsOptions>(
+          "jumps", "discontinuities of the curve and its derivatives at keyframes", jumps),
       metric<PathLengthOptions>(
-          "path_length", "length of the way over the reference's", path_length_ratio),
-      metric<JerkOptions>("jerk", "third derivative of the curve beside the reference's", jerk),
+          "path_length", "ratio of the path lengths of estimate and reference", path_length_ratio),
+      metric<JerkOptions>(
+          "jerk", "jerk (third derivative) of the curve and of the reference", jerk),
       metric<InterpolationFloorOptions>("interpolation_floor",
-                                        "error that remains if every keyframe were exact",
+                                        "interpolation error between keyframes if they were exact",
                                         interpolation_floor),
       metric<SmoothingHeadroomOptions>("smoothing_headroom",
-                                       "what taking all fast error away would gain at most",
+                                       "largest gain possible by removing high-frequency error",
                                        smoothing_headroom),
-      metric<CoverageOptions>("coverage", "how much of the trajectory was judged", coverage),
+      metric<CoverageOptions>(
+          "coverage", "share of the estimate and the reference that was evaluated", coverage),
       metric_without_reference<DetectionRule>(
           "loop_detection",
-          "the place recogniser: precision, recall and their curve",
+          "place recognition: precision, recall and precision-recall curve",
           loop_detection),
-      metric<BodyOffsetOptions>(
-          "body_offset", "where the reference's body sits in the estimate's", body_offset_scores),
-      metric<DiagnosticsOptions>("diagnostics", "can the numbers be trusted at all", diagnostics),
+      metric<BodyOffsetOptions>("body_offset",
+                                "extrinsic offset of the reference's body by hand-eye calibration",
+                                body_offset_scores),
+      metric<DiagnosticsOptions>(
+          "diagnostics", "data checks: pairs, tracking gaps, alignment, time at rest", diagnostics),
   };
 }
 

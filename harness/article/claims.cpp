@@ -27,7 +27,7 @@ class Judge {
     return find_cell(cells_, like, reading_, variant);
   }
 
-  /// -1 a smaller, 0 tied, 1 a larger.
+  /// -1 for a smaller, 0 tied, 1 for a larger.
   int compare(double a, double b) const {
     if (std::abs(a - b) <= tie_ * std::max(std::abs(a), std::abs(b))) return 0;
     return a < b ? -1 : 1;
@@ -54,15 +54,15 @@ const ReportedRow& printed(int table, const std::string& variant) {
 
 const char* word(int sign) { return sign < 0 ? "lowers" : sign > 0 ? "raises" : "does not change"; }
 
-/// "N3 lowers the y ATE": each row of ours against ORB_SLAM2's row of the same table.
+/// "N3 lowers the y ATE": compares each row of ours with ORB_SLAM2's row of the same table.
 Claim ordering(const Judge& judge, const ReportedRow& row) {
   const ReportedRow& base = printed(row.table, kBaseline);
-  const int told = judge.compare(row.ate, base.ate);
+  const int printed_order = judge.compare(row.ate, base.ate);
   Claim claim = judge.claim(row.sequence,
                             fmt::format("Table {}: {} {} the {} ATE ({} against {})",
                                         row.table,
                                         row.variant,
-                                        word(told),
+                                        word(printed_order),
                                         row.axis,
                                         row.ate,
                                         base.ate));
@@ -75,7 +75,7 @@ Claim ordering(const Judge& judge, const ReportedRow& row) {
   const auto b_dense = axis_numbers(*raw, row.axis, Times::dense);
   if (!a || !b || !a_dense || !b_dense) return claim;
   const int at_keyframes = judge.compare(a->ate, b->ate);
-  claim.verdict = at_keyframes == told ? Verdict::holds : Verdict::does_not_hold;
+  claim.verdict = at_keyframes == printed_order ? Verdict::holds : Verdict::does_not_hold;
   claim.because =
       fmt::format("{} it: {:.4f} against {:.4f} m at keyframes, {:.4f} against {:.4f} between",
                   word(at_keyframes),
@@ -86,7 +86,7 @@ Claim ordering(const Judge& judge, const ReportedRow& row) {
   return claim;
 }
 
-/// "N = 4 is best": on one axis, between keyframes, where exact variants differ at all.
+/// "N = 4 is best": on one axis, between keyframes, where exact variants differ.
 Claim best(const Judge& judge,
            const std::string& sequence,
            const std::string& axis,
@@ -118,7 +118,7 @@ Claim best(const Judge& judge,
   return claim;
 }
 
-/// Share of the path, in tenths by time, where ours has the lower rmse.
+/// Share of tenths of the time in which ours has the lower rmse.
 double better_tenths(const Evaluation& ours, const Evaluation& raw) {
   constexpr std::size_t kParts = 10;
   std::array<double, kParts> sum{};

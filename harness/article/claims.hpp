@@ -1,4 +1,4 @@
-/// What the article claims, and what our numbers say to it.
+/// The article's claims, checked with our results.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ inline auto choices(Verdict) {
 
 struct Claim {
   std::string text;
-  std::string where;  ///< sequence, input, reading it was judged on
+  std::string where;  ///< sequence, input and reading used for the check
   Verdict verdict = Verdict::cannot_be_judged;
-  std::string because;  ///< the numbers that decide
+  std::string because;  ///< the decisive numbers
 };
 
-/// Judged on the article's own input, the closed run, for one reading: each ordering of tables 1 to
-/// 4, the best N and M of text and tables, "the same level as a whole, better in some areas" and
-/// "smoother". Two errors count as equal when they differ by less than `tie` of the larger.
+/// Checks one reading on the article's own input, the closed run: each ordering of tables 1 to 4,
+/// the best N and M of text and tables, "the same level as a whole, better in some areas" and
+/// "smoother". Two errors count as equal if they differ by less than `tie` of the larger.
 std::vector<Claim> judge_claims(const std::vector<PaperCell>& cells,
                                 const std::string& reading,
                                 double tie = 0.001);

@@ -15,14 +15,15 @@ namespace {
 constexpr const char* kRed = "#d62728";
 constexpr const char* kBlue = "#1f4fd6";
 constexpr const char* kGreen = "#2ca02c";
-constexpr std::size_t kMostPointsOfACurve = 600;  // a curve: beyond that a page only grows
+constexpr std::size_t kMostPointsOfACurve = 600;  // per curve: more only enlarge the file
 
 struct Span {
   double begin = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
 };
 
-/// What the article prints for one sequence: thresholds, and the speeds of its two local segments.
+/// Values printed in the article for one sequence: thresholds, and speeds of its two local
+/// segments.
 struct Printed {
   const char* sequence;
   int local_figure;
@@ -52,13 +53,13 @@ PlotPanel panel(const PaperCell& ours, const PaperCell& raw, const Span& span, b
                 {"ours", kBlue, false, positions(ours.dense.estimate, span)}};
   const bool is_local = std::isfinite(span.begin);
   if (is_local) {
-    out.same_scale = false;  // centimetres across, a metre along
+    out.same_scale = false;  // centimetres across, metres along
     out.series.push_back({"keyframes", kGreen, true, positions(raw.keyframes, span)});
   }
   return out;
 }
 
-/// The segment of at least five nodes whose speeds overlap the printed range best.
+/// The segment of at least five nodes whose speed range overlaps the printed one best.
 std::optional<Span> segment_like(const Trajectory& keyframes,
                                  const Printed& printed,
                                  const std::pair<double, double>& speeds) {
@@ -75,7 +76,7 @@ std::optional<Span> segment_like(const Trajectory& keyframes,
       low = std::min(low, speed);
       high = std::max(high, speed);
     }
-    // Intersection over union; negative when apart, so that the nearest wins.
+    // Intersection over union; negative for disjoint ranges, so that the nearest wins.
     const double overlap = (std::min(high, speeds.second) - std::max(low, speeds.first)) /
                            (std::max(high, speeds.second) - std::min(low, speeds.first));
     if (overlap > best_overlap) {

@@ -1,4 +1,4 @@
-/// Figures 5 to 8: truth red, ours blue, ORB-SLAM2 green.
+/// Figures 5 to 8: reference red, ours blue, ORB-SLAM2 green.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace loopbench {
 
 /// Writes figure5.svg (fr1) and figure7.svg (fr3): two segments fitted locally with N = 3, 4, 5;
 /// and figure6.svg (fr1) and figure8.svg (fr3): the whole run in the xoy plane for N and in xyz for
-/// M. All on the closed input in this reading. Returns the file names written, those that could be.
+/// M. All on the closed input in this reading. Returns the names of the files written.
 std::vector<std::string> paper_figures(const std::vector<PaperCell>& cells,
                                        const std::string& reading,
                                        const std::filesystem::path& folder);

@@ -1,4 +1,4 @@
-/// Every input and reading of the reproduction, run once and kept for tables, claims and figures.
+/// Runs every input and reading of the reproduction once, for tables, claims and figures.
 #pragma once
 
 #include <functional>
@@ -11,44 +11,44 @@
 
 namespace loopbench {
 
-/// One method on one input. Labels of the config name it: "fr1_room closed", "robust N4".
+/// One method on one input, identified by config labels: "fr1_room closed", "robust N4".
 struct PaperCell {
   std::string sequence;  ///< first word of the dataset's label: fr1_room | fr3_office
-  std::string input;     ///< the rest of it: closed, open, ...
-  std::string reading;   ///< how the article is read: literal, robust; empty for ORB_SLAM2
+  std::string input;     ///< the other words: closed, open, ...
+  std::string reading;   ///< interpretation of the article: literal, robust; empty for ORB_SLAM2
   std::string variant;   ///< ORB_SLAM2, N3..N5, M6..M8
   CellResult result;
-  Trajectory keyframes;  ///< the input's, moved onto the reference like `dense`
-  Evaluation dense;      ///< at the reference's times; empty when the cell failed
+  Trajectory keyframes;  ///< keyframes of the input, aligned to the reference like `dense`
+  Evaluation dense;      ///< at the reference's stamps; empty if the cell failed
   double roughness = 0;  ///< RMS second difference of the dense positions over dt^2 [m/s^2]
 };
 
-/// One axis as the article tabulates it; all in metres.
+/// One axis of the article's tables; all in metres.
 struct AxisNumbers {
   double max = 0.0;
   double min = 0.0;
   double mean = 0.0;
   double ate = 0.0;  ///< rmse
-  double rpe = 0.0;  ///< rmse over one keyframe, in the world
+  double rpe = 0.0;  ///< rmse over one keyframe, in the world frame
 };
 
-/// Runs all cells, `finished` after each. Throws InputError for labels it cannot read and for data
-/// that is not there.
+/// Runs all cells and calls `finished` after each. Throws InputError for labels it cannot parse and
+/// for missing data.
 std::vector<PaperCell> run_paper(const Sweep& sweep,
                                  const Catalogue& catalogue,
                                  const DataRoot& root,
                                  const std::function<void(const PaperCell&)>& finished);
 
-/// Nothing when the cell has no such scores.
+/// nullopt if the cell has no such scores.
 std::optional<AxisNumbers> axis_numbers(const PaperCell& cell,
                                         const std::string& axis,
                                         Times times);
 
-/// 3-D rmse at `times` [m], or nothing.
+/// 3-D rmse at `times` [m], or nullopt.
 std::optional<double> ate_3d(const PaperCell& cell, Times times);
 
-/// The cell of the same input with this reading and variant, or null. For ORB_SLAM2 the reading is
-/// ignored.
+/// The cell of the same input with this reading and variant, or null. The reading is ignored for
+/// ORB_SLAM2.
 const PaperCell* find_cell(const std::vector<PaperCell>& cells,
                            const PaperCell& like,
                            const std::string& reading,

@@ -29,7 +29,7 @@ std::string ours(const std::vector<PaperCell>& cells, const ReportedRow& row) {
   for (const PaperCell& cell : cells) {
     if (cell.sequence != row.sequence || cell.variant != row.variant) continue;
     const std::string source = cell.input + (cell.reading.empty() ? "" : ", " + cell.reading);
-    const char* note = cell.result.oracle_method ? "oracle: was shown the truth" : "";
+    const char* note = cell.result.oracle_method ? "oracle: uses the reference" : "";
     const auto keyframes = axis_numbers(cell, row.axis, Times::keyframes);
     const auto dense = axis_numbers(cell, row.axis, Times::dense);
     if (!keyframes || !dense) {

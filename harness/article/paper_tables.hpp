@@ -1,4 +1,4 @@
-/// Tables 1 to 4: the printed numbers with ours beneath, row by row.
+/// Tables 1 to 4: the printed numbers with ours below, row by row.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-/// Markdown, four tables with a heading each; rows that cannot be true as printed say why.
+/// Markdown, four tables with headings; rows that are inconsistent as printed have a note.
 std::string paper_tables(const std::vector<PaperCell>& cells);
 
 }  // namespace loopbench

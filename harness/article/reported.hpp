@@ -1,4 +1,4 @@
-/// The article's tables 1 to 4 as printed, with what cannot be true about them.
+/// The article's tables 1 to 4 as printed, with their inconsistencies.
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ struct ReportedRow {
 
 const std::vector<ReportedRow>& reported_rows();
 
-/// Why a row cannot be true if ATE is the RMSE of the same errors: mean <= RMSE always, and an RPE
-/// over the same axis is at most twice the ATE. Empty when nothing contradicts.
+/// The reason why a row is inconsistent if ATE is the RMSE of the same errors: mean <= RMSE, and an
+/// RPE over the same axis is at most twice the ATE. Empty if it is consistent.
 std::string contradiction(const ReportedRow& row);
 
 }  // namespace loopbench

@@ -26,7 +26,7 @@ using manifold::WindowFitter;
 
 constexpr std::array kFamilies{Family::poly2, Family::poly3, Family::sin1, Family::rat02};
 constexpr const char* kNames[] = {"parabola", "cubic", "sine", "rational"};
-constexpr std::size_t kNodes = 5;    // one more than the cubic has unknowns: nobody interpolates
+constexpr std::size_t kNodes = 5;    // one more than the cubic's unknowns: no exact interpolation
 constexpr double kTieMargin = 0.01;  // [of the smaller error]
 
 struct Range {
@@ -35,13 +35,13 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-/// What the article prints beside its figures.
+/// Values printed beside the article's figures.
 struct Quoted {
   const char* where;
   const char* sequence;
-  std::size_t family;  // into kFamilies
+  std::size_t family;  // index into kFamilies
   Range speed;         // [m/s]
-  Range kappa;         // no unit given; read as [rad] per keyframe
+  Range kappa;         // printed without unit; assumed [rad] per keyframe
 };
 constexpr Quoted kQuoted[] = {
     {"Figure 5 a c e", "fr1_room", 0, {0.3845, 0.7014}, {0.002, 0.04}},
@@ -54,7 +54,7 @@ constexpr Quoted kQuoted[] = {
     {"Text, special segment", "fr3_office", 3, {0.1006, 0.1770}, {0.1271, 0.2248}},
 };
 
-/// Squared distances of each family to the truth; a window it refuses is a parabola's, as in dm.
+/// Squared distances of each family to the reference; a rejected window uses a parabola, as in dm.
 struct Contest {
   std::array<double, kFamilies.size()> squares{};
   std::array<std::size_t, kFamilies.size()> refused{};
@@ -79,7 +79,7 @@ struct Contest {
   }
 };
 
-/// The truth at the stamps of the keyframes it knows: what a family misses then is its own doing.
+/// The reference at the keyframe stamps, so that the remaining error is due to the family.
 Trajectory true_keyframes(const PaperCell& raw) {
   const Polyline truth(raw.dense.reference);
   std::vector<double> known;
@@ -89,7 +89,7 @@ Trajectory true_keyframes(const PaperCell& raw) {
   return truth.sample(known);
 }
 
-/// The true path, its z up, and nodes on it.
+/// The reference path, its z axis up, and nodes on it.
 struct Run {
   explicit Run(const PaperCell& raw) : Run(raw, true_keyframes(raw)) {}
   Run(const PaperCell& raw, const Trajectory& keyframes)
@@ -128,9 +128,9 @@ struct Run {
     for (std::size_t edge = range.first; edge < range.last; ++edge) {
       for (; pose != truth.end() && pose->stamp <= nodes.stamps[edge + 1]; ++pose) {
         const manifold::Place place = spline.at(edge, pose->stamp);
-        const Vector3 seen = pose->world_from_body.translation - nodes.base;
+        const Vector3 reference_point = pose->world_from_body.translation - nodes.base;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-          contest.squares[k] += (asked(pieces[k], place) - seen).squaredNorm();
+          contest.squares[k] += (asked(pieces[k], place) - reference_point).squaredNorm();
         }
         ++contest.samples;
       }

@@ -1,24 +1,24 @@
-/// The article's claims about single segments: which curve fits at which speed and curvature, and
-/// that faster segments meet more smoothly.
+/// The article's claims about single segments: the curve that fits at a given speed and curvature,
+/// and smoother joints of faster segments.
 #pragma once
 
 #include "harness/article/claims.hpp"
 
 namespace loopbench {
 
-/// Judged on the closed run of each sequence, in chord axes whatever the reading.
+/// Checked on the closed run of each sequence, in chord axes for any reading.
 ///
-/// "The parabola fits at these speeds": the truth at the keyframes, so that what a family misses is
-/// its own doing and not drift. Of all runs of five keyframes whose speeds, and turns per keyframe
-/// [rad], lie in the quoted ranges and that are a graph y' = f(x'), each family's rms distance to
-/// the truth between the keyframes. Where no five turn as quoted (kappa's unit is unknown) the
-/// speeds alone decide; where there are none at these speeds either, it cannot be judged. Holds
-/// when the quoted family is the nearest or within 1 % of it, and refused in half of the windows at
-/// most.
+/// "The parabola fits at these speeds": uses the reference at the keyframes, so that errors are due
+/// to the family and not to drift. Considers all runs of five keyframes whose speeds and rotations
+/// per keyframe [rad] lie in the quoted ranges and that are a graph y' = f(x'), and computes each
+/// family's rms distance to the reference between the keyframes. If no five keyframes have the
+/// quoted rotations (kappa's unit is unknown), only the speeds are used; if there are none with
+/// these speeds either, the claim cannot be judged. It holds if the quoted family is the nearest or
+/// within 1 % of it, and rejected in at most half of the windows.
 ///
-/// "C1 at higher speed": parabolas through three keyframes, laid end to end without any joint; the
-/// median angle between neighbouring tangents, in the faster and the slower half of the joints.
-/// Holds when the faster half turns by less than a degree and the slower by more.
+/// "C1 at higher speed": parabolas through three keyframes, concatenated without blending; the
+/// median angle between neighbouring tangents, in the faster and the slower half of the joints. It
+/// holds if the angle is less than a degree in the faster half and more in the slower.
 std::vector<Claim> judge_segment_claims(const std::vector<PaperCell>& cells);
 
 }  // namespace loopbench

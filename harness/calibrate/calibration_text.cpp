@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-/// Double-yaml_quoted, as YAML reads it back.
+/// Double-quoted YAML scalar.
 std::string yaml_quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -26,7 +26,7 @@ std::string list(const std::vector<std::string>& names) {
   return fmt::format("[{}]", fmt::join(out, ", "));
 }
 
-std::string told(const std::optional<double>& value) {
+std::string likelihood_text(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f}", *value) : "none";
 }
 
@@ -36,10 +36,10 @@ std::string calibration_yaml(const Calibration& c) {
   std::vector<std::string> trained;
   for (const Residuals& s : c.sequences) trained.push_back(s.label);
   std::string out = fmt::format(
-      "# Written by loopbench {} calibrate {}. Take it over in a config:\n"
+      "# Written by loopbench {} calibrate {}. Use in a config:\n"
       "#   - {{method: motion_drift, calibration: THIS_FILE}}\n"
       "trained_on: {}\n"
-      "# By these, results on the same references or noise are marked as an oracle's.\n"
+      "# Results on the same references or noise are marked as oracle results.\n"
       "trained_on_sources: {}\nnot_trained_on: {}\nedges_as_one: {}\n",
       kVersion,
       c.config,
@@ -49,9 +49,9 @@ std::string calibration_yaml(const Calibration& c) {
       c.every);
 
   out +=
-      "# Root mean square errors of stretches of so many edges, and what power of the stretch "
+      "# Root mean square errors over groups of this many edges, and the power of the group length "
       "they\n"
-      "# grow with since the row before: 0.5 is noise, 1 is steady drift.\n";
+      "# with which they grow since the row before: 0.5 is noise, 1 is steady drift.\n";
   for (std::size_t i = 0; i < c.stretches.size(); ++i) {
     const Calibration::Stretch& s = c.stretches[i];
     out += fmt::format("# {:4} edges {:.3g} m {:.3g} rad", s.edges, s.rms[0], s.rms[1]);
@@ -64,20 +64,22 @@ std::string calibration_yaml(const Calibration& c) {
     }
     out += "\n";
   }
-  out += "# Correlations of what errors may grow with; near 1, two cannot be told apart.\n";
+  out += "# Correlations of the regressors; near 1, two of them cannot be separated.\n";
   for (std::size_t a = 1; a < kGrowths.size(); ++a) {
     for (std::size_t b = a + 1; b < kGrowths.size(); ++b) {
       const double r = correlation(kGrowths[a], kGrowths[b], c.sequences);
       out += fmt::format("#   {} {}: {}\n",
                          name_of(kGrowths[a]),
                          name_of(kGrowths[b]),
-                         std::isfinite(r) ? fmt::format("{:.2f}", r) : "one never changes");
+                         std::isfinite(r) ? fmt::format("{:.2f}", r) : "one is constant");
     }
   }
-  out += "# Log likelihood per error of sequences left out of the fit: translation, rotation.\n";
+  out += "# Log likelihood per error of held-out sequences: translation, rotation.\n";
   for (const Rung& rung : c.rungs) {
-    out += fmt::format(
-        "#   {:22} {} {}\n", rung.method, told(rung.held_out[0]), told(rung.held_out[1]));
+    out += fmt::format("#   {:22} {} {}\n",
+                       rung.method,
+                       likelihood_text(rung.held_out[0]),
+                       likelihood_text(rung.held_out[1]));
   }
   for (std::size_t r = 0; r < c.rungs.size(); ++r) {
     out += c.rungs[r].method + ":\n";

@@ -1,4 +1,4 @@
-/// A calibration as people and configs read it.
+/// Calibration results as a YAML file.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct Calibration {
   std::vector<Residuals> sequences;
   std::vector<std::string> sources;  ///< of the sequences, see harness/provenance/sequence_identity
   std::vector<std::string> not_trained_on;  ///< the config's other datasets
-  std::size_t every = 1;                    ///< keyframe edges taken as one
+  std::size_t every = 1;                    ///< number of keyframe edges combined into one
   std::vector<Rung> rungs;
-  std::vector<std::vector<RateInterval>> intervals;  ///< by rung, as options_of()
-  /// Root mean square errors at several stretches: where it grows like the stretch and not like
-  /// its root, drift is steady.
+  std::vector<std::vector<RateInterval>> intervals;  ///< by model, as options_of()
+  /// Root mean square errors for several group lengths: growth proportional to the length, not to
+  /// its square root, indicates steady drift.
   struct Stretch {
     std::size_t edges;
     double rms[2];  ///< [m], [rad]
@@ -25,8 +25,8 @@ struct Calibration {
   std::vector<Stretch> stretches;
 };
 
-/// YAML: the split, the ladder's held-out likelihoods, then under each method of the ladder the
-/// options a config may take over (`calibration: FILE`).
+/// YAML: training and test datasets, held-out likelihoods of the nested models, then for each model
+/// the options that a config can use (`calibration: FILE`).
 std::string calibration_yaml(const Calibration& calibration);
 
 }  // namespace loopbench

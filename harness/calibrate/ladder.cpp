@@ -10,11 +10,11 @@ namespace {
 struct Shape {
   const char* method;
   std::vector<Growth> noise;
-  std::vector<Growth> drift[2];  ///< by Half
+  std::vector<Growth> drift[2];  ///< translation, rotation
 };
 
-/// As the methods of these names in the catalogue have it; drift of translation, which motion_drift
-/// leaves out unless its size is given, is learnt for it here.
+/// The models of the catalogue's methods; translation drift, which motion_drift omits unless its
+/// size is given, is estimated here.
 std::vector<Shape> shapes() {
   using enum Growth;
   return {{"motion_drift_const", {edge}, {}},
@@ -93,7 +93,7 @@ std::vector<RateInterval> bootstrap(const Rung& rung,
                                     int draws,
                                     std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::vector<std::vector<double>> values;  // by option
+  std::vector<std::vector<double>> values;  // per option
   for (int draw = 0; draw < draws; ++draw) {
     const std::vector<Residuals> drawn = redrawn(sequences, segment, random);
     Rung again = rung;

@@ -16,7 +16,7 @@ std::vector<Eigen::Index> axes(Half half, bool planar) {
   return planar ? std::vector<Eigen::Index>{5} : std::vector<Eigen::Index>{3, 4, 5};
 }
 
-/// One sequence as numbers: phi of noise and of drift, and the errors of each axis.
+/// One sequence as arrays: regressors of noise and of drift, and the errors of each axis.
 struct Design {
   Eigen::MatrixXd noise;
   Eigen::MatrixXd drift;
@@ -59,7 +59,8 @@ struct Inverted {
   Inverted(const Rates& rates, const Design& d)
       : F(d.drift * vector(rates.drift_variance).cwiseSqrt().asDiagonal()) {
     const Eigen::ArrayXd variance = (d.noise * vector(rates.noise_variance)).array();
-    // An edge that did not move has no noise by some models; its error would be infinitely odd.
+    // An edge without motion has zero noise in some models, so its error would be infinitely
+    // unlikely.
     weights = variance.max(1e-9 * variance.mean()).inverse();
     small.compute(Eigen::MatrixXd::Identity(F.cols(), F.cols()) +
                   F.transpose() * weights.matrix().asDiagonal() * F);
@@ -117,9 +118,9 @@ Rates fit_rates(Half half,
   const std::vector<Design> all = designs(out, sequences);
   double squares = 0.0;
   for (const Design& d : all) squares += d.errors.squaredNorm();
-  if (!(squares > 0.0)) throw InputError("calibrate: no edge has an error to learn from");
+  if (!(squares > 0.0)) throw InputError("calibrate: all edges have zero error");
   squares /= count(half, sequences);
-  // Every term starts with an equal part of the mean square.
+  // Start with equal contributions of every term to the mean square.
   const auto start = [&](const Eigen::MatrixXd Design::*part, Eigen::Index j, int power) {
     double sum = 0.0;
     double edges = 0.0;

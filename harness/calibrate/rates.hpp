@@ -1,4 +1,4 @@
-/// Maximum likelihood of an error model's variances on edges whose errors are known.
+/// Maximum likelihood estimation of noise variances from edges with known errors.
 #pragma once
 
 #include <vector>
@@ -8,24 +8,24 @@
 
 namespace loopbench {
 
-/// The terms of one half, translation or rotation, and what they are worth.
+/// Regressors of the translation or rotation error, with their variances.
 struct Rates {
   Half half = Half::translation;
   std::vector<Growth> noise;
   std::vector<Growth> drift;
   std::vector<double> noise_variance;  ///< [m^2/unit] or [rad^2/unit]
-  std::vector<double> drift_variance;  ///< of a rate on an axis [(m/unit)^2] or [(rad/unit)^2]
+  std::vector<double> drift_variance;  ///< of a rate on one axis [(m/unit)^2] or [(rad/unit)^2]
 };
 
 /// Log density of the errors: on every axis e = sum_j phi_j b_j + w, w_i ~ N(0, sum_j a_j phi_ij),
-/// b_j ~ N(0, v_j) drawn once a sequence. O(edges terms^2).
+/// b_j ~ N(0, v_j) drawn once per sequence. O(edges terms^2).
 double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequences);
 
-/// Errors counted: edges times axes of that half.
+/// Number of errors: edges times axes of the component.
 double count(Half half, const std::vector<Residuals>& sequences);
 
-/// Raises log_likelihood in every one of `iterations` rounds, coefficients never negative: with C
-/// the covariance of an axis, Q_j a term's share of it and alpha = C^-1 e,
+/// Increases log_likelihood in each of `iterations` iterations with non-negative coefficients: with
+/// C the covariance of an axis, Q_j the contribution of a term and alpha = C^-1 e,
 ///
 ///     a_j <- a_j sqrt(sum alpha' Q_j alpha / sum tr(C^-1 Q_j)).
 ///

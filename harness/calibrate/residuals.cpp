@@ -8,12 +8,13 @@ namespace loopbench {
 
 Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every) {
   const Problem& problem = sequence.problem;
-  if (sequence.reference.empty()) throw InputError(label + ": has no reference to learn from");
+  if (sequence.reference.empty())
+    throw InputError(label + ": has no reference for the calibration");
   if (const std::string fault = chain_fault(problem); !fault.empty()) {
     throw InputError(label + ": " + fault);
   }
   if (is_position_only(sequence.reference)) {
-    throw InputError(label + ": the reference holds positions only, expected attitudes as well");
+    throw InputError(label + ": the reference has only positions, expected orientations as well");
   }
   const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), Reach{});
   const std::vector<EdgeMotion> moved = motions(problem);

@@ -1,4 +1,4 @@
-/// What odometry got wrong, edge by edge, told by a reference.
+/// Odometry errors of single edges, from a reference.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace loopbench {
 
 struct EdgeResidual {
-  std::array<double, kGrowths.size()> grown{};  ///< what the edge's error may grow with, by Growth
-  Twist error;                                  ///< Log(measured^-1 true), at the edge's end
+  std::array<double, kGrowths.size()> grown{};  ///< regressors of the edge's error, by Growth
+  Twist error;                                  ///< Log(measured^-1 true), in the end frame
 };
 
 struct Residuals {
@@ -20,9 +20,9 @@ struct Residuals {
   std::vector<EdgeResidual> edges;
 };
 
-/// `every` consecutive edges taken as one; a stretch with an end that the reference does not know
-/// is left out. Throws InputError when the reference is empty or holds no attitude, or the
-/// odometry is no chain. O(keyframes + reference).
+/// Combines `every` consecutive edges into one; skips groups with an end outside the reference.
+/// Throws InputError if the reference is empty or has no orientations, or if the odometry is not a
+/// chain. O(keyframes + reference).
 Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every);
 
 }  // namespace loopbench

@@ -23,7 +23,7 @@ const Entry& find(const std::vector<Entry>& entries,
   throw InputError(unknown_name(kind, name, known));
 }
 
-/// Hashes of a loaded plugin's file and of the libraries that it brings.
+/// Hashes of a plugin's file and of the libraries that it loads.
 std::string version_of(const std::filesystem::path& plugin) {
   std::string out = hex(hash_of_file(plugin));
   for (const std::filesystem::path& library : plugin_libraries(plugin)) {

@@ -1,4 +1,4 @@
-/// Everything a sweep can name: built-ins and what plugins bring.
+/// Names that a sweep can use: built-ins and plugin methods.
 #pragma once
 
 #include <filesystem>
@@ -17,13 +17,13 @@ struct Catalogue {
   std::vector<DatasetEntry> datasets;
   std::vector<MethodEntry> methods;
   std::vector<MetricEntry> metrics;
-  std::vector<OracleEntry> oracles = {};  ///< those of `methods` that are shown the reference
-  std::map<std::string, std::string> versions = {};  ///< of plugins' methods: hashes of their file
-                                                     ///< and of the libraries that it brings
+  std::vector<OracleEntry> oracles = {};  ///< those of `methods` with access to the reference
+  std::map<std::string, std::string> versions = {};  ///< of plugin methods: hashes of their file
+                                                     ///< and of the libraries that it loads
 };
 
-/// Built-ins, then each plugin's methods. Throws InputError for a plugin that may not be used or
-/// that brings a name already taken.
+/// Built-ins, then the methods of each plugin. Throws InputError for a plugin that cannot be used
+/// or whose method name is already taken.
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 
 /// The entry of that name. Throws InputError with a suggestion.

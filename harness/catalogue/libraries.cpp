@@ -12,7 +12,7 @@ namespace {
 
 using Objects = std::set<const link_map*>;
 
-/// What an object's dynamic section says of itself.
+/// Parses the dynamic section of an object.
 struct Names {
   std::string own;
   std::vector<std::string> needed;
@@ -23,7 +23,7 @@ Names names_of(const link_map& object) {
   for (const ElfW(Dyn)* entry = object.l_ld; entry->d_tag != DT_NULL; ++entry) {
     if (entry->d_tag != DT_STRTAB) continue;
     ElfW(Addr) at = entry->d_un.d_ptr;
-    if (at < object.l_addr) at += object.l_addr;  // where the loader leaves it as it is in the file
+    if (at < object.l_addr) at += object.l_addr;  // some loaders do not relocate it
     texts = reinterpret_cast<const char*>(at);
   }
   Names out{std::filesystem::path(object.l_name).filename().string(), {}};

@@ -6,11 +6,11 @@
 
 namespace loopbench {
 
-/// Files of the shared libraries that the program needs, directly or through each other, without
-/// symbolic links (so that their names hold their versions), sorted.
+/// Files of the shared libraries that the program needs directly or indirectly, sorted, with
+/// symbolic links resolved (so that their names contain the versions).
 std::vector<std::filesystem::path> program_libraries();
 
-/// Files of those that a loaded plugin needs and the program does not, sorted. Empty when the
+/// Files of the libraries that a loaded plugin needs but the program does not, sorted. Empty if the
 /// plugin is not loaded.
 std::vector<std::filesystem::path> plugin_libraries(const std::filesystem::path& plugin);
 

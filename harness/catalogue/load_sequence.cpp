@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-/// `seed`, and those of a part (`false_closures.seed`).
+/// `seed`, and seeds of components (`false_closures.seed`).
 bool is_seed(const OptionInfo& option) {
   return option.name == "seed" || option.name.ends_with(".seed");
 }
@@ -17,7 +17,8 @@ Params all_options(const DatasetChoice& choice, const DatasetEntry& entry) {
   return out;
 }
 
-/// Whether another seed makes other data: that of a part does only where the part has a share.
+/// Whether another seed changes the data; a component's seed does so only if the component is
+/// enabled.
 bool decides(const OptionInfo& seed, const Params& options) {
   if (!is_seed(seed)) return false;
   const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");

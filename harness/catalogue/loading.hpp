@@ -1,4 +1,4 @@
-/// What a user sees while a sequence is made from images, and where its stages are kept.
+/// Progress display and cache folder for sequences computed from images.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace loopbench {
 
-/// A bar on stderr when that is a terminal. Stages are kept in $LOOPBENCH_CACHE (empty: nowhere),
-/// else in $XDG_CACHE_HOME/loopbench, else in ~/.cache/loopbench.
+/// Progress bar on stderr if that is a terminal. Stages are cached in $LOOPBENCH_CACHE (empty: no
+/// cache), otherwise in $XDG_CACHE_HOME/loopbench, otherwise in ~/.cache/loopbench.
 FrontendHooks loading_hooks();
 
-/// Prints the notes of a sequence on stderr, each after `label`.
+/// Prints the notes of a sequence to stderr, each prefixed with `label`.
 void tell(const std::string& label, const std::vector<std::string>& notes);
 
 /// "[####......] 120/415  tracking".

@@ -19,7 +19,7 @@ std::vector<MethodEntry> load_plugin(const std::filesystem::path& object) {
   if (describe == nullptr) throw refuse("has no LOOPBENCH_PLUGIN line");
   const Plugin& plugin = *describe();
   if (plugin.abi != Abi{}) {
-    throw refuse("was built for another compiler, Eigen, alignment or loopbench interface");
+    throw refuse("was built with another compiler, Eigen, alignment or loopbench interface");
   }
   return plugin.methods();
 }

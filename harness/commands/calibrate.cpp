@@ -34,21 +34,22 @@ int calibrate(const CalibrateArguments& arguments) {
 void add_calibrate(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand(
-      "calibrate", "Learn motion_drift's variances from sequences whose truth is known");
-  command->add_option("config", arguments->config, "YAML file whose datasets to learn from")
+      "calibrate", "Estimate noise variances for motion_drift from sequences with a reference");
+  command->add_option("config", arguments->config, "YAML config with the training datasets")
       ->required();
-  command->add_option("--train", arguments->learn.train, "Only datasets whose label matches")
+  command
+      ->add_option("--train", arguments->learn.train, "Train only on datasets whose label matches")
       ->type_name("REGEX");
   command
       ->add_option("--every",
                    arguments->learn.every,
-                   "Edges taken as one: a longer stretch drowns jitter that does not add up")
+                   "Number of consecutive edges combined into one; longer groups suppress jitter")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--draws", arguments->learn.draws, "Of the bootstrap")
+  command->add_option("--draws", arguments->learn.draws, "Number of bootstrap samples")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  command->add_option("--data", arguments->data, "Folder with real data")
+  command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
   command->add_option("--out", arguments->out, "YAML file to write")->type_name("FILE");

@@ -21,10 +21,10 @@ struct CheckArguments {
   bool update = false;
   bool part = false;
   bool allow_dirty = false;
-  std::optional<double> time;  ///< relative limit on times to write with an update
+  std::optional<double> time;  ///< relative limit on times, written by --update
 };
 
-/// Limits are a person's decision: an update keeps them.
+/// --update keeps the limits, which are set by hand.
 int update(const CheckArguments& arguments) {
   Baseline baseline;
   if (std::filesystem::exists(arguments.baseline)) {
@@ -38,8 +38,8 @@ int update(const CheckArguments& arguments) {
   baseline.made_by = made_by(arguments.store);
   if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
     throw InputError(arguments.store +
-                     ": was computed by a build with uncommitted changes, which nobody can build "
-                     "again; commit, build and run, or accept it with --allow-dirty");
+                     ": was computed by a build with uncommitted changes, which cannot be "
+                     "reproduced; commit, build and run again, or accept it with --allow-dirty");
   }
   refuse_to_overwrite({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
@@ -52,12 +52,12 @@ int update(const CheckArguments& arguments) {
 
 int check_store(const CheckArguments& arguments) {
   if (arguments.update) return update(arguments);
-  if (arguments.time) throw InputError("--time: is a limit to write, so it goes with --update");
+  if (arguments.time) throw InputError("--time: needs --update, which writes the limit");
   const Baseline baseline = read_baseline(arguments.baseline);
   if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
     throw InputError(arguments.baseline +
-                     ": made_by.source: was written from a build with uncommitted changes (dirty), "
-                     "expected clean; write it anew with --update, or accept it with "
+                     ": made_by.source: was written by a build with uncommitted changes (dirty), "
+                     "expected a clean build; write it again with --update, or accept it with "
                      "--allow-dirty");
   }
   const Snapshot now = snapshot(arguments.store, baseline.limits);
@@ -82,31 +82,34 @@ int check_store(const CheckArguments& arguments) {
 
 void add_check(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "Is a sweep still as good as its baseline");
+  CLI::App* command = app.add_subcommand("check", "Compare a sweep with its baseline");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command
-      ->add_option("--baseline", arguments->baseline, "Such as results/reference/quickstart.json")
+      ->add_option("--baseline",
+                   arguments->baseline,
+                   "Baseline file, for example results/reference/quickstart.json")
       ->required()
       ->type_name("FILE");
-  command->add_option("--junit", arguments->junit, "Write JUnit XML too")->type_name("FILE");
-  command->add_option("--markdown", arguments->markdown, "Write the report too")->type_name("FILE");
+  command->add_option("--junit", arguments->junit, "JUnit XML file to write")->type_name("FILE");
+  command->add_option("--markdown", arguments->markdown, "Markdown report to write")
+      ->type_name("FILE");
   command->add_flag(
-      "--update", arguments->update, "Write the baseline from this store; its limits are kept");
-  command->add_flag("--part",
-                    arguments->part,
-                    "Only a part of the sweep was run: cells not there are not missed");
+      "--update", arguments->update, "Write the baseline from this store and keep its limits");
+  command->add_flag(
+      "--part", arguments->part, "Accept missing cells, because only a part of the sweep was run");
   command->add_flag("--allow-dirty",
                     arguments->allow_dirty,
                     "Accept a baseline from a build with uncommitted changes");
   command
-      ->add_option("--time",
-                   arguments->time,
-                   "With --update: gate times too, each may grow by this share (and 1 ms)")
+      ->add_option(
+          "--time",
+          arguments->time,
+          "With --update: also check times, with this maximum relative increase (plus 1 ms)")
       ->check(finite_number())
       ->check(CLI::NonNegativeNumber)
       ->type_name("SHARE");
-  command->footer("Exit codes: 0 passes, 1 regression, 2 unusable input, 3 internal error.");
+  command->footer("Exit codes: 0 passed, 1 regression, 2 invalid input, 3 internal error.");
   command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }
 

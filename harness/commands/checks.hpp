@@ -1,4 +1,4 @@
-/// What the values of several commands' options are held to, refused in plain words.
+/// Validators for option values that several commands share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@ namespace loopbench {
 /// A number that is neither NaN nor infinite (CLI11's own ranges let NaN pass).
 CLI::Validator finite_number();
 
-/// One of these words, each of which stands for its enumerator; `kind` is what they name.
+/// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.
 template <class Enum>
 CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>& words) {
   std::vector<std::string> known;
@@ -25,7 +25,7 @@ CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>
   const auto translate = [kind, words, known](std::string& text) {
     const auto found = words.find(text);
     if (found == words.end()) return unknown_name(kind, text, known);
-    text = std::to_string(static_cast<int>(found->second));  // as CLI11 reads an enum
+    text = std::to_string(static_cast<int>(found->second));  // CLI11 parses enums as numbers
     return std::string();
   };
   return CLI::Validator(translate, all);

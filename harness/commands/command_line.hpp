@@ -1,4 +1,4 @@
-/// Command lines as people type them, beyond what CLI11 understands.
+/// Normalisation and error messages for command lines, beyond CLI11.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ class ParseError;
 
 namespace loopbench {
 
-/// `words` after the program's name, with hyphens and underscores in long options of the subcommand
-/// as they were declared: --all-pairs and --all_pairs are one. O(words * options).
+/// `words` after the program's name, with hyphens and underscores in long options replaced by the
+/// declared spelling: --all-pairs and --all_pairs are equivalent. O(words * options).
 std::vector<std::string> spelt_as_declared(const CLI::App& app, std::vector<std::string> words);
 
-/// The word of the command line that names no subcommand or option, and what may have been meant;
-/// empty when `error` is about something else.
+/// The word of the command line that names no subcommand or option, with a suggestion; empty if
+/// `error` has another cause.
 std::string unknown_word(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// The subcommands of the binary. Each adds itself to the parser and leaves its exit code.
+/// Subcommands of the program. Each registers itself with the parser and sets the exit code.
 #pragma once
 
 #include "harness/provenance/facts.hpp"
@@ -16,7 +16,7 @@ inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitInternal = 3;
 inline constexpr int kExitInterrupted = 130;
 
-/// The callbacks throw InputError and OptionError; main turns them into exit code 2.
+/// The callbacks throw InputError and OptionError; main converts them to exit code 2.
 void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);

@@ -23,8 +23,8 @@ struct CompareArguments {
   std::string out;
 };
 
-/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, where
-/// neither is meant, by the metric's name.
+/// Keeps the scores of one metric, selected by its label, by the short name of a score ("error x"),
+/// or otherwise by the metric's name.
 void keep_metric(std::vector<Record>& records, const std::string& metric) {
   std::vector<std::string> known;
   for (const char* column : {"label", "score", "metric"}) {
@@ -58,7 +58,7 @@ int print_comparison(CompareArguments arguments) {
   std::vector<Record> records = all_records(arguments.store);
   keep_where(records, arguments.where);
   if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
-    throw InputError(arguments.store + ": no score is left to compare" +
+    throw InputError(arguments.store + ": no scores to compare" +
                      (arguments.where.empty() ? "" : " after --where"));
   }
   keep_metric(records, arguments.metric);
@@ -66,7 +66,8 @@ int print_comparison(CompareArguments arguments) {
     arguments.options.baseline = read_run(arguments.store).at("baseline");
   }
   if (arguments.options.baseline.empty()) {
-    throw InputError(arguments.store + ": the sweep has no baseline; --baseline METHOD names one");
+    throw InputError(arguments.store +
+                     ": the sweep has no baseline; set one with --baseline METHOD");
   }
   const std::vector<Comparison> comparisons = compare(records, arguments.options);
   deliver(text(comparisons, arguments.format),
@@ -82,22 +83,25 @@ int print_comparison(CompareArguments arguments) {
 void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
-      app.add_subcommand("compare", "Which method is best, and is the difference real");
+      app.add_subcommand("compare", "Compare and rank methods with significance tests");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command
-      ->add_option("--baseline", arguments->options.baseline, "Method that others are set against")
+      ->add_option(
+          "--baseline", arguments->options.baseline, "Method that others are compared with")
       ->type_name("METHOD");
   command
       ->add_option(
-          "--metric", arguments->metric, "label or name of a metric, or a score: ate, error x")
+          "--metric", arguments->metric, "Label or name of a metric, or a score: ate, error x")
       ->capture_default_str();
-  command->add_option("--value", arguments->options.value, "rmse mean median std min max sse count")
+  command
+      ->add_option(
+          "--value", arguments->options.value, "Statistic: rmse mean median std min max sse count")
       ->capture_default_str();
   command
       ->add_option("--alpha",
                    arguments->options.alpha,
-                   "Chance of a false claim; 1 - alpha is the level of intervals")
+                   "Significance level; intervals have level 1 - alpha [-]")
       ->check(finite_number())
       ->check(CLI::Range(1e-6, 0.5))
       ->capture_default_str();
@@ -106,7 +110,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   command
       ->add_option("--over",
                    arguments->options.over,
-                   "Independent observations: groups of runs, every run, or sequences")
+                   "Unit of independent observations: groups of runs, single runs, or sequences")
       ->transform(one_of("observation", units));
   command
       ->add_option("--relevant",
@@ -115,18 +119,19 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
-  command->add_option("--where", arguments->where, "FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
+  command->add_option(
+      "--where", arguments->where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
                                                     {"terminal", ExportFormat::terminal},
                                                     {"latex", ExportFormat::latex},
                                                     {"csv", ExportFormat::csv},
                                                     {"json", ExportFormat::json}};
-  command->add_option("--format", arguments->format, "How to print")
+  command->add_option("--format", arguments->format, "Output format")
       ->transform(one_of("format", formats));
   command
       ->add_option("-o,--out",
                    arguments->out,
-                   "Write a file (-: standard output); beside a CSV, its provenance")
+                   "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }

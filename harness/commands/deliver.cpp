@@ -35,11 +35,11 @@ void deliver(const std::string& text,
     write_file(file, out);
   }
   if (format != ExportFormat::csv) return;
-  // Nothing lies beside a pipe.
+  // Standard output has no file beside it.
   if (!is_printed && std::filesystem::is_regular_file(file))
     return write_file(origin_file(file), json(origin));
   fmt::print(stderr,
-             "loopbench: {}\nloopbench: with -o FILE all that made it is written beside\n",
+             "loopbench: {}\nloopbench: with -o FILE, the provenance is written beside the file\n",
              made_by(origin.provenance));
 }
 

@@ -1,4 +1,4 @@
-/// Results on their way out: printed or written, with what made them.
+/// Output of results to a file or to standard output, with their provenance.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@ namespace loopbench {
 
 enum class ExportFormat { markdown, terminal, latex, csv, json };
 
-/// Writes `text` to `file`, or prints it when `file` is empty or "-". Markdown carries the origin
-/// of the store's numbers in an HTML comment and LaTeX in % comments (not on a terminal, where a
-/// person reads), JSON as {provenance, KEY: text}. A CSV with comments is none: the origin of
-/// `x.csv` is written beside it, as `x.provenance.json`; of a printed one a line goes to standard
-/// error. Throws InputError.
+/// Writes `text` to `file`, or prints it if `file` is empty or "-". The provenance of the store is
+/// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
+/// KEY: text} in JSON. CSV has no comments: the provenance of `x.csv` is written to
+/// `x.provenance.json` beside it; for a printed CSV, one line goes to standard error. Throws
+/// InputError.
 void deliver(const std::string& text,
              ExportFormat format,
              const std::string& key,

@@ -27,16 +27,16 @@ int eval(const EvalArguments& a) {
   } else {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  const bool is_whole =
+  const bool all_ok =
       std::ranges::all_of(all, [](const Judgement& j) { return status(j) == "ok"; });
-  return is_whole ? kExitOk : kExitSomeCellsFailed;
+  return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace
 
 void add_eval(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<EvalArguments>();
-  CLI::App* command = app.add_subcommand("eval", "Judge trajectory files against a reference");
+  CLI::App* command = app.add_subcommand("eval", "Evaluate trajectory files against a reference");
   declare(*command, *a);
   command->callback([a, &exit_code] { exit_code = eval(*a); });
 }

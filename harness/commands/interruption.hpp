@@ -4,7 +4,8 @@
 
 namespace loopbench {
 
-/// From now on SIGINT and SIGTERM only set the flag returned, which lives as long as the program.
+/// Installs handlers for SIGINT and SIGTERM that only set the returned flag, which has static
+/// lifetime.
 const std::atomic<bool>& catch_interruption();
 
 }  // namespace loopbench

@@ -23,10 +23,10 @@ struct ListArguments {
 
 struct Item {
   std::string name;
-  std::string kind;  ///< corrector, smoother, method; a protocol's version; else empty
+  std::string kind;  ///< corrector, smoother, method; a protocol's version; otherwise empty
   std::string summary;
   std::vector<OptionInfo> options;
-  bool is_oracle = false;  ///< a method that is shown the reference
+  bool is_oracle = false;  ///< a method with access to the reference
 };
 
 std::vector<Item> items(const Catalogue& known, const std::string& subject) {
@@ -84,7 +84,7 @@ void print_options(const Item& item) {
   }
 }
 
-/// Protocols share their settings: a line each, then the settings once.
+/// Protocols share their settings: one line for each protocol, then the settings.
 void print(const std::string& subject, const std::vector<Item>& all) {
   const bool is_shared = subject == "protocols";
   for (const Item& item : all) {
@@ -92,7 +92,7 @@ void print(const std::string& subject, const std::vector<Item>& all) {
     if (!is_shared) print_options(item);
   }
   if (!is_shared) return;
-  fmt::print("settings, with the defaults of {} (protocol: {{base: NAME, SETTING: VALUE}})\n",
+  fmt::print("settings with the defaults of {} (usage: protocol: {{base: NAME, SETTING: VALUE}})\n",
              all.front().name);
   print_options(all.front());
 }
@@ -126,11 +126,11 @@ int list(const ListArguments& arguments) {
 void add_list(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ListArguments>();
   CLI::App* command =
-      app.add_subcommand("list", "What can be named in a config, with options and defaults");
+      app.add_subcommand("list", "List datasets, methods, metrics or protocols with their options");
   command->add_option("subject", arguments->subject, "datasets, methods, metrics or protocols");
-  command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
+  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
-  command->add_flag("--json", arguments->json, "As JSON");
+  command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 

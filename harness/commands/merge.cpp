@@ -16,13 +16,13 @@ void add_merge(CLI::App& app, int& exit_code) {
     bool mixed_builds = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("merge", "Several stores of results as one");
+  CLI::App* command = app.add_subcommand("merge", "Merge several stores of results into one");
   command->add_option("stores", arguments->stores, "Folders of results, or their results.sqlite")
       ->required()
       ->expected(2, -1);
-  command->add_option("-o,--out", arguments->out, "The new store, or a new folder for it")
+  command->add_option("-o,--out", arguments->out, "Store to create, or a folder for it")
       ->required();
-  command->add_flag("--mixed-builds", arguments->mixed_builds, "Also cells of different builds");
+  command->add_flag("--mixed-builds", arguments->mixed_builds, "Accept cells of different builds");
   command->callback([arguments, &exit_code] {
     require_no_dash("-o", arguments->out);
     std::filesystem::path out = arguments->out;
@@ -30,7 +30,7 @@ void add_merge(CLI::App& app, int& exit_code) {
     const Merged merged = merge_stores(arguments->stores, out, arguments->mixed_builds);
     fmt::print("{} cells{} in {}\n",
                merged.cells,
-               merged.twice == 0 ? "" : fmt::format(" ({} were there twice)", merged.twice),
+               merged.twice == 0 ? "" : fmt::format(" ({} duplicates)", merged.twice),
                out.string());
     exit_code = kExitOk;
   });

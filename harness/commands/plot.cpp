@@ -14,7 +14,7 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kUsualMethods = 5;  // more lines than that hide each other
+constexpr std::size_t kUsualMethods = 5;  // more lines are hard to distinguish
 
 struct PlotArguments {
   std::string store;
@@ -23,7 +23,7 @@ struct PlotArguments {
   std::vector<std::string> methods;
 };
 
-/// The baseline and the best ranked others, or the first of the sweep where nothing is ranked.
+/// The baseline and the best-ranked methods, or the first of the sweep without a ranking.
 std::vector<std::string> usual_methods(const ReportContent& content) {
   std::vector<std::string> out;
   const auto add = [&](const std::string& name) {
@@ -37,7 +37,7 @@ std::vector<std::string> usual_methods(const ReportContent& content) {
   return out;
 }
 
-/// Each word is a label, or labels separated by commas; a label may hold commas itself.
+/// Each word is a label or comma-separated labels; a label can contain commas itself.
 std::vector<std::string> known_methods(const std::vector<std::string>& words,
                                        const std::vector<std::string>& known) {
   std::vector<std::string> out;
@@ -66,11 +66,11 @@ int write_figures(const PlotArguments& arguments) {
     const std::string& sequence = content.sequences[s];
     const SequenceFigures figures = sequence_figures(content.cells, traces, sequence, methods);
     if (figures.errors.empty()) {
-      fmt::print("{}: no trajectories of these methods were kept\n", sequence);
+      fmt::print("{}: has no stored trajectories of these methods\n", sequence);
       continue;
     }
     for (const std::string& format : arguments.formats) {
-      // The number tells labels apart that are one as a file's name.
+      // The index separates labels that map to the same file name.
       const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
       const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
         const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
@@ -82,7 +82,7 @@ int write_figures(const PlotArguments& arguments) {
       write("errors", figures.errors);
     }
   }
-  if (written == 0) throw InputError(arguments.store + ": holds no trajectories to draw");
+  if (written == 0) throw InputError(arguments.store + ": has no stored trajectories to plot");
   write_file(folder / "provenance.json", json(read_origin(arguments.store)));
   return kExitOk;
 }
@@ -92,17 +92,17 @@ int write_figures(const PlotArguments& arguments) {
 void add_plot(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command =
-      app.add_subcommand("plot", "Vector figures of a sweep: trajectories, errors along the path");
+      app.add_subcommand("plot", "Plot the trajectories and errors of a sweep as vector graphics");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
-  command->add_option("-o,--out", arguments->folder, "Folder for the figures")
+  command->add_option("-o,--out", arguments->folder, "Output folder")
       ->type_name("DIR")
       ->default_val("figures");
   command->add_option("--methods",
                       arguments->methods,
-                      "Labels, separated by commas (default: baseline and best ranked); "
-                      "\"...\" around one that holds commas");
-  command->add_option("--format", arguments->formats, "svg, pdf or both")
+                      "Comma-separated method labels, in \"...\" if a label contains commas "
+                      "(default: baseline and best ranked)");
+  command->add_option("--format", arguments->formats, "File formats: svg, pdf or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"svg", "pdf"}))
       ->default_str("svg,pdf");

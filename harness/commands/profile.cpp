@@ -25,7 +25,7 @@ int print_profile(const ProfileArguments& arguments) {
     return !wanted.is_in(cell.sequence + " / " + cell.method);
   });
   if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
-  value(Record{}, arguments.accuracy.value);  // refuses a wrong name before anything is printed
+  value(Record{}, arguments.accuracy.value);  // throws for an unknown name before printing
   const bool is_csv = arguments.format == "csv";
   std::string out;
   for (const Listing& listing :
@@ -48,19 +48,19 @@ int print_profile(const ProfileArguments& arguments) {
 void add_profile(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ProfileArguments>();
   CLI::App* command = app.add_subcommand(
-      "profile", "Time, memory, growth with size, and accuracy against time of a sweep's methods");
+      "profile", "Report run time, memory, scaling with size, and accuracy against time");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command
-      ->add_option("--metric",
-                   arguments->accuracy.metric,
-                   "metric that stands for accuracy: its label or name")
+      ->add_option(
+          "--metric", arguments->accuracy.metric, "Metric used as accuracy, by label or name")
       ->capture_default_str();
   command->add_option("--relation", arguments->accuracy.relation)->capture_default_str();
   command->add_option("--axis", arguments->accuracy.axis)->capture_default_str();
-  command->add_option("--value", arguments->accuracy.value, "rmse mean median std min max")
+  command
+      ->add_option("--value", arguments->accuracy.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();
   command->add_option("--format", arguments->format)
       ->check(CLI::IsMember({"markdown", "csv"}))
@@ -68,7 +68,7 @@ void add_profile(CLI::App& app, int& exit_code) {
   command
       ->add_option("-o,--out",
                    arguments->out,
-                   "Write a file (-: standard output); beside a CSV, its provenance")
+                   "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
 }

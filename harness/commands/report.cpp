@@ -18,13 +18,16 @@ void add_report(CLI::App& app, int& exit_code) {
     double megabytes = 9.0;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "One HTML file that tells what a sweep found");
+  CLI::App* command = app.add_subcommand("report", "Write the results of a sweep as one HTML file");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command->add_option("-o,--out", arguments->out, "File to write; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
-  command->add_option("--size", arguments->megabytes, "Thin trajectories to stay below this [MB]")
+  command
+      ->add_option("--size",
+                   arguments->megabytes,
+                   "Maximum file size, reached by thinning trajectories [MB]")
       ->check(finite_number())
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();

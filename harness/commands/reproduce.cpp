@@ -59,9 +59,9 @@ int reproduce(const ReproduceArguments& arguments) {
     const bool leaks = is_oracle(done, reading);
     claims += fmt::format("\n## Claims, reading `{}`{}\n\n",
                           reading,
-                          leaks ? " (oracle: was shown the truth)" : "") +
+                          leaks ? " (oracle: uses the reference)" : "") +
               claim_table(judge_claims(done, reading));
-    if (leaks) continue;  // nothing to look at: part of the curve is the truth itself
+    if (leaks) continue;  // nothing to show: part of the curve is the reference itself
     for (const std::string& name : paper_figures(done, reading, out / reading)) {
       fmt::print("{}\n", (out / reading / name).string());
     }
@@ -78,14 +78,14 @@ int reproduce(const ReproduceArguments& arguments) {
 
 void add_reproduce(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ReproduceArguments>();
-  CLI::App* command = app.add_subcommand(
-      "reproduce", "The article's tables, claims and figures from configs/paper_tables_*.yaml");
-  command->add_option("configs", arguments->configs, "YAML files whose labels it understands")
+  CLI::App* command =
+      app.add_subcommand("reproduce", "Reproduce tables, claims and figures of the article");
+  command->add_option("configs", arguments->configs, "Configs, configs/paper_tables_*.yaml")
       ->required();
-  command->add_option("--data", arguments->data, "Folder with real data")
+  command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
-  command->add_option("--out", arguments->out, "Folder for tables, claims and figures")
+  command->add_option("--out", arguments->out, "Output folder for tables, claims and figures")
       ->type_name("DIR")
       ->capture_default_str();
   command->callback([arguments, &exit_code] { exit_code = reproduce(*arguments); });

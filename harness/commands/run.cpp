@@ -54,7 +54,7 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
 
-/// What keeps sequences from loading, on standard error.
+/// Prints the reasons why sequences cannot be loaded to standard error.
 int report_bad_inputs(const std::vector<std::string>& reasons) {
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {
@@ -66,7 +66,7 @@ int report_bad_inputs(const std::vector<std::string>& reasons) {
   return kExitBadInput;
 }
 
-/// The method failed, or a metric is undefined on its result.
+/// Whether the method failed or a metric is undefined on its result.
 bool has_failure(const CellResult& result) {
   return is_failure(result.status) ||
          std::ranges::any_of(result.scores,
@@ -81,7 +81,7 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-/// Writes the tables beside the store; returns the one to print.
+/// Writes the tables beside the store; returns the table to print.
 std::string write_tables(const std::filesystem::path& store,
                          const Sweep& sweep,
                          const std::filesystem::path& out) {
@@ -97,24 +97,24 @@ std::string write_tables(const std::filesystem::path& store,
   return text;
 }
 
-/// The tables as they were printed: without the comment that the file ends with.
+/// The stored table without the comment at its end.
 std::string printed_tables(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   return text.substr(0, text.rfind("\n<!-- "));
 }
 
-void say_damage(const Resumed& resumed, const std::filesystem::path& store) {
+void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
   if (!resumed.damaged.empty()) {
     fmt::print(
         stderr,
-        "loopbench: {}: not what was written, so run anew: {}{}\n",
+        "loopbench: {}: damaged cells are recomputed: {}{}\n",
         store.string(),
         resumed.damaged.front(),
         resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
   } else if (resumed.lost) {
     fmt::print(stderr,
-               "loopbench: {}: its list of cells was damaged; what is missing is run anew\n",
+               "loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
                store.string());
   }
 }
@@ -125,7 +125,7 @@ int run(const RunArguments& arguments, const Source& source) {
   const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
   const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
-  if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
+  if (planned.empty()) throw InputError(arguments.config + ": no cells to run");
   if (arguments.dry_run) {
     print_plan(sweep, planned);
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));
@@ -139,7 +139,7 @@ int run(const RunArguments& arguments, const Source& source) {
       std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
   const Resumed resumed =
       store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
-  say_damage(resumed, file);
+  report_damage(resumed, file);
   const std::vector<Cell>& missing = resumed.missing;
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
@@ -165,26 +165,26 @@ int run(const RunArguments& arguments, const Source& source) {
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 
-  // Tables of many cells take longer than finding that none is missing.
-  const bool as_it_was =
+  // Writing the tables of many cells takes longer than checking that none is missing.
+  const bool is_up_to_date =
       resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
       std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
   const std::string text =
-      as_it_was ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
-  if (!as_it_was) store->exported();
+      is_up_to_date ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
+  if (!is_up_to_date) store->exported();
   store.reset();
   fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",
              text,
              done + resumed.there,
              planned.size(),
-             resumed.there == 0 ? "" : fmt::format(" ({} of them before)", resumed.there),
+             resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there),
              failed,
              incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
              protocol_names(sweep),
              (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
   if (interrupted) {
-    fmt::print(stderr, "loopbench: interrupted; the cells above are kept\n");
+    fmt::print(stderr, "loopbench: interrupted; finished cells are kept\n");
     return kExitInterrupted;
   }
   return failed > 0 ? kExitSomeCellsFailed : kExitOk;
@@ -200,29 +200,29 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("REGEX");
   command->add_flag("--dry-run",
                     arguments->dry_run,
-                    "Check the config and its input files, list the cells, run none");
-  command->add_option("-j,--jobs", arguments->jobs, "Workers; results do not depend on it")
+                    "Check the config and its input files and list the cells without running them");
+  command->add_option("-j,--jobs", arguments->jobs, "Number of workers; does not affect results")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_flag("--in-process",
-                    arguments->in_process,
-                    "Threads instead of worker processes, for debuggers: no limits, no fence");
-  command->add_option("--data", arguments->data, "Folder with real data")
+  command->add_flag(
+      "--in-process",
+      arguments->in_process,
+      "Use threads instead of worker processes, for debugging: no limits, no sandbox");
+  command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
-  command->add_option("--out", arguments->out, "Folder for results (default: results/CONFIG)")
+  command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
-  command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
+  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--retry",
-          arguments->retry,
-          "Run again what is there: failed cells, damaged ones (looks at traces too), or all")
+      ->add_option("--retry",
+                   arguments->retry,
+                   "Stored cells to recompute: failed, damaged (also checks traces), or all")
       ->check(CLI::IsMember({"none", "failed", "damaged", "all"}))
       ->capture_default_str();
   command->add_flag(
-      "--fresh", arguments->fresh, "Start anew; what is there stays as previous.sqlite");
+      "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous.sqlite");
   command->callback([arguments, source, &exit_code] { exit_code = run(*arguments, source); });
 }
 

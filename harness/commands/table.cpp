@@ -35,7 +35,7 @@ std::string text(const std::vector<Table>& tables, TableFormat format) {
   return out;
 }
 
-ExportFormat carrier(TableFormat format) {
+ExportFormat container_format(TableFormat format) {
   switch (format) {
     case TableFormat::terminal:
       return ExportFormat::terminal;
@@ -68,7 +68,7 @@ int print_table(TableArguments arguments) {
       arguments.format == TableFormat::rows
           ? csv(records)
           : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
-  deliver(shown, carrier(arguments.format), "tables", arguments.store, arguments.out);
+  deliver(shown, container_format(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
 
@@ -76,10 +76,10 @@ int print_table(TableArguments arguments) {
 
 void add_table(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<TableArguments>();
-  CLI::App* command = app.add_subcommand("table", "Tables from the results of a sweep");
+  CLI::App* command = app.add_subcommand("table", "Print tables of a sweep's results");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
-  const std::string columns = "comma-separated columns of the long table";
+  const std::string columns = "comma-separated fields of the long table";
   command->add_option("--rows", arguments->spec.rows, "Rows: " + columns)
       ->delimiter(',')
       ->capture_default_str();
@@ -89,14 +89,18 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_option("--split", arguments->spec.split, "One table for each: " + columns)
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--value", arguments->spec.value, "rmse mean median std min max sse count")
+  command
+      ->add_option(
+          "--value", arguments->spec.value, "Statistic: rmse mean median std min max sse count")
       ->capture_default_str();
-  command->add_option("--show", arguments->spec.show, "Only these scores: ate,error x,gain,time");
+  command->add_option("--show", arguments->spec.show, "Scores to show: ate,error x,gain,time");
   command->add_option("--where",
                       arguments->where,
-                      "Keep these rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
-                      "FIELD=\"TEXT\" where TEXT holds commas");
-  command->add_option("--alpha", arguments->ranking.alpha, "Chance of a false mark in a column")
+                      "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
+                      "FIELD=\"TEXT\" if TEXT contains commas");
+  command
+      ->add_option(
+          "--alpha", arguments->ranking.alpha, "Significance level of the marks in a column [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
@@ -113,12 +117,12 @@ void add_table(CLI::App& app, int& exit_code) {
                                                    {"csv", TableFormat::csv},
                                                    {"json", TableFormat::json},
                                                    {"rows", TableFormat::rows}};
-  command->add_option("--format", arguments->format, "How to print; rows is the long table")
+  command->add_option("--format", arguments->format, "Output format; rows is the long table")
       ->transform(one_of("format", formats));
   command
       ->add_option("-o,--out",
                    arguments->out,
-                   "Write a file (-: standard output); beside a CSV, its provenance")
+                   "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }

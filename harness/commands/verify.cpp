@@ -29,8 +29,8 @@ int run_verify(const VerifyArguments& arguments) {
   sweep.traces = true;
   const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
-  if (planned.empty()) throw InputError(arguments.config + ": no cell is left to run");
-  // The first twice: a method may differ from run to run alone.
+  if (planned.empty()) throw InputError(arguments.config + ": no cells to run");
+  // The first setting runs twice, because a method alone can differ from run to run.
   const std::vector<Manner> manners{
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
   const std::atomic<bool>& interrupted = catch_interruption();
@@ -45,7 +45,7 @@ int run_verify(const VerifyArguments& arguments) {
   if (interrupted) return kExitInterrupted;
   for (const Difference& difference : found) {
     const Cell& cell = planned[difference.cell];
-    fmt::print("{} / {}{}: other {} with {} than with {} before\n",
+    fmt::print("{} / {}{}: {} differs between {} and {}\n",
                sweep.datasets[cell.dataset].label,
                sweep.methods[cell.method].label,
                cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "",
@@ -58,7 +58,7 @@ int run_verify(const VerifyArguments& arguments) {
   fmt::print("{} cells run with {}: {}\n",
              planned.size(),
              names,
-             found.empty() ? "the same bits" : fmt::format("{} differences", found.size()));
+             found.empty() ? "bit-identical" : fmt::format("{} differences", found.size()));
   return found.empty() ? kExitOk : kExitSomeCellsFailed;
 }
 
@@ -67,14 +67,14 @@ int run_verify(const VerifyArguments& arguments) {
 void add_verify(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
-      "verify", "Run a sweep on different numbers of workers and demand the same bits");
+      "verify", "Check that results are bit-identical for any number of workers");
   command->add_option("config", arguments->config, "YAML file, see configs/")->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
-  command->add_option("--data", arguments->data, "Folder with real data")
+  command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
-  command->add_option("--plugin", arguments->plugins, "Shared object that brings methods")
+  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
 }

@@ -95,7 +95,7 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
 }  // namespace
 
 std::vector<std::string> oracle_methods(const std::vector<Record>& records) {
-  std::set<std::string> fair_runs;  // with a method that was not shown the reference
+  std::set<std::string> fair_runs;  // runs with a method that does not use the reference
   for (const Record& r : records) {
     if (!r.oracle) fair_runs.insert(run_name(r));
   }
@@ -111,7 +111,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   std::vector<Record> fair = records;
   std::erase_if(fair, [&](const Record& r) { return std::ranges::count(oracles, r.method) > 0; });
   std::vector<Observations> all = observations(fair, options.value);
-  if (all.empty()) throw InputError("no score is left to compare");
+  if (all.empty()) throw InputError("no scores to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {
     throw InputError("baseline: " + unknown_name("method", options.baseline, all[0].methods));
   }
@@ -124,7 +124,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   }
   if (out.empty()) {
     throw InputError("'" + metric_label(all[0].kind) +
-                     "' describes: no value of it is better than another");
+                     "' is a description: no value is better than another");
   }
   return out;
 }

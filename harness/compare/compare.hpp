@@ -1,10 +1,10 @@
-/// Is the difference real? Methods of one sweep, one score at a time.
+/// Statistical comparison of the methods of a sweep, one score at a time.
 ///
-/// The observation is a group of runs that are not independent of each other (one route, one
-/// simulated instance); runs of equal content count once. Within a group, logarithms of the ratios
-/// to the other method are averaged; ratios, intervals, tests and ranks are over groups, all from
-/// the one procedure in ranking.hpp. A run on which a method fails is lost in the tests, and left
-/// out of its ratio. Scores are not corrected for each other.
+/// The observation is a group of dependent runs (one route, one simulated instance); runs of equal
+/// content count once. Log ratios to the other method are averaged within each group; ratios,
+/// intervals, tests and ranks are computed over groups, see ranking.hpp. A run on which a method
+/// fails counts as a loss in the tests and is excluded from its ratio. No correction for multiple
+/// scores.
 #pragma once
 
 #include <optional>
@@ -16,19 +16,19 @@
 
 namespace loopbench {
 
-/// What one observation is.
+/// Unit of observation.
 enum class Over {
-  groups,    ///< runs with one Record::group, or a run by itself
-  runs,      ///< every run, taken as independent although groups are known
-  sequences  ///< runs of a sequence or of a group together: conclusions reach to other sequences
+  groups,    ///< runs with the same Record::group, or single runs without a group
+  runs,      ///< every run, assumed independent even if groups are known
+  sequences  ///< all runs of a sequence or of a group: generalises to other sequences
 };
 
 struct CompareOptions {
   std::string baseline;
   std::string value = "rmse";
   Over over = Over::groups;
-  double alpha = 0.05;          ///< of all claims of one comparison; 1 - alpha of each interval
-  double relevant = kRelevant;  ///< relative difference up to which values are equal
+  double alpha = 0.05;          ///< significance level of one comparison; intervals have 1 - alpha
+  double relevant = kRelevant;  ///< relative difference up to which values count as equal
   std::size_t resamples = 1999;
   std::uint64_t seed = 1;
 };
@@ -36,66 +36,66 @@ struct CompareOptions {
 struct MethodVerdict {
   std::string method;
   double median = 0.0;            ///< of its values
-  std::size_t runs = 0;           ///< with a value
-  std::size_t fails = 0;          ///< runs that it loses
+  std::size_t runs = 0;           ///< runs with a value
+  std::size_t fails = 0;          ///< runs that count as a loss
   std::string why_fails;          ///< "failed 2, declined 1"
   std::optional<Interval> ratio;  ///< geometric mean of value / baseline over groups
-  bool has_interval = false;      ///< ratio.low and ratio.high mean something
+  bool has_interval = false;      ///< ratio.low and ratio.high are valid
   std::size_t wins = 0;           ///< groups better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;
-  std::optional<double> p;     ///< against the baseline; none where nothing can be proven
+  std::optional<double> p;     ///< p value against the baseline; none if no test is possible
   double rank_biserial = 0.0;  ///< positive: better than the baseline
   bool beats_baseline = false;
-  bool is_leader = false;  ///< first in order, or equal to the first on every group
+  bool is_leader = false;  ///< first in the ranking, or equal to the first on every group
   bool is_beaten_by_leader = false;
-  std::size_t lowest_rank = 1;  ///< that the claims leave: 1 is best
+  std::size_t lowest_rank = 1;  ///< best possible rank given the significant differences; 1 is best
   std::size_t highest_rank = 1;
-  std::string letters;  ///< sharing one: neither is proven better
+  std::string letters;  ///< methods that share a letter do not differ significantly
 };
 
-/// A method that has no value on any run, or lacks some.
+/// A method that lacks values on some or all runs.
 struct Gap {
   std::string method;
   std::size_t missing = 0;  ///< runs without a value
   std::string why;          ///< "failed 2, declined 1"
-  bool is_ranked = true;    ///< false: no value at all, so left out of the comparison
+  bool is_ranked = true;    ///< false: no value at all, excluded from the comparison
 };
 
 struct Comparison {
   Record kind;  ///< protocol, times, metric, relation, axis, unit
   CompareOptions options;
   std::size_t groups = 0;              ///< observations
-  std::size_t runs = 0;                ///< among them: every ranked method has a value or failed
+  std::size_t runs = 0;                ///< runs used: every ranked method has a value or failed
   std::size_t possible = 0;            ///< runs that any method has, or should have
-  std::size_t copies = 0;              ///< runs of the same content as another, not counted
-  std::size_t sequences = 0;           ///< among the runs
-  std::size_t stated_groups = 0;       ///< of the runs, whatever options.over
+  std::size_t copies = 0;              ///< runs with the same content as another, not counted
+  std::size_t sequences = 0;           ///< sequences of the runs used
+  std::size_t stated_groups = 0;       ///< groups of the runs, for any options.over
   std::vector<MethodVerdict> methods;  ///< best first
   std::vector<Gap> gaps;
-  std::vector<std::string> oracles;          ///< methods left out: they were shown the reference
+  std::vector<std::string> oracles;          ///< excluded methods that use the reference
   std::vector<std::string> oracle_closures;  ///< sequences with closures from the reference
-  bool is_best_proven = false;               ///< the leaders beat all other methods
-  bool is_ratio = true;                      ///< false: plain differences, some value is negative
-  std::size_t pairs = 0;                     ///< of methods that differ somewhere
-  std::size_t groups_needed = 0;             ///< fewest that can prove anything
+  bool is_best_proven = false;    ///< the leaders are significantly better than all others
+  bool is_ratio = true;           ///< false: plain differences, some value is negative
+  std::size_t pairs = 0;          ///< pairs of methods that differ on some group
+  std::size_t groups_needed = 0;  ///< minimum for a significant difference
 };
 
-/// One comparison for each score, without those that have no better and worse. Deterministic.
-/// Throws InputError when the baseline is no method of the records, when `where` left no score, and
-/// for an unknown statistic. Comparisons with no common run, or one method, have no methods.
+/// One comparison for each score that has a direction. Deterministic. Throws InputError if the
+/// baseline is not a method of the records, if `where` leaves no score, and for an unknown
+/// statistic. Comparisons without a common run, or with one method, have no methods.
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options);
 
-/// Methods that were shown the reference on a run on which another was not.
+/// Methods that use the reference on a run where another method does not.
 std::vector<std::string> oracle_methods(const std::vector<Record>& records);
 
-/// "8 runs", "20 sequences", "6 groups (30 runs)": what the numbers are over.
+/// "8 runs", "20 sequences", "6 groups (30 runs)": the observations of a comparison.
 std::string unit_text(const Comparison& comparison);
 
-/// One line: which is best, by how much, and which are not different from it.
+/// One-line verdict: the best method, its gain, and the methods that do not differ significantly.
 std::string verdict(const Comparison& comparison);
 
-/// What must be known to read the numbers: what they are over, gaps, tests, limits.
+/// Information needed to interpret the results: observations, gaps, tests, limitations.
 std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace loopbench

@@ -5,7 +5,7 @@
 namespace loopbench {
 namespace {
 
-using LetterColumn = std::vector<std::size_t>;  // places in the order, ascending
+using LetterColumn = std::vector<std::size_t>;  // indices in the ranking, ascending
 
 LetterColumn without(const LetterColumn& column, std::size_t place) {
   LetterColumn out = column;
@@ -13,7 +13,7 @@ LetterColumn without(const LetterColumn& column, std::size_t place) {
   return out;
 }
 
-/// Adds a column that no other contains.
+/// Adds a column unless another column contains it.
 void absorb(std::vector<LetterColumn>& columns, const LetterColumn& added) {
   const auto contains = [&](const LetterColumn& other) {
     return std::ranges::includes(other, added);

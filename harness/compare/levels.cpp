@@ -7,7 +7,7 @@
 
 namespace loopbench {
 double zero_floor(double largest) {
-  constexpr double kRounding = 1e-12;  // of coordinates, in any unit of a score
+  constexpr double kRounding = 1e-12;  // relative rounding of coordinates
   return std::max(kRounding, 1e-9 * largest);
 }
 

@@ -1,4 +1,4 @@
-/// One score of several methods on the same runs, on a scale where lower is better.
+/// One score of several methods on the same runs, transformed so that lower is better.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@ struct GroupedValues {
   double target = 0.0;
 };
 
-/// Magnitude of a difference that no ratio measures: to a failure, or to an error of zero.
+/// Difference to a failure or to an error of zero, for which no ratio exists.
 inline constexpr double kBeyond = 1e300;
 
-/// Errors up to here are zero but for rounding, on a run whose largest error is `largest`.
+/// Errors up to this value count as zero, on a run whose largest error is `largest`.
 double zero_floor(double largest);
 
-/// Values as levels: the error itself, its negative where higher is better, or its distance to the
-/// target; in logarithms where no value is negative, so that a run with errors of metres does not
-/// drown one with errors of centimetres.
+/// Values as levels: the error itself, its negative if higher is better, or its distance to the
+/// target. Logarithmic if no value is negative, so that runs with errors of metres do not dominate
+/// runs with errors of centimetres.
 class Levels {
  public:
-  /// Differences up to `relevant` * the larger value are ties.
+  /// Differences up to `relevant` times the larger value are ties.
   Levels(const GroupedValues& all, double relevant);
 
   bool is_ratio() const { return is_ratio_; }
@@ -36,16 +36,16 @@ class Levels {
   const std::vector<std::size_t>& runs_of(std::size_t group) const { return runs_of_[group]; }
   bool has(std::size_t method, std::size_t run) const { return costs_[method][run].has_value(); }
 
-  /// Whether the method's error is zero but for rounding.
+  /// Whether the method's error is zero within rounding.
   bool is_zero(std::size_t method, std::size_t run) const;
 
-  /// Level of `a` minus level of `b` where both have a value: negative where `a` is better, exactly
-  /// 0 for a tie, +-kBeyond where one of them is zero and the other is not.
+  /// Level of `a` minus level of `b` if both have a value: negative if `a` is better, exactly 0 for
+  /// a tie, +-kBeyond if only one of them is zero.
   double difference(std::size_t a, std::size_t b, std::size_t run) const;
 
-  /// Mean over groups of the mean level over a group's runs; a failed run counts as twice the
-  /// worst error on it (as far beyond the worst as that is from the best, where there is no ratio).
-  /// What methods are sorted by. O(runs * methods).
+  /// Sort key of methods: mean over groups of the mean level over a group's runs. A failed run
+  /// counts as twice the worst error on it (without ratios, as far beyond the worst as that is from
+  /// the best). O(runs * methods).
   double standing(std::size_t method) const;
 
  private:
@@ -55,7 +55,7 @@ class Levels {
   std::vector<std::vector<std::optional<double>>> values_;
   std::vector<std::vector<std::optional<double>>> costs_;
   std::vector<std::vector<std::size_t>> runs_of_;
-  std::vector<double> floor_;  // of each run: costs up to here are zero
+  std::vector<double> floor_;  // per run: values up to this count as zero
   double sign_ = 1.0;
   double relevant_ = 0.0;
   bool is_ratio_ = true;

@@ -22,7 +22,7 @@ Observed observed(const Record& r, const std::string& value_name) {
     if (std::isfinite(number)) return {number, false, ""};
     return {std::nullopt, true, "not finite"};
   }
-  return {std::nullopt, is_loss(r), r.status == "ok" ? "not judged" : r.status};
+  return {std::nullopt, is_loss(r), r.status == "ok" ? "not evaluated" : r.status};
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ std::vector<Observations> observations(const std::vector<Record>& records,
 }
 
 std::size_t drop_copies(Observations& all) {
-  std::map<std::string, std::size_t> first;  // run of a content
+  std::map<std::string, std::size_t> first;  // first run of each content
   std::vector<std::size_t> kept;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
     const std::string& content = all.runs[run].content;

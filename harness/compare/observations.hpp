@@ -1,4 +1,4 @@
-/// The values of one score, method by run: what comparisons are made on.
+/// The values of one score by method and run, input of a comparison.
 #pragma once
 
 #include <map>
@@ -10,18 +10,18 @@
 
 namespace loopbench {
 
-/// "room" or "room (repeat 2)": the run of a record.
+/// "room" or "room (repeat 2)": name of a record's run.
 std::string run_name(const Record& record);
 
-/// Runs with the same name belong to one group: Record::group, or the run by itself.
+/// Runs with the same name belong to one group: Record::group, or otherwise the run itself.
 std::string group_name(const Record& record);
 
-/// Whether a record without a usable value is a loss of its method: the method failed, crashed, ran
-/// out of its limits, declined, or left an estimate that is incomplete or has no score. A score
-/// that is undefined or declined is the metric's own.
+/// Whether a record without a usable value counts as a loss of its method: the method failed,
+/// crashed, exceeded its limits, declined, or its estimate is incomplete or has no score. Undefined
+/// or declined scores are a property of the metric and do not count.
 bool is_loss(const Record& record);
 
-/// One value, or why there is none.
+/// One value, or the reason why there is none.
 struct Observed {
   std::optional<double> value;
   bool is_loss = false;
@@ -43,14 +43,14 @@ struct Observations {
   std::vector<std::vector<Observed>> values;  ///< [method][run]
 };
 
-/// One table for every score (protocol, times, metric, relation, axis) in the records, in the order
-/// they appear; only finite numbers with status ok count. A run or a method that any record names
-/// is in every table. Throws InputError for an unknown statistic. O(n log n).
+/// One table for every score (protocol, times, metric, relation, axis) in the records, in order of
+/// appearance; only finite numbers with status ok count. Every table contains all runs and methods
+/// of the records. Throws InputError for an unknown statistic. O(n log n).
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value);
 
-/// Keeps the first of every set of runs with equal content; a method that loses one of them loses
-/// it. Returns the number of runs that were dropped.
+/// Keeps the first run of every set with equal content; a loss on one of them is a loss on the kept
+/// run. Returns the number of dropped runs.
 std::size_t drop_copies(Observations& all);
 
 }  // namespace loopbench

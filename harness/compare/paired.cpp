@@ -11,7 +11,7 @@ PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second
   PairedMethods out;
   for (std::size_t group = 0; group < levels.groups(); ++group) {
     std::vector<double> both;
-    int lead = 0;  // runs that only the first has, less those that only the second has
+    int lead = 0;  // runs with a value of only the first, minus those of only the second
     bool is_empty = true;
     for (const std::size_t run : levels.runs_of(group)) {
       const bool has_first = levels.has(first, run);
@@ -23,7 +23,7 @@ PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second
     if (is_empty) continue;
     const double middle = both.empty() ? 0.0 : mean(both);
     const double value = lead != 0 ? (lead > 0 ? -kBeyond : kBeyond) : middle;
-    // Half of a zero error among runs with finite ratios is still beyond any ratio.
+    // A zero error beside finite ratios in the same group remains beyond any ratio.
     const bool is_beyond = std::abs(value) > 1e-6 * kBeyond;
     out.losses_last.push_back(is_beyond ? std::copysign(kBeyond, value) : value);
     ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);

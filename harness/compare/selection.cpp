@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-/// Methods with a value anywhere; what they and the others lack goes into `gaps`.
+/// Methods with a value on any run; missing values are recorded in `gaps`.
 std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out) {
   std::vector<std::size_t> ranked;
   for (std::size_t m = 0; m < all.methods.size(); ++m) {
@@ -25,7 +25,7 @@ std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out
   return ranked;
 }
 
-/// The number of each run's group: runs that share a key of either kind are together.
+/// Group number of each run: runs that share a key of either kind are in one group.
 std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& keys) {
   std::vector<std::size_t> group(keys.size());
   std::iota(group.begin(), group.end(), std::size_t{0});

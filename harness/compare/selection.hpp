@@ -1,4 +1,4 @@
-/// The part of one score's values that all methods can be compared on.
+/// The subset of a score's values on which all methods can be compared.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 namespace loopbench {
 
 struct Selection {
-  std::vector<std::size_t> methods;  ///< places in the observations: those with a value anywhere
+  std::vector<std::size_t> methods;  ///< indices into the observations: methods with any value
   std::vector<std::size_t> runs;     ///< likewise
-  GroupedValues values;              ///< of these
+  GroupedValues values;              ///< values of these methods and runs
 };
 
-/// Runs on which every ranked method has a value or failed, and one has a value, with their groups
-/// as `out.options.over` asks. Counts what is kept and what is missing into `out`.
+/// Runs on which every ranked method has a value or failed, and at least one has a value, grouped
+/// by `out.options.over`. Records kept and missing counts in `out`.
 Selection select_common(const Observations& all, Comparison& out);
 
-/// "declined 1, failed 2": each reason with its number.
+/// "declined 1, failed 2": each reason with its count.
 std::string counted(const std::vector<std::string>& reasons);
 
 }  // namespace loopbench

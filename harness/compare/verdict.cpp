@@ -25,7 +25,7 @@ const MethodVerdict* find(const Comparison& comparison, const std::string& metho
   return found == comparison.methods.end() ? nullptr : &*found;
 }
 
-/// Names of the methods, the baseline aside, for which `holds`.
+/// Names of the methods, except the baseline, for which `holds`.
 template <class Holds>
 std::vector<std::string> names_where(const Comparison& c, Holds holds) {
   std::vector<std::string> out;
@@ -35,13 +35,13 @@ std::vector<std::string> names_where(const Comparison& c, Holds holds) {
   return out;
 }
 
-/// One decimal, or two digits where that would be 0.0.
+/// One decimal, or two digits if that would be 0.0.
 std::string percent_text(double percent) {
   return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent)
                                                      : fmt::format("{:.2g}", percent);
 }
 
-/// "12.3 % below raw [8.1, 15.2]": how far a method is from the baseline.
+/// "12.3 % below raw [8.1, 15.2]": difference of a method to the baseline.
 std::string distance(const MethodVerdict& method, const CompareOptions& options) {
   if (!method.ratio) return "against " + options.baseline;
   if (method.ties > 0 && method.wins + method.losses == 0) return "equal to " + options.baseline;
@@ -60,7 +60,7 @@ std::string distance(const MethodVerdict& method, const CompareOptions& options)
   return out;
 }
 
-/// distance() with p, and the runs that it leaves out.
+/// distance() with p and the excluded runs.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c.options);
   if (method.p) out += ", " + p_sentence(*method.p);
@@ -71,7 +71,7 @@ std::string result(const Comparison& c, const MethodVerdict& method) {
   return out;
 }
 
-std::string why_nothing(const Comparison& c) {
+std::string why_no_comparison(const Comparison& c) {
   for (const Gap& gap : c.gaps) {
     if (!gap.is_ranked && gap.method == c.options.baseline) {
       return "the baseline " + gap.method + " has no value on any run: nothing is compared";
@@ -136,7 +136,7 @@ std::string unit_text(const Comparison& c) {
 }
 
 std::string verdict(const Comparison& c) {
-  if (c.methods.empty()) return why_nothing(c);
+  if (c.methods.empty()) return why_no_comparison(c);
   const auto leaders = names_where(c, [](const MethodVerdict& m) { return m.is_leader; });
   const std::string over = "; over " + unit_text(c);
   if (c.is_best_proven || leaders.size() == c.methods.size()) return best_text(c, leaders) + over;
@@ -144,7 +144,7 @@ std::string verdict(const Comparison& c) {
   const MethodVerdict& first = c.methods.front();
   const std::string lead =
       find(c, c.options.baseline)->is_leader
-          ? "the baseline " + c.options.baseline + " is in front"
+          ? "the baseline " + c.options.baseline + " ranks first"
           : joined_names(leaders) + (leaders.size() == 1 ? " is " : " are ") + result(c, first);
   return fmt::format(
       "nothing is proven: {}, but {} cannot prove a difference among {} methods at "

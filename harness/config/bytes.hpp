@@ -1,4 +1,4 @@
-/// Sizes of memory as people write them.
+/// Memory sizes as text.
 #pragma once
 
 #include <charconv>
@@ -10,8 +10,8 @@
 
 namespace loopbench {
 
-/// "2GiB", "1.5 GiB", "500MB", "4096": bytes, at least one; nothing for anything else. KiB, MiB,
-/// GiB are powers of 1024; kB, MB, GB of 1000.
+/// Parses "2GiB", "1.5 GiB", "500MB" or "4096" into bytes (at least one); nullopt for anything
+/// else. KiB, MiB, GiB are powers of 1024; kB, MB, GB of 1000.
 inline std::optional<std::int64_t> parse_bytes(const std::string& text) {
   double number = 0.0;
   const char* const end = text.data() + text.size();

@@ -9,14 +9,14 @@
 namespace loopbench {
 namespace {
 
-/// The list of words under a key; empty without it.
+/// The list of strings under a key; empty without the key.
 std::vector<std::string> words(const YamlNode& root, const char* key, const std::string& file) {
   const YamlNode* node = root.type == YamlNode::Type::map ? root.find(key) : nullptr;
   std::vector<std::string> out;
   if (node == nullptr) return out;
   for (const YamlNode& item : node->list) {
     if (item.type != YamlNode::Type::scalar) {
-      throw input_error(file, item.line, std::string(key) + ": expected a list of words");
+      throw input_error(file, item.line, std::string(key) + ": expected a list of strings");
     }
     out.push_back(item.text);
   }
@@ -36,7 +36,7 @@ LearntSettings read_calibration(const std::string& calibration,
   if (!std::filesystem::is_regular_file(path)) path = calibration;
   std::ifstream in(path, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(path)) {
-    throw refuse(calibration + ": no such file, beside the config or as given");
+    throw refuse(calibration + ": file not found, neither beside the config nor as given");
   }
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const YamlNode root = parse_yaml(text, path.string());

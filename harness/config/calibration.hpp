@@ -1,4 +1,4 @@
-/// Option values that `loopbench calibrate` learnt, as a config's entry takes them over.
+/// Option values from `loopbench calibrate` for an entry of a config.
 #pragma once
 
 #include <map>
@@ -15,9 +15,9 @@ struct LearntSettings {
   std::map<std::string, std::vector<Setting>> by_method;
 };
 
-/// The settings under each of the `methods` that the calibration file has; at least one of them.
-/// The file is looked for beside the config, then as given. The settings' line is that of the
-/// config, so that a refusal tells where the file was named. Throws InputError `config:line:`.
+/// The settings under each of the `methods` in the calibration file, which has at least one. The
+/// file is searched beside the config, then as given. The settings have the line of the config
+/// entry, so that messages refer to it. Throws InputError `config:line:`.
 LearntSettings read_calibration(const std::string& calibration,
                                 const std::vector<std::string>& methods,
                                 const std::string& config,

@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-/// Runs `check`; what it refuses is told with the line the option was written on.
+/// Runs `check`; adds file and line of the option to its errors.
 template <class Check>
 void located(const std::string& file,
              std::size_t entry_line,
@@ -44,7 +44,7 @@ Params to_params(const std::vector<Setting>& settings) {
   return out;
 }
 
-/// "name (a=1, b=2)". With a label of its own, only what is swept is worth telling.
+/// "name (a=1, b=2)". If the entry has a label, only the swept settings are listed.
 std::string label_of(const std::string& name, const std::string& given, const GridPoint& point) {
   std::string shown;
   for (const Setting& setting : point.settings) {
@@ -55,7 +55,7 @@ std::string label_of(const std::string& name, const std::string& given, const Gr
   return shown.empty() ? base : base + " (" + shown + ")";
 }
 
-/// The entry's own name under `key` - or the entry itself when it is a bare word - and its label.
+/// The entry's name under `key`, or the entry itself if it is a string, and its label.
 struct Named {
   std::string name;
   std::string label;
@@ -70,7 +70,7 @@ Named named(const YamlNode& entry, const std::string& key, const std::string& fi
   }
   const YamlNode* label = entry.find("label");
   if (label != nullptr && label->type != YamlNode::Type::scalar) {
-    throw input_error(file, label->line, "label: expected a word");
+    throw input_error(file, label->line, "label: expected a string");
   }
   return {name->text, label == nullptr ? "" : label->text};
 }
@@ -88,11 +88,11 @@ const auto& found(Find find,
   }
 }
 
-/// The stage a setting belongs to and its name there: `uniform.rotation`, or `rotation` when only
-/// one stage has it.
-std::pair<std::size_t, std::string> owner(const Setting& setting,
-                                          const std::vector<const MethodEntry*>& stages,
-                                          const std::string& file) {
+/// The stage of a setting and its name in that stage: `uniform.rotation`, or `rotation` if only one
+/// stage has this option.
+std::pair<std::size_t, std::string> stage_of(const Setting& setting,
+                                             const std::vector<const MethodEntry*>& stages,
+                                             const std::string& file) {
   std::vector<std::size_t> having;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -107,10 +107,10 @@ std::pair<std::size_t, std::string> owner(const Setting& setting,
   if (having.size() > 1) {
     throw input_error(file,
                       setting.line,
-                      setting.name + ": both stages have it; say " + stages[0]->name + "." +
-                          setting.name + " or " + stages[1]->name + "." + setting.name);
+                      setting.name + ": both stages have this option; use " + stages[0]->name +
+                          "." + setting.name + " or " + stages[1]->name + "." + setting.name);
   }
-  if (stages.size() == 1) return {0, setting.name};  // refused there, with the list of options
+  if (stages.size() == 1) return {0, setting.name};  // the stage rejects it and lists its options
   throw input_error(
       file, setting.line, unknown_name("option of either stage", setting.name, known));
 }
@@ -124,7 +124,7 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
   const DatasetEntry& known = found(find_dataset, catalogue, name, file, entry.line);
   const YamlNode* group = entry.find("group");
   if (group != nullptr && group->type != YamlNode::Type::scalar) {
-    throw input_error(file, group->line, "group: expected a word");
+    throw input_error(file, group->line, "group: expected a string");
   }
   std::vector<DatasetChoice> out;
   for (GridPoint& point : spread(entry, {"dataset", "label", "group"}, file)) {
@@ -171,7 +171,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   LearntSettings calibrated;
   if (const YamlNode* node = entry.find("calibration")) {
     if (node->type != YamlNode::Type::scalar) {
-      throw input_error(file, node->line, "calibration: expected the name of a file");
+      throw input_error(file, node->line, "calibration: expected a file name");
     }
     std::vector<std::string> names;
     for (const MethodEntry* stage : stages) names.push_back(stage->name);
@@ -181,7 +181,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   for (GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
     std::vector<std::vector<Setting>> by_stage(stages.size());
     for (Setting& setting : point.settings) {
-      const auto [stage, name] = owner(setting, stages, file);
+      const auto [stage, name] = stage_of(setting, stages, file);
       std::vector<Setting> own{{name, setting.value, setting.line, setting.text}};
       keep_text(own, stages[stage]->options);
       setting.value = own.front().value;
@@ -190,10 +190,10 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
     MethodChoice choice{label_of(text, label, point), {}, calibrated.trained_on};
     for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      for (const Setting& learnt :
-           calibrated.by_method[stages[i]->name]) {  // what the entry says goes first
-        if (std::ranges::count(by_stage[i], learnt.name, &Setting::name) == 0) {
-          by_stage[i].push_back(learnt);
+      for (const Setting& estimated :
+           calibrated.by_method[stages[i]->name]) {  // the entry's own settings have priority
+        if (std::ranges::count(by_stage[i], estimated.name, &Setting::name) == 0) {
+          by_stage[i].push_back(estimated);
         }
       }
       choice.stages[i].options = to_params(by_stage[i]);

@@ -1,4 +1,4 @@
-/// The three lists of a config - datasets, methods, metrics - each entry spread into choices.
+/// The lists of a config (datasets, methods, metrics), each entry expanded into choices.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace loopbench {
 
-/// Each throws InputError `file:line:` for an unknown name or option, or a broken rule.
+/// Each throws InputError `file:line:` for an unknown name or option, or an invalid value.
 std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
                                            const std::string& file,
                                            const Catalogue& catalogue);
 std::vector<MethodChoice> method_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue);
-/// The options of a metric must fit each of the protocols.
+/// The options of a metric must be compatible with each of the protocols.
 std::vector<MetricChoice> metric_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue,

@@ -8,7 +8,8 @@ DataRoot data_root(const Sweep& sweep, const std::string& data) {
   root.folders.push_back(beside.empty() ? "." : beside);
   if (data.empty()) return root;
   if (!std::filesystem::is_directory(data)) {
-    throw InputError(data + ": is not a folder; --data and $LOOPBENCH_DATA name a folder of data");
+    throw InputError(data +
+                     ": is not a folder; set --data or $LOOPBENCH_DATA to a folder with data");
   }
   root.folders.emplace_back(data);
   return root;

@@ -1,4 +1,4 @@
-/// Where a config's relative paths are looked for.
+/// Search folders for the relative paths of a config.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-/// Beside the config, then in `data` when given. Throws InputError when that is no folder.
+/// Searches beside the config, then in `data` if given. Throws InputError if that is not a folder.
 DataRoot data_root(const Sweep& sweep, const std::string& data);
 
 }  // namespace loopbench

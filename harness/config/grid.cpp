@@ -12,9 +12,9 @@
 namespace loopbench {
 namespace {
 
-/// Limits that nobody's sweep meets: a few lines may ask for more than memory holds.
+/// Limits far above real sweeps: a few lines can request more than fits into memory.
 constexpr std::size_t kMostPoints = 10'000;
-constexpr std::size_t kMostSettings = 200;  // of one point
+constexpr std::size_t kMostSettings = 200;  // per grid point
 
 using Axis = std::vector<std::vector<Setting>>;  // one inner list per step along the axis
 
@@ -31,7 +31,7 @@ void flatten(const YamlNode& node,
       for (const auto& [key, value] : node.map) flatten(value, name + "." + key, file, out);
       break;
     case YamlNode::Type::list:
-      throw input_error(file, node.line, name + ": a list belongs under 'sweep' or 'zip'");
+      throw input_error(file, node.line, name + ": lists are accepted only under 'sweep' or 'zip'");
     case YamlNode::Type::null:
       throw input_error(file, node.line, name + ": has no value");
   }
@@ -50,7 +50,7 @@ std::vector<Setting> values(const YamlNode& node,
   }
   for (const YamlNode& item : node.list) {
     if (item.type != YamlNode::Type::scalar) {
-      throw input_error(file, item.line, name + ": expected plain values in the list");
+      throw input_error(file, item.line, name + ": expected scalar values in the list");
     }
     out.push_back({name, item.scalar, node.line, item.text});
   }
@@ -80,7 +80,7 @@ void expect_few_points(std::size_t count, std::size_t line, const std::string& f
       file, line, "sweeps over more than " + std::to_string(kMostPoints) + " combinations");
 }
 
-/// Of the options set in one entry, swept or not.
+/// Checks the number of options set in one entry, swept or not.
 void expect_few_settings(const YamlNode& entry, std::size_t fixed, const std::string& file) {
   std::size_t count = fixed;
   for (const char* key : {"sweep", "zip"}) {
@@ -148,8 +148,8 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
     throw input_error(file, node.line, "a range with log: true needs from > 0 and to > 0");
   }
 
-  // 0.1 to 0.5 in five steps has 0.3 in it, not 0.30000000000000004: what arithmetic adds behind
-  // the 15th digit would stand in every label.
+  // 0.1 to 0.5 in five steps contains 0.3, not 0.30000000000000004: round to 15 digits, because
+  // every label shows the values.
   const auto rounded = [](double value) {
     if (value == std::round(value)) return value;
     std::array<char, 32> digits;
@@ -159,14 +159,14 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
   std::vector<double> points;
   for (std::int64_t i = 0; i < *steps; ++i) {
     const double u = *steps == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(*steps - 1);
-    const bool is_end = i > 0 && i + 1 == *steps;  // exact, not to within rounding
+    const bool is_end = i > 0 && i + 1 == *steps;  // the end is exact
     const double between = is_log ? from * std::pow(to / from, u) : from + u * (to - from);
     points.push_back(i == 0 ? from : is_end ? to : rounded(between));
   }
   if (!std::ranges::all_of(points, [](double p) { return std::isfinite(p); })) {
-    throw input_error(file, node.line, "a range from, to must not be wider than a double is");
+    throw input_error(file, node.line, "the range from .. to is too wide for double precision");
   }
-  constexpr double kExact = 9007199254740992.0;  // 2^53: beyond it, not every whole number is there
+  constexpr double kExact = 9007199254740992.0;  // 2^53: larger integers are not all representable
   const bool whole = !is_log && std::holds_alternative<std::int64_t>(need("from").scalar) &&
                      std::ranges::all_of(points, [](double p) {
                        return p == std::round(p) && std::abs(p) <= kExact;

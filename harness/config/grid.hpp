@@ -1,4 +1,4 @@
-/// Spreading one config entry with `sweep:` and `zip:` into all its concrete settings.
+/// Expands a config entry with `sweep:` and `zip:` into all its settings.
 #pragma once
 
 #include <string>
@@ -8,29 +8,29 @@
 
 namespace loopbench {
 
-/// A setting and the line it was written on.
+/// A setting and its line in the file.
 struct Setting {
   std::string name;  ///< nested maps flattened: segment: {band: 1} is segment.band
   Param value;
   std::size_t line = 0;
-  std::string text = {};  ///< the value as written; empty: computed
+  std::string text = {};  ///< the value as written; empty if computed
 };
 
-/// One point of the grid: fixed settings, then the swept ones (also named in `swept`, in order).
+/// One point of the grid: fixed settings, then swept ones (also listed in `swept`, in order).
 struct GridPoint {
   std::vector<Setting> settings;
   std::vector<std::string> swept;
 };
 
-/// Every combination of `entry`'s plain keys (but those in `reserved`), its `sweep` (each key a
-/// list or {from, to, steps, log}) and its `zip` (lists of equal length, walked together). The
+/// Every combination of `entry`'s scalar keys (except those in `reserved`), its `sweep` (each key a
+/// list or {from, to, steps, log}) and its `zip` (lists of equal length, advanced together). The
 /// first swept key varies slowest. Throws InputError `file:line:`.
 std::vector<GridPoint> spread(const YamlNode& entry,
                               const std::vector<std::string>& reserved,
                               const std::string& file);
 
-/// `from: 1, to: 3, steps: 3` is 1 2 3; with `log: true` evenly spaced in the logarithm. Whole
-/// numbers stay whole when every step is.
+/// `from: 1, to: 3, steps: 3` is 1 2 3; with `log: true` evenly spaced in the logarithm. Values
+/// are integers if every step is an integer.
 std::vector<Param> range(const YamlNode& node, const std::string& file);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// "uniform + dm_n4": one method, or a corrector and a smoother.
+/// Parses method names such as "uniform + dm_n4": one method, or a corrector and a smoother.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace loopbench {
 /// The names between the plus signs, trimmed.
 std::vector<std::string> split_stages(const std::string& text);
 
-/// Why these stages do not compose, or empty: corrector, smoother, corrector + smoother, method.
+/// Reason why these stages cannot be combined; empty for corrector, smoother, corrector + smoother,
+/// method.
 std::string refuses_stages(const std::vector<const MethodEntry*>& stages);
 
 }  // namespace loopbench

@@ -23,7 +23,7 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
     base = node.text;
   } else if (node.type == YamlNode::Type::map) {
     if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
-      throw input_error(file, node.line, "protocol: is not swept; give a list of protocols");
+      throw input_error(file, node.line, "protocol: cannot be swept; use a list of protocols");
     }
     if (const YamlNode* given = node.find("base")) {
       if (given->type != YamlNode::Type::scalar) {
@@ -61,7 +61,7 @@ std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::str
     out.push_back(protocol_choice(item, file));
     const std::string label = out.back().label();
     if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
-      throw input_error(file, item.line, "protocol: '" + label + "' is there twice");
+      throw input_error(file, item.line, "protocol: '" + label + "' is listed twice");
     }
   }
   if (out.empty()) throw input_error(file, node.line, "protocol: is empty, expected a name");

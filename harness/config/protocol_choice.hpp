@@ -1,4 +1,4 @@
-/// Protocols as configs and command lines name them.
+/// Protocols in configs and on command lines.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace loopbench {
 
-/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}`; base is loopbench when left out.
-/// Throws InputError `file:line:` with a suggestion for a slip.
+/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}`; the default base is loopbench.
+/// Throws InputError `file:line:` with a suggestion for an unknown name.
 NamedProtocol protocol_choice(const YamlNode& node, const std::string& file);
 
-/// The protocol of that name, changed. Throws InputError with a suggestion, OptionError.
+/// The protocol of that name with changes. Throws InputError with a suggestion, OptionError.
 NamedProtocol known_protocol(const std::string& name, const Params& changes);
 
-/// A protocol as above, or a list of at most 1000 whose labels differ.
+/// A protocol as above, or a list of at most 1000 with different labels.
 std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::string& file);
 
 }  // namespace loopbench

@@ -30,14 +30,14 @@ const std::vector<std::string> kKeys{"description",
                                      "exclude",
                                      "table"};
 
-/// With `timing: true`: enough for a median that one disturbance does not move.
+/// With `timing: true`: enough runs for a median that one disturbance does not change.
 constexpr int kRunsWhenAlone = 5;
 
-/// Limits that nobody's sweep meets, so that a few lines cannot ask for hours.
+/// Limits far above real sweeps, so that a few lines cannot request hours.
 constexpr std::size_t kMostChoices = 10'000;  // of datasets, of methods, of metrics
 constexpr std::size_t kMostRules = 1'000;     // exclusions
 
-/// Reads one config; knows the file for its messages.
+/// Parses one config; messages name its file.
 class SweepReader {
  public:
   SweepReader(std::string file, const Catalogue& catalogue)
@@ -71,7 +71,7 @@ class SweepReader {
   }
 
  private:
-  /// Settings that only a map of `known` ones may follow.
+  /// Settings for which only a map with the `known` keys is accepted.
   void map_of(const YamlNode& node,
               const std::string& key,
               const std::vector<std::string>& known) const {
@@ -96,10 +96,10 @@ class SweepReader {
 
   std::string word(const YamlNode& node, const std::string& key) const {
     if (node.type == YamlNode::Type::scalar) return node.text;
-    throw input_error(file_, node.line, key + ": expected a word");
+    throw input_error(file_, node.line, key + ": expected a string");
   }
 
-  /// A list of words, or one word.
+  /// A list of strings, or one string.
   std::vector<std::string> words(const YamlNode& node, const std::string& key) const {
     if (node.type != YamlNode::Type::list) return {word(node, key)};
     std::vector<std::string> out;
@@ -115,7 +115,7 @@ class SweepReader {
     return static_cast<int>(*whole);
   }
 
-  /// A number of runs; true for the times of cells that ran alone; or {runs: N, serial: true}.
+  /// A number of runs; true for timing cells alone; or {runs: N, serial: true}.
   void read_timing(const YamlNode& node, Sweep& sweep) const {
     if (node.type == YamlNode::Type::map) {
       only_keys(node, {"runs", "serial"});
@@ -180,13 +180,13 @@ class SweepReader {
     for (const YamlNode& entry : node->list) {
       for (Choice& choice : choices(entry, file_, catalogue_)) {
         if (labels.size() == kMostChoices) {
-          throw input_error(file_, entry.line, key + ": spread out, more than 10000 entries");
+          throw input_error(file_, entry.line, key + ": expands to more than 10000 entries");
         }
         if (!labels.insert(choice.label).second) {
           throw input_error(
               file_,
               entry.line,
-              "two entries of " + key + " are called '" + choice.label + "'; give one a label");
+              "two entries of " + key + " have the label '" + choice.label + "'; set label in one");
         }
         out.push_back(std::move(choice));
       }

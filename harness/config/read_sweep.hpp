@@ -1,4 +1,4 @@
-/// From a YAML file to a Sweep: everything named is looked up, every option checked, here.
+/// Reads a YAML config into a Sweep, resolving all names and checking all options.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace loopbench {
 
-/// Throws InputError `file:line: what` with a suggestion for a slip, before anything is run.
+/// Throws InputError `file:line: what` with a suggestion for misspelled names.
 Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue);
 
-/// The same from text; `file` is only for messages and the sweep's name.
+/// The same from text; `file` is used for messages and the sweep's name.
 Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
                   const Catalogue& catalogue);

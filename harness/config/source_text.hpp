@@ -1,5 +1,4 @@
-/// Options that hold text get a scalar as it was written: `label: 00`, `estimate: 007`, `name:
-/// 1e3`.
+/// Options of type text take the scalar as written: `label: 00`, `estimate: 007`, `name: 1e3`.
 #pragma once
 
 #include <algorithm>
@@ -11,20 +10,20 @@
 
 namespace loopbench {
 
-/// Whether the option holds text or a word of a list. Its default tells: an optional number, which
-/// is `none` by default, has no list of words as its rule.
+/// Whether the option holds text or one of a list of words. An optional number also has the default
+/// `none`, but no list of words as its rule.
 inline bool takes_text(const OptionInfo& option) {
   const std::string* text = std::get_if<std::string>(&option.value);
   if (text == nullptr) return false;
   return *text != "none" || option.rule.find(" | ") != std::string::npos;
 }
 
-/// The value that `option` is given, where `text` is how it was written (empty: nobody wrote it).
+/// The value for `option`, where `text` is the scalar as written (empty: computed).
 inline Param value_for(const OptionInfo& option, const Param& value, const std::string& text) {
   return takes_text(option) && !text.empty() ? Param(text) : value;
 }
 
-/// Replaces the values of text options; unknown names are left to the check of the options.
+/// Replaces the values of text options; the option check reports unknown names.
 inline void keep_text(std::vector<Setting>& settings, const std::vector<OptionInfo>& options) {
   for (Setting& setting : settings) {
     const auto option = std::ranges::find(options, setting.name, &OptionInfo::name);

@@ -37,10 +37,10 @@ std::size_t line_of(const YAML::Node& node) {
   return static_cast<std::size_t>(node.Mark().line + 1);
 }
 
-/// Aliases are written out, so a few lines may mean more than memory holds, or hold themselves.
+/// Limits on expanded aliases: a few lines can expand beyond memory, or contain themselves.
 struct Budget {
   std::size_t values = 100'000;
-  std::size_t bytes = 10'000'000;  ///< of words
+  std::size_t bytes = 10'000'000;  ///< of text
   std::size_t levels = 100;
 };
 
@@ -48,12 +48,12 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
   YamlNode out;
   out.line = line_of(node);
   if (left.values == 0 || left.levels == 0) {
-    throw input_error(file, out.line, "holds too many values or levels (an alias of itself?)");
+    throw input_error(file, out.line, "has too many values or levels (a recursive alias?)");
   }
   --left.values;
   --left.levels;
   const std::size_t length = node.IsScalar() ? node.Scalar().size() : 0;
-  if (length > left.bytes) throw input_error(file, out.line, "writes out too long by its aliases");
+  if (length > left.bytes) throw input_error(file, out.line, "is too long after expanding aliases");
   left.bytes -= length;
   std::set<std::string> keys;
   switch (node.Type()) {
@@ -70,12 +70,12 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
       out.type = YamlNode::Type::map;
       for (const auto& item : node) {
         if (!item.first.IsScalar()) {
-          throw input_error(file, line_of(item.first), "a key must be a word");
+          throw input_error(file, line_of(item.first), "a key must be a string");
         }
         const std::string& key = item.first.Scalar();
-        // yaml-cpp keeps both and answers with the first: a silent loss of the second.
+        // yaml-cpp keeps both and returns the first, so the second would be lost silently.
         if (!keys.insert(key).second) {
-          throw input_error(file, line_of(item.first), "'" + key + "' is given twice");
+          throw input_error(file, line_of(item.first), "'" + key + "' is set twice");
         }
         out.map.push_back({key, convert(item.second, file, left)});
         out.map.back().value.line = line_of(item.first);
@@ -89,15 +89,15 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
   return out;
 }
 
-/// Refuses bytes that are no UTF-8: yaml-cpp 0.7 reads some of them without end.
+/// Rejects bytes that are not UTF-8: yaml-cpp 0.7 does not terminate for some of them.
 void expect_utf8(const std::string& text, const std::string& file) {
   std::size_t line = 1;
-  int more = 0;  // bytes that the character begun still needs
+  int more = 0;  // continuation bytes that the current character still needs
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool is_rest = (byte & 0xC0U) == 0x80U;
+    const bool is_continuation = (byte & 0xC0U) == 0x80U;
     const bool is_start = byte < 0x80U || (byte >= 0xC2U && byte < 0xF5U);
-    if (more > 0 ? !is_rest : !is_start) {
+    if (more > 0 ? !is_continuation : !is_start) {
       throw input_error(file, line, "is not UTF-8 text, expected YAML");
     }
     if (more > 0) {
@@ -110,8 +110,8 @@ void expect_utf8(const std::string& text, const std::string& file) {
   if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
 }
 
-/// Looks for a second document. LoadAll must not: yaml-cpp 0.7 finds documents without end behind a
-/// comma that nothing stands before.
+/// Detects a second document. LoadAll cannot be used: yaml-cpp 0.7 returns endless documents after
+/// a leading comma.
 class Documents final : public YAML::EventHandler {
  public:
   std::size_t count = 0;
@@ -143,7 +143,7 @@ void expect_one_document(const std::string& text, const std::string& file) {
   while (documents.count < 2 && parser.HandleNextDocument(documents)) {
   }
   if (documents.count == 0) throw InputError(file + ": is empty, expected a map of settings");
-  if (documents.count > 1) throw InputError(file + ": holds more than one YAML document");
+  if (documents.count > 1) throw InputError(file + ": has more than one YAML document");
 }
 
 }  // namespace
@@ -151,8 +151,8 @@ void expect_one_document(const std::string& text, const std::string& file) {
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
   constexpr std::size_t kLargest = 1'000'000;
   if (text.size() > kLargest) {
-    throw InputError(file + ": has " + std::to_string(text.size()) +
-                     " bytes, expected a config of " + "at most " + std::to_string(kLargest));
+    throw InputError(file + ": has " + std::to_string(text.size()) + " bytes, expected at most " +
+                     std::to_string(kLargest));
   }
   expect_utf8(text, file);
   try {
@@ -161,7 +161,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
     return convert(YAML::Load(text), file, budget);
   } catch (const YAML::Exception& error) {
     const auto line = error.mark.is_null() ? 0 : static_cast<std::size_t>(error.mark.line + 1);
-    throw input_error(file, line, "not valid YAML: " + error.msg);
+    throw input_error(file, line, "invalid YAML: " + error.msg);
   }
 }
 

@@ -1,4 +1,4 @@
-/// A YAML tree that remembers its lines: the only place that knows yaml-cpp.
+/// YAML tree with line numbers; the only place that uses yaml-cpp.
 #pragma once
 
 #include <filesystem>
@@ -38,10 +38,10 @@ inline const YamlNode* YamlNode::find(const std::string& key) const {
   return nullptr;
 }
 
-/// Plain scalars become bool, whole number, real number or text, in that order of trying; quoted
-/// ones stay text. Throws InputError `file:line:` on broken YAML, a key given twice, a key that is
-/// not text, more than one document, or more than 1 MB of text, 100000 values or 10 MB of them with
-/// all aliases written out.
+/// Plain scalars become bool, integer, real number or text, in this order; quoted scalars remain
+/// text. Throws InputError `file:line:` for invalid YAML, a repeated key, a key that is not a
+/// string, more than one document, or more than 1 MB of text, 100000 values or 10 MB of text after
+/// expanding aliases.
 YamlNode parse_yaml(const std::string& text, const std::string& file);
 
 }  // namespace loopbench

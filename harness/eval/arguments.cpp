@@ -11,7 +11,7 @@
 namespace loopbench {
 namespace {
 
-/// A word as its author meant it: true, 7, 0.5 or text.
+/// Parses a word as boolean, number or text: true, 7, 0.5 or text.
 Param typed(const std::string& word) {
   if (word == "true" || word == "false") return word == "true";
   const char* const end = word.data() + word.size();
@@ -28,7 +28,8 @@ Param typed(const std::string& word) {
   return word;
 }
 
-/// Between commas, up to a million like the datasets' option; none when one of them is no number.
+/// Comma-separated numbers with magnitude up to a million, as in the dataset option; nullopt if one
+/// is not a number.
 std::vector<double> numbers(const std::string& text) {
   constexpr double kMost = 1e6;
   std::vector<double> out;
@@ -45,11 +46,11 @@ std::vector<double> numbers(const std::string& text) {
   }
 }
 
-/// -s makes the alignment a similarity; alone, as in evo, it only scales.
+/// -s adds a scale to the alignment; without --align it estimates only the scale, as in evo.
 std::string scaled(const std::string& align) {
   if (align == "none") return "scale";
   if (align == "se3" || align == "sim3") return "sim3";
-  throw OptionError("align", "align = " + align + ": has no form with scale; use se3 or none");
+  throw OptionError("align", "align = " + align + ": has no variant with scale; use se3 or none");
 }
 
 Params changes(const EvalArguments& a, const Protocol& base) {
@@ -58,7 +59,7 @@ Params changes(const EvalArguments& a, const Protocol& base) {
   for (const std::string& setting : a.settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
-      throw InputError("--set: '" + setting + "' is not FIELD=VALUE, for example ddof=1");
+      throw InputError("--set: '" + setting + "': expected FIELD=VALUE, for example ddof=1");
     }
     const std::string name = setting.substr(0, equals);
     const std::string text = setting.substr(equals + 1);
@@ -87,7 +88,7 @@ Params changes(const EvalArguments& a, const Protocol& base) {
   return out;
 }
 
-/// evo's words beside ours.
+/// Maps evo's words to ours.
 std::string our_relation(const std::string& word) {
   const std::map<std::string, std::string> evo{{"full", "full_transformation"},
                                                {"trans_part", "translation_part"},
@@ -112,7 +113,7 @@ std::vector<NamedProtocol> protocols(const EvalArguments& a) {
   std::vector<NamedProtocol> out;
   for (const std::string& name : a.protocols) {
     Params wanted = changes(a, known_protocol(name, {}).rules);
-    // What is typed goes before what the folder says; that is meant for rpg's rules only.
+    // Command line options override the folder's configuration, which applies to rpg's protocols.
     if (name.starts_with("rpg")) wanted.insert(of_folder.begin(), of_folder.end());
     out.push_back(known_protocol(name, wanted));
   }
@@ -133,7 +134,7 @@ std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
   std::vector<Asked> out;
   if (relation != Relation::usual) {
     motion["relation"] = to_text(relation);
-    // The ratio is of motions only.
+    // point_distance_error_ratio is defined only for relative errors.
     if (relation != Relation::point_distance_error_ratio) {
       out.push_back({"ape", {{"relation", to_text(relation)}}});
     }
@@ -146,18 +147,18 @@ ReferenceBody reference_body(const EvalArguments& a) {
   ReferenceBody out;
   if (!a.reference_body) return out;
   const auto refuse = [&](const std::string& what) {
-    return InputError("--ref-body: '" + *a.reference_body + "' " + what);
+    return InputError("--ref-body: '" + *a.reference_body + "'" + what);
   };
   const std::vector<double> given = numbers(*a.reference_body);
   if (given.size() != 3 && given.size() != 7) {
-    throw refuse("is not x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+    throw refuse(": expected x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
   }
   double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
   for (std::size_t i = 0; i < given.size(); ++i) *members[i] = given[i];
   try {
     pose_of(out);
   } catch (const OptionError&) {
-    throw refuse("has no unit quaternion behind the place");
+    throw refuse(": expected a unit quaternion after the position");
   }
   return out;
 }

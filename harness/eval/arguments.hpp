@@ -1,4 +1,4 @@
-/// What `eval` is told on its command line, and what that means.
+/// Command line arguments of `eval` and their interpretation.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@
 
 namespace loopbench {
 
-/// Empty words and optionals: the protocol's own.
+/// Empty strings and optionals mean the protocol's value.
 struct EvalArguments {
   std::string reference;
   std::vector<std::string> estimates;
   std::string format = "auto";
-  std::string reference_format;               ///< empty: as `format`
-  std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: the estimates' own
+  std::string reference_format;               ///< empty: same as `format`
+  std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
   std::string times;                          ///< empty: none
   std::string repeats = "refuse";
-  std::optional<double> period;  ///< [s]; none: that of ReadOptions
+  std::optional<double> period;  ///< [s]; none: default of ReadOptions
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
   std::string association;
@@ -32,7 +32,7 @@ struct EvalArguments {
   std::optional<double> max_diff;
   std::optional<double> max_gap;
   std::optional<double> offset;
-  std::optional<double> min_coverage;  ///< none: half of what another estimate covers
+  std::optional<double> min_coverage;  ///< none: half of the best coverage of another estimate
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;
@@ -40,21 +40,21 @@ struct EvalArguments {
   bool pairs_from_reference = false;
   bool json = false;
   bool csv = false;
-  std::string per_pose;  ///< file; empty: none
+  std::string per_pose;  ///< output file; empty: none
 };
 
-/// Throws InputError for an unknown protocol or setting text, OptionError for a wrong one.
+/// Throws InputError for an unknown protocol or malformed setting, OptionError for an invalid one.
 std::vector<NamedProtocol> protocols(const EvalArguments& arguments);
 
-/// evo's habits: a relation asks for ape and rpe in it; a delta or unit alone for one rpe. Without
-/// any the usual questions. Throws OptionError.
+/// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
+/// rpe. Otherwise the default metrics. Throws OptionError.
 std::vector<Asked> questions(const EvalArguments& arguments, const Protocol& protocol);
 
-/// Throws InputError when it is not three or seven numbers, the latter a unit quaternion's.
+/// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
-/// REF with each EST, or the files of an rpg folder (no EST) or of ov_eval folders (REF and EST).
-/// Throws InputError.
+/// Pairs REF with each EST, or lists the files of an rpg folder (no EST) or of ov_eval folders (REF
+/// and EST). Throws InputError.
 std::vector<FilePair> file_pairs(const EvalArguments& arguments);
 
 }  // namespace loopbench

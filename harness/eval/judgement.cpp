@@ -45,7 +45,7 @@ std::string status(const Judgement& j) {
 }
 
 void compare_coverage(std::vector<Judgement>& judgements) {
-  constexpr double kFarLess = 0.5;
+  constexpr double kMuchLess = 0.5;
   const auto key = [](const Judgement& j) { return j.reference + "\n" + j.protocol.label(); };
   std::map<std::string, double> most;
   for (const Judgement& j : judgements) {
@@ -55,10 +55,10 @@ void compare_coverage(std::vector<Judgement>& judgements) {
   for (Judgement& j : judgements) {
     const double best = most.at(key(j));
     if (!j.why_failed.empty() || !j.why_incomplete.empty()) continue;
-    if (j.coverage.least() >= kFarLess * best) continue;
+    if (j.coverage.least() >= kMuchLess * best) continue;
     j.why_incomplete = fmt::format(
-        "judged {} of {} poses over {:.1f} % of the reference's time, less than half of the {:.1f} "
-        "% that another estimate covers",
+        "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
+        "{:.1f} % of another estimate",
         j.coverage.pairs,
         j.coverage.possible,
         100.0 * j.coverage.span,
@@ -68,7 +68,7 @@ void compare_coverage(std::vector<Judgement>& judgements) {
 
 std::string why_not_ok(const Judgement& j) {
   if (!j.why_failed.empty()) return j.why_failed;
-  return has_no_number(j) ? "nothing that was asked for is defined here" : j.why_incomplete;
+  return has_no_number(j) ? "none of the requested metrics is defined" : j.why_incomplete;
 }
 
 Judgement judge(const Trajectory& reference,
@@ -89,7 +89,7 @@ Judgement judge(const Trajectory& reference,
   out.alignment = evaluation.alignment;
   out.diagnosis = diagnostics(evaluation, {});
   out.notes = evaluation_notes(reference, evaluation);
-  for (Score& score : out.diagnosis) {  // readers normalise, so the files have to be asked
+  for (Score& score : out.diagnosis) {  // readers normalise, so use the value from the files
     if (score.relation == "off_unit") score = single("off_unit", "", "1", options.mended.off_unit);
   }
   out.diagnosis.push_back(

@@ -1,4 +1,4 @@
-/// Two trajectory files laid side by side, without a sweep: what `eval` computes and shows.
+/// Evaluation of two trajectory files without a sweep: computation and output of `eval`.
 #pragma once
 
 #include <string>
@@ -10,26 +10,25 @@
 
 namespace loopbench {
 
-/// A metric and the options it is asked with.
+/// A metric with its options.
 struct Asked {
   std::string metric;
-  Params options;  ///< those that differ from the defaults of the metric
+  Params options;  ///< options that differ from the metric's defaults
 };
 
-/// ate, axis_error and segments at their defaults (segments length by length where they are the
-/// protocol's own), rpe over 1 frame, 1 s and 1 m (once for random
-/// pairs). Coverage and diagnostics stand above the table;
-/// metrics that need more than two files, or a choice of options to mean something, are left to
-/// sweeps.
+/// ate, axis_error and segments with their defaults (segments for each length if the protocol sets
+/// the lengths), rpe over 1 frame, 1 s and 1 m (once for random pairs). Coverage and diagnostics
+/// are reported above the table. Metrics that need more than two files, or that need options, are
+/// available only in sweeps.
 std::vector<Asked> usual_questions(const Protocol& protocol);
 
 struct JudgeOptions {
   std::vector<Asked> questions;
   bool with_poses = false;
-  double min_coverage = 0.0;              ///< below it a judgement is incomplete, 0..1
-  const PrintedPoses* printed = nullptr;  ///< when both files are of matrices: their digits
-  ReadFindings mended = {};               ///< of both files together
-  Pose body_from_reference = {};          ///< that the reference was moved by
+  double min_coverage = 0.0;              ///< below it an evaluation is incomplete, 0..1
+  const PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
+  ReadFindings mended = {};               ///< findings of the readers for both files
+  Pose body_from_reference = {};          ///< offset that was applied to the reference
 };
 
 struct JudgedMetric {
@@ -41,61 +40,61 @@ struct JudgedMetric {
 
 struct Judgement {
   std::string reference;
-  std::string reference_body;  ///< body_from_reference as typed; empty: they are the same
+  std::string reference_body;  ///< body_from_reference as given; empty: identity
   std::string estimate;
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
   NamedProtocol protocol;
   Coverage coverage;
-  std::string why_incomplete;  ///< set when coverage is below the limit; the numbers stand
+  std::string why_incomplete;  ///< set if coverage is below the limit; the scores remain
   Alignment alignment;
-  std::vector<Score> diagnosis;    ///< of `diagnostics` at its defaults
-  std::string other_body;          ///< set when the reference seems to follow another one
+  std::vector<Score> diagnosis;    ///< metric `diagnostics` with its defaults
+  std::string other_body;          ///< set if the reference seems to track another body
   std::vector<std::string> notes;  ///< see evaluation_notes.hpp
   std::vector<JudgedMetric> metrics;
-  std::vector<PoseError> poses;  ///< only when asked for
-  std::string why_failed;        ///< set when nothing could be judged: names and protocol only
+  std::vector<PoseError> poses;  ///< only on request
+  std::string why_failed;        ///< set if the evaluation failed: only names and protocol are set
 };
 
-/// It failed, or everything asked for is undefined.
+/// The evaluation failed, or all requested metrics are undefined.
 bool has_no_number(const Judgement& judgement);
 
-/// ok, incomplete, undefined (everything asked for is) or failed; and why not ok.
+/// ok, incomplete, undefined (all requested metrics are) or failed; and the reason if not ok.
 std::string status(const Judgement& judgement);
 std::string why_not_ok(const Judgement& judgement);
 
-/// The limits of coverage are those of sweeps. A metric that is undefined here says why; throws
-/// std::runtime_error only when nothing can be judged.
+/// Uses the coverage limits of sweeps. Undefined metrics are recorded with the reason. Throws
+/// std::runtime_error if nothing can be evaluated.
 Judgement judge(const Trajectory& reference,
                 const Trajectory& estimate,
                 const NamedProtocol& protocol,
                 const JudgeOptions& options);
 
-/// Makes incomplete what covers less than half of what another estimate covers under the same
-/// reference and protocol, by the smaller share of each.
+/// Marks an evaluation as incomplete if its coverage is less than half of that of another estimate
+/// with the same reference and protocol, by the smaller of both shares.
 void compare_coverage(std::vector<Judgement>& judgements);
 
-/// "rpe 1 s": a metric and its options, short enough for a column.
+/// "rpe 1 s": short label of a metric and its options for a table column.
 std::string label(const JudgedMetric& metric);
 
-/// A table for people, numbers with six decimals.
+/// Text table with six decimals.
 std::string text(const Judgement& judgement);
 
-/// One table for each protocol, a row for each estimate: both shares of coverage, and the statistic
-/// that the protocol quotes, of whole errors (axis 3d or all), not of single axes or lengths. A
-/// metric whose numbers are of other pairs than the judged poses has them in a column.
+/// One table for each protocol, one row for each estimate: both coverage shares, and the protocol's
+/// statistic of the combined errors (axis 3d or all), not of single axes or lengths. A metric with
+/// its own pairs has their number in a column.
 std::string comparison(const std::vector<Judgement>& judgements);
 
-/// An array of objects, also for one judgement; doubles in full precision. Keys: reference,
-/// reference_body (if given), other_body (if it seems so), estimate, protocol {name, version,
+/// Array of objects, also for one evaluation; doubles in full precision. Keys: reference,
+/// reference_body (if given), other_body (if detected), estimate, protocol {name, version,
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
 /// alignment {type, scale, rank, condition}, diagnosis {name: value}, notes [text], metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
-/// [{metric, options, why}], with relation and axis when only one number of a metric is. What
-/// failed has no numbers, but empty metrics and undefined.
+/// [{metric, options, why}], with relation and axis if only one score of a metric is undefined.
+/// Failed evaluations have empty metrics and undefined.
 std::string json(const std::vector<Judgement>& judgements);
 
-/// A line per score, one for what failed, a line per judged pose; doubles in full precision.
+/// One line per score or failure, or one line per pose; doubles in full precision.
 std::string csv(const std::vector<Judgement>& judgements);
 std::string pose_csv(const std::vector<Judgement>& judgements);
 

@@ -86,7 +86,7 @@ Json to_json(const Judgement& j) {
 std::string json(const std::vector<Judgement>& judgements) {
   Json all = Json::array();
   for (const Judgement& judgement : judgements) all.push_back(to_json(judgement));
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names are any bytes
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names can be any bytes
 }
 
 }  // namespace loopbench

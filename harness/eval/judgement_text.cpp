@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-std::string in_words(const Params& options) {
+std::string options_text(const Params& options) {
   std::string out;
   for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
   return out;
@@ -22,14 +22,14 @@ double quoted_statistic(const Protocol& protocol, const Statistics& s) {
 }
 
 std::string body_text(const Judgement& j) {
-  return j.reference_body.empty() ? "" : ", its body at " + j.reference_body;
+  return j.reference_body.empty() ? "" : ", body offset " + j.reference_body;
 }
 
 std::string protocol_text(const NamedProtocol& protocol) {
   return fmt::format("{} [{}]", protocol.label(), protocol.version);
 }
 
-/// "largest_gap 0.25 s, repeated 0, ...", a few a line.
+/// "largest_gap 0.25 s, repeated 0, ...", wrapped.
 std::string diagnosis_text(const std::vector<Score>& diagnosis) {
   std::string out;
   int count = 0;
@@ -42,7 +42,7 @@ std::string diagnosis_text(const std::vector<Score>& diagnosis) {
   return out + "\n";
 }
 
-/// Columns as wide as what stands in them.
+/// Columns as wide as their content.
 struct Widths {
   std::size_t metric = 13;
   std::size_t relation = 11;
@@ -68,7 +68,7 @@ struct Widths {
   }
 };
 
-/// What has no number, as notes of `row`.
+/// Undefined scores, as notes of `row`.
 std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
   std::vector<Missing> out;
   for (const JudgedMetric& metric : j.metrics) {
@@ -89,15 +89,15 @@ std::vector<Missing> undefined(const Judgement& j, const std::string& row) {
 
 std::string label(const JudgedMetric& metric) {
   Params rest = metric.options;
-  for (const char* told_elsewhere : {"relation", "each"}) rest.erase(told_elsewhere);
+  for (const char* in_heading : {"relation", "each"}) rest.erase(in_heading);
   const auto delta = rest.find("delta");
   const auto unit = rest.find("unit");
-  if (delta == rest.end() || unit == rest.end()) return metric.name + in_words(rest);
+  if (delta == rest.end() || unit == rest.end()) return metric.name + options_text(rest);
   std::string out =
       fmt::format("{} {} {}", metric.name, std::get<double>(delta->second), to_text(unit->second));
   rest.erase("delta");
   rest.erase("unit");
-  return out + in_words(rest);
+  return out + options_text(rest);
 }
 
 std::string text(const Judgement& j) {
@@ -113,7 +113,7 @@ std::string text(const Judgement& j) {
       (j.why_incomplete.empty() ? "" : "incomplete " + j.why_incomplete + "\n") +
       fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
       diagnosis_text(j.diagnosis) +
-      (j.other_body.empty() ? "" : "other body " + j.other_body + "; --ref-body takes it in\n");
+      (j.other_body.empty() ? "" : "other body " + j.other_body + "; see --ref-body\n");
   for (const std::string& note : j.notes) out += "note       " + note + "\n";
   out += "\n";
   const Widths widths(j);
@@ -138,8 +138,8 @@ std::string text(const Judgement& j) {
 
 std::string comparison(const std::vector<Judgement>& judgements) {
   std::vector<Table> tables;
-  std::vector<std::map<std::string, std::size_t>> columns;  // of each table
-  std::vector<std::vector<Missing>> missing;                // of each table
+  std::vector<std::map<std::string, std::size_t>> columns;  // per table
+  std::vector<std::vector<Missing>> missing;                // per table
   for (const Judgement& j : judgements) {
     const Protocol& rules = j.protocol.rules;
     const std::string title = fmt::format("{}, {} against {}{}",

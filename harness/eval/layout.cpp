@@ -12,7 +12,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// What lies in a folder, by name; nothing when it is not a folder.
+/// Entries of a folder, sorted by name; empty if it is not a folder.
 std::vector<Path> sorted(const Path& folder) {
   std::vector<Path> out;
   if (!std::filesystem::is_directory(folder)) return out;
@@ -36,21 +36,21 @@ std::string align_of(const YamlNode& node, bool is_first_pose, const std::string
   throw input_error(file,
                     node.line,
                     "align_type: expected sim3 | se3 | posyaw | none" +
-                        std::string(is_first_pose ? "; of one frame se3 | posyaw | none" : ""));
+                        std::string(is_first_pose ? "; for one frame se3 | posyaw | none" : ""));
 }
 
-/// Runs of datasets that `truths` does not know.
+/// Rejects runs of datasets without a reference in `truths`.
 void expect_truths(const Path& truths, const Path& algorithms) {
   for (const Path& algorithm : sorted(algorithms)) {
     for (const Path& dataset : sorted(algorithm)) {
       if (std::ranges::none_of(sorted(dataset), is_text)) continue;
       const std::string name = dataset.filename().string();
-      const auto is_of_it = [&](const Path& truth) {
+      const auto is_reference_of_it = [&](const Path& truth) {
         return is_text(truth) && truth.stem() == dataset.filename();
       };
-      if (std::ranges::any_of(sorted(truths), is_of_it)) continue;
-      throw InputError(dataset.string() + ": holds runs, but " + truths.string() + " has no " +
-                       name + ".txt to judge them by");
+      if (std::ranges::any_of(sorted(truths), is_reference_of_it)) continue;
+      throw InputError(dataset.string() + ": has runs, but there is no reference " + name +
+                       ".txt in " + truths.string());
     }
   }
 }
@@ -99,11 +99,13 @@ std::vector<FilePair> rpg_layout(const Path& folder) {
     }
   }
   if (const Path cut = folder / "start_end_time.yaml"; std::filesystem::exists(cut)) {
-    throw InputError(cut.string() + ": is not read; cut the files to those times and move it away");
+    throw InputError(cut.string() +
+                     ": is not supported; cut the files to these times and remove it");
   }
   if (!out.empty() && std::filesystem::exists(reference)) return out;
-  throw InputError(folder.string() +
-                   ": expected stamped_groundtruth.txt and stamped_traj_estimate*.txt in it");
+  throw InputError(
+      folder.string() +
+      ": expected stamped_groundtruth.txt and stamped_traj_estimate*.txt in the folder");
 }
 
 std::vector<FilePair> ov_eval_layout(const Path& truths, const Path& algorithms) {
@@ -121,7 +123,7 @@ std::vector<FilePair> ov_eval_layout(const Path& truths, const Path& algorithms)
     return out;
   }
   throw InputError(algorithms.string() +
-                   ": no ALGORITHM/DATASET/RUN.txt in it has a DATASET.txt in " + truths.string());
+                   ": found no ALGORITHM/DATASET/RUN.txt with a DATASET.txt in " + truths.string());
 }
 
 }  // namespace loopbench

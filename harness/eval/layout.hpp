@@ -1,4 +1,4 @@
-/// Folders of estimates as other evaluation tools lay them out.
+/// Folder layouts of other evaluation tools.
 #pragma once
 
 #include <filesystem>
@@ -16,18 +16,17 @@ struct FilePair {
 };
 
 /// rpg_trajectory_evaluation: FOLDER/stamped_groundtruth.txt and FOLDER/stamped_traj_estimate*.txt,
-/// in the order of their names. Throws InputError when either is missing, and when there is a
-/// start_end_time.yaml: cutting files is left to who knows them.
+/// sorted by name. Throws InputError if either is missing, or if there is a start_end_time.yaml,
+/// because cutting files is not supported.
 std::vector<FilePair> rpg_layout(const std::filesystem::path& folder);
 
-/// What FOLDER/eval_cfg.yaml asks of the protocols rpg and rpg-fixed: align_type (sim3, se3, posyaw
-/// or none) and align_num_frames (-1: all; 1: the first pose) as `align` and `align_first`. Empty
-/// without that file. Throws InputError for anything else in it.
+/// Settings of FOLDER/eval_cfg.yaml for the protocols rpg and rpg-fixed: align_type (sim3, se3,
+/// posyaw or none) and align_num_frames (-1: all; 1: the first pose) as `align` and `align_first`.
+/// Empty without that file. Throws InputError for any other setting.
 Params rpg_settings(const std::filesystem::path& folder);
 
-/// ov_eval: TRUTHS/DATASET.txt (or .csv) and ALGORITHMS/ALGORITHM/DATASET/RUN.txt, in the order of
-/// datasets, algorithms and runs. Throws InputError when nothing belongs together, and for runs of
-/// a dataset that has no truth.
+/// ov_eval: TRUTHS/DATASET.txt (or .csv) and ALGORITHMS/ALGORITHM/DATASET/RUN.txt, sorted by
+/// dataset, algorithm and run. Throws InputError if no files match, or if runs have no reference.
 std::vector<FilePair> ov_eval_layout(const std::filesystem::path& truths,
                                      const std::filesystem::path& algorithms);
 

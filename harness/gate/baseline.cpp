@@ -99,7 +99,7 @@ std::vector<GateCell> gate_cells(const std::vector<Record>& records,
   std::set<std::string> statistics;
   for (const Tolerance& limit : limits) {
     for (const std::string& statistic : limit.values) {
-      value(Record{}, statistic);  // rejects an unknown one even when there are no records
+      value(Record{}, statistic);  // rejects an unknown statistic even without records
       statistics.insert(statistic);
     }
   }

@@ -1,4 +1,4 @@
-/// The numbers of a sweep that somebody has looked at: the reference of `loopbench check`.
+/// Reviewed numbers of a sweep: the reference of `loopbench check`.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,27 @@
 
 namespace loopbench {
 
-/// How far a number may move before it is a regression: worse by more than absolute + relative *
-/// |baseline|. With `alpha`, small losses that point the same way over all runs of a method are a
-/// regression too, each number within the limit or not (see consistent_loss.hpp). Scores without a
-/// direction may move neither way.
+/// Limit on the change of a number: it is a regression if worse by more than absolute + relative *
+/// |baseline|. With `alpha`, consistent small losses over all runs of a method are a regression,
+/// too, even if each number is within the limit (see consistent_loss.hpp). Scores without a
+/// direction are limited in both directions.
 struct Tolerance {
-  std::vector<std::string> where;                  ///< rules, see model/where; empty: every score
-  std::vector<std::string> values{"rmse", "max"};  ///< statistics that are compared
+  std::vector<std::string> where;                  ///< filters, see model/where; empty: every score
+  std::vector<std::string> values{"rmse", "max"};  ///< compared statistics
   double relative = 0.001;                         ///< [-]
   double absolute = 1e-6;                          ///< in the unit of the score
-  double tie = 1e-6;  ///< relative move that counts as none in a test [-]
+  double tie = 1e-6;  ///< relative change that counts as a tie in the test [-]
   std::optional<double> alpha = 0.01;
 };
 
-/// The limit that makes the gate compare times too: of a cell's median wall time [ms], between runs
-/// on the same CPU, with a test for methods that got slower by a tenth or more.
+/// Limit for times: a cell's median wall time [ms], compared between runs on the same CPU, with a
+/// test for methods that are slower by a tenth or more.
 Tolerance time_limit(double relative);
 
-/// Whether one of them is about times (its `where` has metric=time): time is not gated otherwise.
+/// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
 bool limits_time(const std::vector<Tolerance>& limits);
 
-/// One score of one cell: which it is, and the statistics that some limit is about.
+/// One score of one cell: its labels and the statistics with a limit.
 struct GateScore {
   std::string protocol;
   std::string times;
@@ -43,17 +43,17 @@ struct GateScore {
   Better better = Better::lower;
   double target = 0.0;  ///< best value where `better` is target
   std::string status = "ok";
-  std::int64_t pairs = 0;                ///< pose pairs judged
-  std::int64_t possible = 0;             ///< pose pairs that could have been
+  std::int64_t pairs = 0;                ///< evaluated pose pairs
+  std::int64_t possible = 0;             ///< possible pose pairs
   std::int64_t count = 0;                ///< errors behind the statistics, for example RPE pairs
-  std::map<std::string, double> values;  ///< by statistic; empty where the status has no number
+  std::map<std::string, double> values;  ///< by statistic; empty if the status has no number
 };
 
 struct GateCell {
   std::string sequence;
   std::int64_t repeat = 0;
   std::string method;
-  bool oracle = false;       ///< the method or its data was shown the reference
+  bool oracle = false;       ///< the method or its data uses the reference
   bool oracle_data = false;  ///< its loop closures were measured in the reference
   std::string group;         ///< see Record::group
   std::string content;       ///< see Record::content
@@ -61,7 +61,7 @@ struct GateCell {
   std::vector<GateScore> scores;
 };
 
-/// The numbers of one sweep, and the definitions they were made from.
+/// The numbers of one sweep, with the definitions of its labels.
 struct Snapshot {
   std::string sweep;
   std::string machine;                           ///< compiler, C library and CPU of all cells
@@ -75,14 +75,14 @@ struct Snapshot {
 
 struct Baseline {
   std::map<std::string, std::string> made_by;  ///< version, compiler, commit, source clean or dirty
-  std::vector<Tolerance> limits{Tolerance{}};  ///< the first whose `where` keeps a score holds
+  std::vector<Tolerance> limits{Tolerance{}};  ///< the first whose `where` matches a score applies
   Snapshot snapshot;
 };
 
 /// Whether some of its cells were computed by a build with uncommitted changes.
 bool is_dirty(const std::map<std::string, std::string>& made_by);
 
-/// Whether the status is that of a number: ok or incomplete.
+/// Whether scores with the status have a number: ok or incomplete.
 bool has_number(const std::string& status);
 
 /// "room (repeat 2)", "room (repeat 2) / uniform".
@@ -92,11 +92,11 @@ std::string name(const GateCell& cell);
 /// "ate translation 3d, dense, loopbench".
 std::string name(const GateScore& score);
 
-/// What `where` looks at.
+/// The record to which `where` is applied.
 Record as_record(const GateCell& cell, const GateScore& score);
 
-/// The cells of a store's records (without derived ones), with the statistics that `limits` name.
-/// Throws InputError for an unknown statistic. O(n log n).
+/// The cells of a store's records (without derived ones), with the statistics in `limits`. Throws
+/// InputError for an unknown statistic. O(n log n).
 std::vector<GateCell> gate_cells(const std::vector<Record>& records,
                                  const std::vector<Tolerance>& limits);
 

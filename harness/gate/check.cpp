@@ -16,7 +16,7 @@
 namespace loopbench {
 namespace {
 
-/// How much is missing: nothing, coverage, a number, a result.
+/// Severity of what is missing: nothing, coverage, a number, a result.
 int severity(const std::string& status) {
   if (status == "ok") return 0;
   if (status == "incomplete") return 1;
@@ -38,10 +38,10 @@ double loss(const GateScore& score, double before, double now) {
   return 0.0;
 }
 
-/// Why the numbers of the two cannot be compared, or empty.
-std::string other_meaning(const GateScore& before, const GateScore& now) {
+/// Reason why the two numbers cannot be compared, or empty.
+std::string why_not_comparable(const GateScore& before, const GateScore& now) {
   if (now.metric != before.metric) {
-    return fmt::format("is the metric '{}', was '{}'", now.metric, before.metric);
+    return fmt::format("metric '{}', was '{}'", now.metric, before.metric);
   }
   if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
   if (now.better == before.better && now.target == before.target) return "";
@@ -60,13 +60,13 @@ class Checker {
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
     if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
-      throw InputError("the baseline is of another sweep: no cell of '" + baseline.snapshot.sweep +
-                       "' is among these results");
+      throw InputError("the baseline belongs to another sweep: the results contain no cell of '" +
+                       baseline.snapshot.sweep + "'");
     }
     for (const GateCell& cell : baseline.snapshot.cells) add(cell);
     for (const GateCell& cell : now.cells) {
       if (!seen_.contains(key(cell))) {
-        find(Finding::Kind::added, name(cell), "", "is not in the baseline");
+        find(Finding::Kind::added, name(cell), "", "not in the baseline");
       }
     }
     for (const Finding& finding : losses_.findings()) report_.findings.push_back(finding);
@@ -109,7 +109,7 @@ class Checker {
            "",
            what + (is ? ", was not" : " no longer"));
     };
-    flag(before.oracle, now.oracle, "oracle: the method or its data is shown the reference");
+    flag(before.oracle, now.oracle, "oracle: the method or its data uses the reference");
     flag(before.oracle_data, now.oracle_data, "oracle: closures are measured in the reference");
   }
 
@@ -143,14 +143,14 @@ class Checker {
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, name(cell), name(before), what);
     };
-    if (const std::string other = other_meaning(before, now); !other.empty()) {
+    if (const std::string other = why_not_comparable(before, now); !other.empty()) {
       regression(other);
       return;
     }
     if (now.pairs < before.pairs) {
-      regression(fmt::format("judged {} pose pairs, was {}", now.pairs, before.pairs));
+      regression(fmt::format("evaluated {} pose pairs, was {}", now.pairs, before.pairs));
     } else if (now.pairs * before.possible < before.pairs * now.possible) {
-      regression(fmt::format("judged {} of {} possible pose pairs, was {} of {}",
+      regression(fmt::format("evaluated {} of {} possible pose pairs, was {} of {}",
                              now.pairs,
                              now.possible,
                              before.pairs,
@@ -183,11 +183,11 @@ class Checker {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
     const double worse = loss(score, before, now);
     losses_.add(cell, score, statistic, limit, before, now);
-    if (std::abs(worse) <= allowed) return;  // NaN is beyond every limit
+    if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
     find(worse < 0.0 ? Finding::Kind::improvement : Finding::Kind::regression,
          name(cell),
          name(score),
-         fmt::format("{} {:.9g} {}, was {:.9g} ({:+.3g} %, may move {:.3g})",
+         fmt::format("{} {:.9g} {}, was {:.9g} ({:+.3g} %, limit {:.3g})",
                      statistic,
                      now,
                      score.unit,

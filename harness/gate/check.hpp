@@ -1,4 +1,4 @@
-/// Is it still as good as it was?
+/// Comparison of a sweep with its baseline.
 #pragma once
 
 #include <optional>
@@ -11,33 +11,33 @@ namespace loopbench {
 
 struct Finding {
   enum class Kind {
-    regression,   ///< worse beyond a limit, failed newly, vanished
-    improvement,  ///< better beyond a limit, or works where it did not
+    regression,   ///< worse beyond a limit, newly failed, or missing
+    improvement,  ///< better beyond a limit, or newly working
     added         ///< not in the baseline
   };
   Kind kind = Kind::regression;
-  std::string cell;   ///< as `name` has it; a method where the finding is over all its runs
-  std::string score;  ///< empty: the cell as a whole
-  std::string what;   ///< value before and now, with the limit
+  std::string cell;   ///< result of `name`; a method for findings over all its runs
+  std::string score;  ///< empty: the complete cell
+  std::string what;   ///< old and new value, with the limit
 };
 
 struct GateReport {
   std::size_t cells = 0;           ///< of the baseline
-  std::size_t scores = 0;          ///< compared
+  std::size_t scores = 0;          ///< compared scores
   std::vector<std::string> names;  ///< of the baseline's cells, in order
-  std::vector<Finding> findings;   ///< in the order of the baseline; over all runs last
-  std::vector<std::string> notes;  ///< checks that could not be made, and why
+  std::vector<Finding> findings;   ///< in the order of the baseline; those over all runs last
+  std::vector<std::string> notes;  ///< checks that were not possible, with the reason
 
   std::size_t count(Finding::Kind kind) const;
   bool passes() const { return count(Finding::Kind::regression) == 0; }
 };
 
-/// Whether `now` is all of the sweep, or a part of it whose missing cells are not missed.
+/// Whether `now` is the complete sweep, or a part whose missing cells are accepted.
 enum class GateExtent { whole, part };
 
-/// Throws InputError when the baseline's numbers were made from other definitions (see
-/// definitions.hpp), or when not one of its cells is among these. A sequence or method that is gone
-/// is not another one: its cells vanished. O(n log n) and one joint test of all methods and scores.
+/// Throws InputError if the baseline was computed with other definitions (see definitions.hpp), or
+/// has no cell in common with the results. Removed sequences or methods are reported as missing
+/// cells, not as other definitions. O(n log n) and one joint test of all methods and scores.
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::whole);

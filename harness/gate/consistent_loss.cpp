@@ -12,8 +12,8 @@
 namespace loopbench {
 namespace {
 
-/// A move below this share of the absolute limit is a rounding error.
-constexpr double kLeastMove = 1e-3;
+/// A change below this share of the absolute limit is a rounding error.
+constexpr double kSmallestChange = 1e-3;
 
 std::string gate_group(const GateCell& cell) {
   if (!cell.group.empty()) return "group " + cell.group;
@@ -42,12 +42,12 @@ void ConsistentLosses::add(const GateCell& cell,
                            double before,
                            double now) {
   if (!limit.alpha || score.better == Better::neither) return;
-  if (!std::isfinite(before) || !std::isfinite(now)) return;  // a regression on its own
+  if (!std::isfinite(before) || !std::isfinite(now)) return;  // already reported as a regression
   const std::size_t group = groups_.try_emplace(gate_group(cell), groups_.size()).first->second;
   Series& series = series_[{cell.method, name(score), statistic}];
   if (!cell.content.empty() && std::ranges::count(series.contents, cell.content) > 0) return;
   const bool is_tie =
-      tied(before, now, limit.tie) || std::abs(now - before) <= kLeastMove * limit.absolute;
+      tied(before, now, limit.tie) || std::abs(now - before) <= kSmallestChange * limit.absolute;
   if (score.better == Better::target) {
     before = std::abs(before - score.target);
     now = std::abs(now - score.target);
@@ -91,7 +91,7 @@ std::string ConsistentLosses::text(const Place& place,
                      found.is_ratio ? 100.0 * std::expm1(middle) : middle,
                      found.is_ratio ? " %" : "",
                      p,
-                     others == 0 ? "" : fmt::format("; {} more of its numbers likewise", others));
+                     others == 0 ? "" : fmt::format("; likewise {} more of its scores", others));
 }
 
 std::vector<Finding> ConsistentLosses::findings() const {
@@ -108,7 +108,7 @@ std::vector<Finding> ConsistentLosses::findings() const {
     double p;
     std::size_t others;
   };
-  std::map<std::string, Loss> losses;  // by method, in its clearest number
+  std::map<std::string, Loss> losses;  // by method, in its most significant score
   std::size_t i = 0;
   for (const auto& [place, series] : series_) {
     const double own = p[i++];
@@ -146,7 +146,7 @@ std::vector<std::string> ConsistentLosses::notes() const {
   for (const auto& [reach, methods] : few) {
     const auto& [count, level] = reach;
     out.push_back(fmt::format(
-        "no test for small consistent losses of {}: {} independent {} reach p = {:.2g} at best, "
+        "no test for small consistent losses of {}: {} independent {} reach at best p = {:.2g}, "
         "level {} needs {}",
         methods.size() == 1 ? methods.front() : fmt::format("{} methods", methods.size()),
         count,

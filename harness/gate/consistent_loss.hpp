@@ -1,4 +1,4 @@
-/// Small losses that all point the same way.
+/// Test for small losses that are consistent over runs.
 #pragma once
 
 #include <compare>
@@ -11,14 +11,13 @@
 
 namespace loopbench {
 
-/// Collects the numbers of every method on every run before and now, and tests whether a method got
+/// Collects old and new numbers of every method on every run, and tests whether a method became
 /// worse. Runs of one group are one observation (their mean), and runs of equal content count once.
-/// All methods, scores and statistics are one family, tested jointly (see sign_flips.hpp), so that
-/// the smallest p is 2^-runs however many scores there are. Scores that have no direction are not
-/// tested.
+/// All methods, scores and statistics are tested jointly as one family (see sign_flips.hpp), so the
+/// smallest p is 2^-runs for any number of scores. Scores without a direction are not tested.
 class ConsistentLosses {
  public:
-  /// `cell` is the run now; `score` and `limit.values`' `statistic` name the number.
+  /// `cell` is the current run; `score` and `statistic` of `limit.values` name the number.
   void add(const GateCell& cell,
            const GateScore& score,
            const std::string& statistic,
@@ -26,10 +25,10 @@ class ConsistentLosses {
            double before,
            double now);
 
-  /// A regression per method that got worse, with the score in which that is clearest.
+  /// One regression per method that became worse, for its most significant score.
   std::vector<Finding> findings() const;
 
-  /// Methods that have too few independent runs for any test to reach its level.
+  /// Methods with too few independent runs for any test to reach its level.
   std::vector<std::string> notes() const;
 
  private:
@@ -40,14 +39,14 @@ class ConsistentLosses {
     auto operator<=>(const Place&) const = default;
   };
   struct Series {
-    std::vector<std::size_t> groups;    // of each run
-    std::vector<std::string> contents;  // of each run; may be empty
+    std::vector<std::size_t> groups;    // per run
+    std::vector<std::string> contents;  // per run; can be empty
     std::vector<double> before;
     std::vector<double> now;
     Better better = Better::lower;
     Tolerance limit;
   };
-  /// One method's moves of one score.
+  /// Changes of one score of one method.
   struct Moves {
     RunDifferences by_group;  // positive: worse
     bool is_ratio = false;    // logarithms of ratios

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// The parts of `text` ("name: a=1, b=2; file bytes hash") that `other` does not have.
+/// The parts of `text` ("name: a=1, b=2; file bytes hash") that are not in `other`.
 std::string only_in(const std::string& text, const std::string& other) {
   const auto parts = [](const std::string& whole) {
     std::vector<std::string> out{""};
@@ -39,10 +39,10 @@ void require_same(const Definitions& baseline,
     const auto found = now.find(label);
     if (found == now.end()) {
       if (may_be_missing) continue;
-      throw InputError("the baseline has the " + what + " '" + label + "', these results do not");
+      throw InputError("the baseline has the " + what + " '" + label + "', but the results do not");
     }
     if (found->second == text) continue;
-    throw InputError("the baseline is of another " + what + " '" + label + "': it has '" +
+    throw InputError("the baseline has another " + what + " '" + label + "': it has '" +
                      only_in(text, found->second) + "', these results have '" +
                      only_in(found->second, text) + "'");
   }
@@ -63,7 +63,7 @@ void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
   for (const auto& [label, content] : baseline.contents) {
     const auto found = now.contents.find(label);
     if (found == now.contents.end() || found->second == content) continue;
-    throw InputError("the baseline is of other content of the sequence '" + label +
+    throw InputError("the baseline has other content of the sequence '" + label +
                      "' with the same options and files: its poses, edges or reference differ "
                      "(hash " +
                      content + ", these results " + found->second + ")");
@@ -72,7 +72,7 @@ void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
 
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {
   if (are_comparable(baseline, now) || baseline.contents.empty()) return "";
-  return "contents of sequences are not compared: the baseline was made on another machine (" +
+  return "contents of sequences are not compared: the baseline is from another machine (" +
          baseline.machine + ")";
 }
 

@@ -1,18 +1,18 @@
-/// What the labels of a baseline stand for.
+/// Definitions behind the labels of a baseline.
 #pragma once
 
 #include "harness/gate/baseline.hpp"
 
 namespace loopbench {
 
-/// Throws InputError when a sequence, protocol, metric or method of the baseline has the same label
-/// in `now` but other options, stages, files or content, and names what differs. Labels that are
-/// missing in `now` are left to the cells and scores that vanished with them, except protocols.
-/// Contents of sequences are compared between equal machines only: elsewhere the last digits of a
-/// simulated sequence may differ.
+/// Throws InputError if a sequence, protocol, metric or method of the baseline has the same label
+/// in `now` but other options, stages, files or content; the message names the difference. Labels
+/// that are missing in `now` are reported with their cells and scores, except protocols. Contents
+/// of sequences are compared only between equal machines, because the last digits of a simulated
+/// sequence can differ otherwise.
 void require_same_definitions(const Snapshot& baseline, const Snapshot& now);
 
-/// "contents are not compared ..." where that applies, or empty.
+/// "contents are not compared ..." if this applies, otherwise empty.
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now);
 
 }  // namespace loopbench

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Which score it is, without its numbers.
+/// Identification of a score, without its numbers.
 Json question(const GateScore& s) {
   Json out{{"protocol", s.protocol},
            {"times", s.times},
@@ -34,9 +34,9 @@ Json head(const GateCell& cell) {
   return out;
 }
 
-Json answers(const GateCell& cell,
-             const std::vector<GateScore>& questions,
-             const std::vector<std::string>& statistics) {
+Json cell_json(const GateCell& cell,
+               const std::vector<GateScore>& questions,
+               const std::vector<std::string>& statistics) {
   Json out = head(cell);
   if (cell.scores.empty()) return out;
   std::vector<const GateScore*> found;
@@ -80,7 +80,7 @@ Json written(const Tolerance& limit) {
   return out;
 }
 
-/// Every statistic that some limit is about.
+/// All statistics that have a limit.
 std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
   std::vector<std::string> out;
   for (const Tolerance& limit : limits) {
@@ -117,7 +117,7 @@ std::string json(const Baseline& baseline) {
   for (const GateScore& score : questions) scores.push_back(question(score));
   std::vector<Json> cells;
   for (const GateCell& cell : baseline.snapshot.cells) {
-    cells.push_back(answers(cell, questions, statistics));
+    cells.push_back(cell_json(cell, questions, statistics));
   }
   const Snapshot& made = baseline.snapshot;
   std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Walks a baseline; every complaint names the place.
+/// Parses a baseline; messages name the JSON path.
 class BaselineReader {
  public:
   explicit BaselineReader(std::string file) : file_(std::move(file)) {}
@@ -24,8 +24,8 @@ class BaselineReader {
     const Json& format = member(root, "loopbench_baseline", "");
     if (format != kBaselineFormat) {
       refuse("loopbench_baseline",
-             fmt::format("found format {}, expected {}: it does not hold what format {} compares; "
-                         "look at the results, then write it anew with --update (limits are kept)",
+             fmt::format("found format {}, expected {}: it lacks data that format {} compares; "
+                         "check the results, then write it again with --update (limits are kept)",
                          format.dump(),
                          kBaselineFormat,
                          kBaselineFormat));
@@ -79,7 +79,7 @@ class BaselineReader {
   double number(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
     if (!found.is_number() || found.get<double>() < 0.0) {
-      refuse(at + "." + key, "expected a number, not negative, found " + found.dump());
+      refuse(at + "." + key, "expected a non-negative number, found " + found.dump());
     }
     return found.get<double>();
   }
@@ -122,7 +122,7 @@ class BaselineReader {
     return out;
   }
 
-  /// Until format 2 a limit had one `value`, usually rmse, and missed a worse maximum.
+  /// Until format 2 a limit had one `value`, usually rmse, and did not check the maximum.
   std::vector<std::string> statistics(const Json& node, const std::string& at) const {
     if (node.contains("value")) {
       const std::string only = text(node, "value", at);

@@ -17,7 +17,7 @@ std::string counted_findings(std::size_t count, const std::string& what) {
 
 std::string xml(const std::string& text) {
   std::string out;
-  for (const char c : one_line(text)) {  // XML 1.0 has no control characters
+  for (const char c : one_line(text)) {  // XML 1.0 does not allow control characters
     if (c == '<') {
       out += "&lt;";
     } else if (c == '>') {
@@ -51,7 +51,7 @@ std::string test_case(const std::string& sweep,
 }  // namespace
 
 std::string markdown(const GateReport& report, const std::string& sweep) {
-  Sheet out{fmt::format("{}: {}", sweep, report.passes() ? "passes" : "FAILS"),
+  Sheet out{fmt::format("{}: {}", sweep, report.passes() ? "passed" : "FAILED"),
             {"cell", "score", "finding", "what"},
             {},
             {fmt::format("{}, {}, {} in {} and {}",
@@ -77,7 +77,7 @@ std::string junit(const GateReport& report, const std::string& sweep) {
   for (const Finding& finding : report.findings) {
     if (finding.kind != Finding::Kind::regression) continue;
     const auto [found, is_new] = regressions.try_emplace(finding.cell);
-    if (is_new) order.push_back(finding.cell);  // a method over all its runs
+    if (is_new) order.push_back(finding.cell);  // a method, for findings over all runs
     found->second.push_back(&finding);
   }
   std::size_t failures = 0;

@@ -10,12 +10,12 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostExact = 14;  // 16384 flips
+constexpr std::size_t kMostExact = 14;  // runs; 16384 sign flips
 
-/// Signed ranks of one comparison. Midranks are halves, so that their sums are exact.
+/// Signed ranks of one comparison. Midranks are multiples of 0.5, so their sums are exact.
 struct SignedRanks {
   std::vector<std::pair<std::size_t, double>> by_run;  // without zeros
-  double deviation = 0.0;                              // of their sum under random signs
+  double deviation = 0.0;                              // std of their sum under random signs
 };
 
 SignedRanks signed_ranks(const RunDifferences& differences) {
@@ -34,14 +34,14 @@ SignedRanks signed_ranks(const RunDifferences& differences) {
   return out;
 }
 
-/// `flipped[run]`: whether the differences of the run change their sign.
+/// `flipped[run]`: whether the differences of the run change sign.
 double standardised(const SignedRanks& ranks, const std::vector<bool>& flipped) {
   double sum = 0.0;
   for (const auto& [run, rank] : ranks.by_run) sum += flipped[run] ? -rank : rank;
   return sum / ranks.deviation;
 }
 
-/// The largest standardised sum of every flip; the first flip changes nothing.
+/// The largest standardised sum of every flip; the first flip is the identity.
 std::vector<double> largest_of_flips(const std::vector<SignedRanks>& tested,
                                      std::size_t runs,
                                      double level) {

@@ -9,8 +9,8 @@
 namespace loopbench {
 namespace {
 
-/// One definition a line, as the store keeps them: what ends the label, and how much of that
-/// belongs to the label.
+/// Format of a stored list of definitions, one per line: the delimiter after the label, and how
+/// much of it belongs to the label.
 std::map<std::string, std::string> definitions(const std::string& text,
                                                const std::string& end_of_label,
                                                std::size_t kept) {
@@ -24,7 +24,7 @@ std::map<std::string, std::string> definitions(const std::string& text,
   return out;
 }
 
-/// A file is its name, size and content, wherever it lies.
+/// A file is identified by name, size and content, for any folder.
 std::string inputs_of(const std::vector<InputFile>& files) {
   std::string out;
   for (const InputFile& file : files) {
@@ -39,7 +39,7 @@ std::string text_of(const std::map<std::string, std::string>& run,
                     const std::filesystem::path& store) {
   const auto found = run.find(key);
   if (found != run.end()) return found->second;
-  throw InputError(store.string() + ": does not hold the " + key +
+  throw InputError(store.string() + ": does not contain the " + key +
                    " of its config in full; `run` with the same config adds them");
 }
 
@@ -54,7 +54,7 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
     if (out.sequences.contains(label)) continue;
     const auto files = inputs.find(label);
     const auto own = options.find(label);
-    // A sequence that was never loaded has only the options of the config.
+    // A sequence that could not be loaded has only the options of the config.
     out.sequences[label] = (own == options.end() ? cell.dataset_options : own->second) +
                            (files == inputs.end() ? "" : inputs_of(files->second));
   }
@@ -82,12 +82,12 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   std::vector<Record> records = read_records(store);
   if (limits_time(limits)) {
     for (Record& time : run_times(records)) records.push_back(std::move(time));
-    // Times on another machine are neither worse nor better.
+    // Times on different machines are not comparable.
     const std::string cpu = fact("cpu");
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
   out.cells = gate_cells(records, limits);
-  if (out.cells.empty()) throw InputError(store.string() + ": holds no cell, nothing to check");
+  if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
   add_sequences(store, out);
   return out;
 }

@@ -1,4 +1,4 @@
-/// A store as the gate sees it.
+/// The contents of a store for the gate.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace loopbench {
 
-/// The numbers of a store that `limits` are about, with all options of its sequences, the hashes of
-/// the files they were read from, and the rules of its protocols. Throws InputError when it is not
-/// a store or holds no cell.
+/// The numbers of a store that have `limits`, with all options of its sequences, the hashes of
+/// their files, and the rules of its protocols. Throws InputError if it is not a store or has no
+/// cells.
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits);
 
-/// What a baseline taken from this store was made by.
+/// Provenance of a baseline from this store.
 std::map<std::string, std::string> made_by(const std::filesystem::path& store);
 
 }  // namespace loopbench

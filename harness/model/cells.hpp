@@ -1,4 +1,4 @@
-/// A sweep as a flat list of cells, in the order they are numbered, stored and printed.
+/// Expansion of a sweep into a flat list of cells, in the order of numbering, storage and output.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@ namespace loopbench {
 
 /// One method on one instance of one dataset.
 struct Cell {
-  std::size_t index = 0;    ///< position in the unfiltered sweep: --only does not renumber
-  std::size_t dataset = 0;  ///< into Sweep::datasets
-  std::size_t method = 0;   ///< into Sweep::methods
+  std::size_t index = 0;    ///< index in the unfiltered sweep, unaffected by --only
+  std::size_t dataset = 0;  ///< index into Sweep::datasets
+  std::size_t method = 0;   ///< index into Sweep::methods
   int repeat = 0;
 };
 
-/// Datasets x repeats x methods without exclusions, and without cells whose
-/// "SEQUENCE / METHOD" does not contain a match of `only` (empty: all). `seeded[d]` says whether
-/// dataset d takes a seed: others have nothing to repeat. Throws InputError for a bad regex.
+/// Datasets x repeats x methods without exclusions, and without cells whose "SEQUENCE / METHOD"
+/// does not contain a match of `only` (empty: all). `seeded[d]`: whether dataset d has a seed;
+/// datasets without a seed have one repeat. Throws InputError for an invalid regex.
 std::vector<Cell> cells(const Sweep& sweep,
                         const std::vector<bool>& seeded,
                         const std::string& only);
 
-/// The seed of a repeat: the given one for repeat 0, then well-mixed ones (SplitMix64), so that
-/// neither neighbouring seeds nor neighbouring repeats share a stream. Never negative.
+/// Seed of a repeat: the given one for repeat 0, then SplitMix64 values, so that neighbouring seeds
+/// or repeats do not share a random stream. Never negative.
 std::int64_t derived_seed(std::int64_t seed, int repeat);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// One line of the long table: a score and everything needed to know what it is a score of.
+/// One line of the long table: a score with all its labels.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace loopbench {
 
-/// A cell that was declined or failed has one record with empty metric and its reason.
+/// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
   std::int64_t cell = 0;  ///< position in the sweep
   std::string sequence;
@@ -20,9 +20,9 @@ struct Record {
   std::string method;
   std::string closures;
   bool oracle_closures = false;
-  bool oracle = false;        ///< the method was shown the reference
-  double milliseconds = 0.0;  ///< median wall time of the method's verb
-  std::string protocol;       ///< label; empty when it does not apply, so the next two
+  bool oracle = false;        ///< the method has access to the reference
+  double milliseconds = 0.0;  ///< median wall time of the method
+  std::string protocol;       ///< label; empty if not applicable, as are the next two
   std::string protocol_version;
   std::string times;   ///< keyframes | dense
   std::string metric;  ///< catalogue name; or gain, pairs, time
@@ -33,10 +33,10 @@ struct Record {
   Better better = Better::lower;
   double target = 0.0;  ///< best value where `better` is target
   std::string group;    ///< runs of one group are not independent; empty: a group of its own
-  std::string content;  ///< hash of problem and reference: equal inputs, one observation; or empty
+  std::string content;  ///< hash of problem and reference, equal for equal inputs; can be empty
   Statistics statistics;
-  std::int64_t pairs = 0;     ///< pose pairs judged
-  std::int64_t possible = 0;  ///< pose pairs that could have been
+  std::int64_t pairs = 0;     ///< evaluated pose pairs
+  std::int64_t possible = 0;  ///< possible pose pairs
   std::string status = "ok";
   std::string why;
 };
@@ -44,7 +44,7 @@ struct Record {
 /// A cell without its scores.
 struct CellRecord {
   std::int64_t position = 0;  ///< in the sweep: Record::cell
-  std::string key;            ///< content key: same key, same numbers
+  std::string key;            ///< content key: equal keys mean equal results
   std::string build;
   std::string sequence;
   std::int64_t repeat = 0;
@@ -54,16 +54,16 @@ struct CellRecord {
   std::string closures;
   bool oracle_closures = false;
   bool oracle = false;
-  std::int64_t keyframes = 0;      ///< of the sequence; 0: it never finished loading
+  std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
-  std::string worker;  ///< "isolated", "in process"; ", serial", ", pinned" where it was
+  std::string worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so
   std::int64_t runs = 0;
-  double seconds = 0.0;  ///< median wall time of the method's verb, and its extremes
+  double seconds = 0.0;  ///< wall time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
   double seconds_max = 0.0;
   std::optional<double> cpu_seconds;         ///< median
   std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
-  std::optional<std::int64_t> added_memory;  ///< of it, beyond what it had before [bytes]
+  std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   std::optional<std::int64_t> allocations;
   std::string status;
   std::string signal;
@@ -73,17 +73,17 @@ struct CellRecord {
   std::vector<std::string> notes;
 };
 
-/// What tables call the record's metric: its label in the config, or its name.
+/// Name of the record's metric in tables: its label in the config, or its name.
 const std::string& metric_label(const Record& record);
 
-/// The text of a record's named column: sequence, repeat, method, closures, protocol,
+/// Text in the named column of a record: sequence, repeat, method, closures, protocol,
 /// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: label,
-/// relation and axis without the usual ones (translation; rotation, which its unit tells; 3d).
-/// Throws InputError with a suggestion for another name.
+/// relation and axis without the defaults (translation; rotation, implied by the unit; 3d). Throws
+/// InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
-/// The number of a record's named statistic: rmse, mean, median, std, min, max, sse, count.
-/// Throws InputError with a suggestion for another name.
+/// Value of a record's named statistic: rmse, mean, median, std, min, max, sse, count. Throws
+/// InputError with a suggestion for another name.
 double value(const Record& record, const std::string& name);
 
 }  // namespace loopbench

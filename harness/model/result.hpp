@@ -1,4 +1,4 @@
-/// What one cell leaves behind.
+/// Result of one cell.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ namespace loopbench {
 
 enum class Status {
   ok,
-  declined,       ///< not for this method, or a number that means nothing here: not an error
-  failed,         ///< threw anything but Undefined, or gave what is not finite
-  incomplete,     ///< judged below the sweep's min_coverage: kept, but not averaged or ranked
-  crashed,        ///< its worker process died of a signal
-  timeout,        ///< it ran longer than the sweep's limit
-  out_of_memory,  ///< it grew above the sweep's limit, or could not get what it asked for
+  declined,       ///< the method is not applicable, or a metric is undefined: not an error
+  failed,         ///< threw an exception other than Undefined, or returned non-finite values
+  incomplete,     ///< coverage below the sweep's min_coverage: stored, but not averaged or ranked
+  crashed,        ///< its worker process was ended by a signal
+  timeout,        ///< it exceeded the sweep's time limit
+  out_of_memory,  ///< it exceeded the sweep's memory limit, or an allocation failed
 };
 inline auto choices(Status) {
   return std::array{std::pair{"ok", Status::ok},
@@ -35,48 +35,48 @@ inline auto choices(Status) {
                     std::pair{"out_of_memory", Status::out_of_memory}};
 }
 
-/// Something went wrong: not merely declined or incomplete.
+/// Whether the status is an error, that is, not merely declined or incomplete.
 inline bool is_failure(Status status) {
   return status == Status::failed || status == Status::crashed || status == Status::timeout ||
          status == Status::out_of_memory;
 }
 
-/// One metric under one protocol at one choice of times; when it is undefined there, only status
-/// and why are filled.
+/// One metric under one protocol at one choice of times. If it is undefined, only status and why
+/// are set.
 struct ScoreResult {
-  std::size_t protocol = 0;  ///< into Sweep::protocols
+  std::size_t protocol = 0;  ///< index into Sweep::protocols
   Times times = Times::keyframes;
   std::string metric;  ///< catalogue name
-  std::string label;   ///< in the config
+  std::string label;   ///< label in the config
   Score score;
   Coverage coverage;
   Status status = Status::ok;
   std::string why;
 };
 
-/// How the cell was run.
+/// Execution conditions of a cell.
 struct Worker {
-  bool isolated = false;  ///< in a worker process of its own kind: its end is not the sweep's
-  bool serial = false;    ///< nothing else of the sweep ran meanwhile
-  bool pinned = false;    ///< held on one core
+  bool isolated = false;  ///< in a separate worker process, whose crash does not end the sweep
+  bool serial = false;    ///< no other cell of the sweep ran at the same time
+  bool pinned = false;    ///< pinned to one core
 };
 
 struct CellResult {
   Cell cell;
   Status status = Status::ok;
   std::string why;
-  std::string signal;  ///< "SIGSEGV"; empty unless a signal ended it
+  std::string signal;  ///< for example "SIGSEGV"; empty unless a signal ended the worker
   Worker worker;
-  std::vector<double> seconds;              ///< wall time of the method's verb, one per timed run
-  std::vector<double> cpu_seconds;          ///< CPU time of the process meanwhile; empty: not known
-  std::optional<std::int64_t> peak_memory;  ///< largest resident size of the process [bytes]
-  std::optional<std::int64_t> added_memory;  ///< of it, beyond what it had before [bytes]
-  std::optional<std::int64_t> allocations;   ///< calls for memory in one run of the verb
+  std::vector<double> seconds;      ///< wall time of the method, one value per timed run
+  std::vector<double> cpu_seconds;  ///< CPU time of the process in these runs; empty: unknown
+  std::optional<std::int64_t> peak_memory;   ///< largest resident size of the process [bytes]
+  std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
+  std::optional<std::int64_t> allocations;   ///< memory allocations in one run of the method
   Report report;                             ///< of the last timed run
   std::vector<ScoreResult> scores;
-  bool oracle_method = false;  ///< it was shown the reference, or was trained on it
-  CellTrace trace;             ///< under the first protocol, dense if the sweep judges densely
-  std::shared_ptr<const SequenceFacts> facts;  ///< null when its sequence never finished loading
+  bool oracle_method = false;  ///< it uses the reference, or was trained on it
+  CellTrace trace;             ///< under the first protocol, dense if the sweep evaluates densely
+  std::shared_ptr<const SequenceFacts> facts;  ///< null if its sequence could not be loaded
 };
 
 }  // namespace loopbench

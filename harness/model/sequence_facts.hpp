@@ -1,4 +1,4 @@
-/// What is kept about a sequence once it is loaded: what it was read from, what a report draws.
+/// Metadata of a loaded sequence: input files, sizes, and data for the report's plots.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,33 @@
 
 namespace loopbench {
 
-/// A file that a dataset read.
+/// A file that a dataset reads.
 struct InputFile {
-  std::string option;  ///< of the dataset that names it; empty: found by the dataset
-  std::string path;    ///< as it was found
+  std::string option;  ///< dataset option with the file name; empty: found by the dataset
+  std::string path;    ///< path at which it was found
   std::uint64_t bytes = 0;
-  std::string hash;  ///< of its content, see text/hash.hpp; "missing" when it is not there
+  std::string hash;  ///< of its content, see text/hash.hpp; "missing" if it does not exist
 };
 
-/// How much a method is given.
+/// Size of a method's input.
 struct SequenceSize {
   std::int64_t keyframes = 0;
   std::int64_t odometry = 0;  ///< edges
   std::int64_t closures = 0;
-  std::int64_t frames = 0;     ///< tracked between keyframes
-  std::int64_t reference = 0;  ///< poses the judge has
+  std::int64_t frames = 0;     ///< frames tracked between keyframes
+  std::int64_t reference = 0;  ///< reference poses
 };
 
 struct SequenceFacts {
   std::vector<InputFile> inputs;
-  std::string closures;          ///< where the loop closures came from
-  bool oracle_closures = false;  ///< the reference measured or selected them
+  std::string closures;          ///< source of the loop closures
+  bool oracle_closures = false;  ///< the closures were measured or selected with the reference
   SequenceSize size;
   std::string content;  ///< hash of problem and reference: equal content is one observation
   std::string source;   ///< recording or noise, see source_of()
   std::string group;    ///< runs of one group are not independent: the source, or `group:NAME`
-  std::vector<std::string> notes;  ///< what a user should know of how it was made
-  SequenceTrace trace;             ///< empty when the sweep keeps no traces
+  std::vector<std::string> notes;  ///< notes from loading, for the user
+  SequenceTrace trace;             ///< empty if the sweep keeps no traces
 };
 
 }  // namespace loopbench

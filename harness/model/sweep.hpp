@@ -1,4 +1,4 @@
-/// What a config asks for, every grid already spread out: plain data, validated, ready to run.
+/// Validated contents of a config with all grids expanded: plain data.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct Choice {
 struct DatasetChoice {
   std::string label;  ///< name, plus the swept options
   Choice dataset;
-  std::string group = {};  ///< runs that are not independent, by name; empty: see source_of()
+  std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
 };
 
-/// What a calibration file was learnt from; empty without one.
+/// Training data of a calibration file; empty without one.
 struct TrainingData {
   std::string calibration;           ///< the file
   std::vector<std::string> labels;   ///< of the datasets
@@ -41,27 +41,27 @@ struct MetricChoice {
   Choice metric;
 };
 
-/// Cells whose sequence and method labels both match are left out (each a Pattern, of the whole
+/// Excludes cells whose sequence and method labels both match (each a Pattern of the complete
 /// label).
 struct Exclusion {
   std::string dataset = ".*";
   std::string method = ".*";
 };
 
-/// How the table at the end is laid out; names are columns of the long table (see model/record).
+/// Layout of the printed table; names are columns of the long table (see model/record).
 struct TableSpec {
   std::vector<std::string> rows{"method"};
   std::vector<std::string> columns{"score"};
   std::vector<std::string> split{"sequence", "times"};
   std::string value = "rmse";
-  std::vector<std::string> show;   ///< only these scores, by their short names; empty: all
-  std::vector<std::string> where;  ///< only rows these rules keep, see model/where; empty: all
+  std::vector<std::string> show;   ///< scores to show, by their short names; empty: all
+  std::vector<std::string> where;  ///< filters of rows, see model/where; empty: all rows
 };
 
-/// What one cell may use before it is ended.
+/// Resource limits of one cell.
 struct Limits {
-  double seconds = 600.0;   ///< wall time, all timed runs and judging together [s]; 0: any
-  std::int64_t memory = 0;  ///< resident size of the process [bytes]; 0: any
+  double seconds = 600.0;   ///< wall time of all timed runs and the evaluation [s]; 0: no limit
+  std::int64_t memory = 0;  ///< resident size of the process [bytes]; 0: no limit
 };
 
 struct Sweep {
@@ -72,13 +72,13 @@ struct Sweep {
   std::vector<MethodChoice> methods;
   std::vector<MetricChoice> metrics;
   std::vector<Times> times{Times::keyframes, Times::dense};
-  std::vector<NamedProtocol> protocols{NamedProtocol{}};  ///< at least one; labels differ
-  std::string baseline;       ///< method label that gain is measured from; empty: no gain
-  double min_coverage = 0.0;  ///< share and span below this make numbers `incomplete`, 0..1
+  std::vector<NamedProtocol> protocols{NamedProtocol{}};  ///< at least one, with distinct labels
+  std::string baseline;       ///< label of the method that gain is relative to; empty: no gain
+  double min_coverage = 0.0;  ///< share and span below this are `incomplete`, 0..1
   int repeats = 1;            ///< instances of each seeded dataset
-  int timing = 1;             ///< runs of each method's verb
-  bool serial = false;        ///< one cell at a time, on one core, for the sake of its times
-  bool traces = true;         ///< keep thinned trajectories of every cell for reports
+  int timing = 1;             ///< timed runs of each method
+  bool serial = false;        ///< runs one cell at a time, on one core, for reliable times
+  bool traces = true;         ///< stores subsampled trajectories of every cell for reports
   Limits limits;
   std::vector<Exclusion> exclude;
   TableSpec table;

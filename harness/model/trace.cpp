@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// Places 0..count-1 thinned to at most kTraceSamples, evenly, first and last among them.
+/// At most kTraceSamples evenly spaced indices of 0..count-1, including the first and the last.
 template <class Keep>
 void visit_thinned(std::size_t count, Keep keep) {
   const std::size_t kept = std::min(count, kTraceSamples);

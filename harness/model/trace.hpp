@@ -1,8 +1,8 @@
-/// What a report draws: poses along the way, thinned, small enough to keep for every cell.
+/// Subsampled poses of a cell or sequence for the report's plots.
 ///
-/// Plain structs of float32, stored as they lie in memory, little endian, one after another
-/// (harness/store/traces.hpp reads them back). Stamps and positions are relative to the origin of
-/// the sequence, so that float32 suffices far from zero.
+/// Plain structs of float32, stored as raw memory, little endian, one after another
+/// (harness/store/traces.hpp reads them). Stamps and positions are relative to the origin of the
+/// sequence, so that float32 is sufficient far from zero.
 #pragma once
 
 #include <vector>
@@ -12,48 +12,48 @@
 
 namespace loopbench {
 
-/// Most samples of a list that are kept; longer ones are thinned evenly, both ends kept.
+/// Maximum number of stored samples; longer lists are subsampled evenly, including both ends.
 inline constexpr std::size_t kTraceSamples = 2000;
 
 /// 8 floats.
 struct TracePose {
-  float stamp = 0;                       ///< after the origin [s]
+  float stamp = 0;                       ///< relative to the origin [s]
   float x = 0, y = 0, z = 0;             ///< [m]
   float qx = 0, qy = 0, qz = 0, qw = 1;  ///< world_from_body
 };
 
-/// 12 floats: a judged pose of the estimate and how far it is from its reference.
+/// 12 floats: an evaluated pose of the estimate and its error.
 struct TraceSample {
-  TracePose estimate;                           ///< aligned; stamp of its reference
+  TracePose estimate;                           ///< aligned; with the stamp of its reference
   float error_x = 0, error_y = 0, error_z = 0;  ///< estimate minus reference [m]
-  float error_angle = 0;                        ///< of the rotation between the two [deg]
+  float error_angle = 0;                        ///< rotation error [deg]
 };
 
-/// 8 floats: the keyframes a loop closure joins, where the tracker left them.
+/// 8 floats: the keyframes of a loop closure, before correction.
 struct TraceClosure {
-  float from_stamp = 0, to_stamp = 0;        ///< after the origin [s]
+  float from_stamp = 0, to_stamp = 0;        ///< relative to the origin [s]
   float from_x = 0, from_y = 0, from_z = 0;  ///< [m]
   float to_x = 0, to_y = 0, to_z = 0;        ///< [m]
 };
 static_assert(sizeof(TracePose) == 32 && sizeof(TraceSample) == 48 && sizeof(TraceClosure) == 32);
 
-/// What stamps and positions of a sequence's traces are measured from: its first reference pose.
+/// Origin of stamps and positions in a sequence's traces: its first reference pose.
 struct TraceOrigin {
   double stamp = 0.0;                ///< [s]
-  double x = 0.0, y = 0.0, z = 0.0;  ///< in the world of the reference [m]
+  double x = 0.0, y = 0.0, z = 0.0;  ///< in the reference's world frame [m]
 };
 
 struct SequenceTrace {
   TraceOrigin origin;
   std::vector<TracePose> reference;
-  /// As the tracker left them, in the tracker's own world: positions are not moved by the origin.
+  /// Before correction, in the tracker's own world frame: positions are not relative to the origin.
   std::vector<TracePose> keyframes;
-  std::vector<TraceClosure> closures;  ///< all of them, positions as for keyframes
+  std::vector<TraceClosure> closures;  ///< all closures, positions as for keyframes
 };
 
 struct CellTrace {
-  Times times = Times::dense;        ///< where it was judged
-  std::vector<TraceSample> samples;  ///< empty: nothing was judged
+  Times times = Times::dense;        ///< evaluation times
+  std::vector<TraceSample> samples;  ///< empty if nothing was evaluated
 };
 
 TraceOrigin trace_origin(const Sequence& sequence);

@@ -16,16 +16,16 @@ struct Condition {
   std::optional<Pattern> pattern;
 };
 
-/// At commas outside of brackets and quotes: labels like `evo (align=se3, first=10)` stay whole. A
-/// quote opens at the beginning of a part or after an operator only.
+/// Splits at commas outside brackets and quotes: labels such as `evo (align=se3, first=10)` are
+/// kept together. A quote opens only at the beginning of a part or after an operator.
 std::vector<std::string> split(const std::string& rule) {
   std::vector<std::string> parts{""};
   int depth = 0;
   bool is_quoted = false;
   for (const char c : rule) {
     std::string& part = parts.back();
-    const bool may_open = part.empty() || part.back() == '=' || part.back() == '~';
-    if (c == '"' && (is_quoted || may_open)) is_quoted = !is_quoted;
+    const bool can_open = part.empty() || part.back() == '=' || part.back() == '~';
+    if (c == '"' && (is_quoted || can_open)) is_quoted = !is_quoted;
     if (is_quoted) {
       part += c;
       continue;
@@ -38,7 +38,7 @@ std::vector<std::string> split(const std::string& rule) {
       part += c;
     }
   }
-  if (is_quoted) throw InputError("'" + rule + "': a quote is not closed");
+  if (is_quoted) throw InputError("'" + rule + "': missing closing quote");
   return parts;
 }
 
@@ -51,9 +51,10 @@ Condition condition(const std::string& part) {
   const std::size_t at = part.find_first_of("=!~");
   const bool is_not = at != std::string::npos && part[at] == '!';
   if (at == std::string::npos || (is_not && part.compare(at, 2, "!=") != 0)) {
-    throw InputError("where: '" + part +
-                     "' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
-                     "method=\"a, b\"");
+    throw InputError(
+        "where: '" + part +
+        "': expected FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
+        "method=\"a, b\"");
   }
   Condition out{
       part.substr(0, at), unquoted(part.substr(at + (is_not ? 2 : 1))), !is_not, std::nullopt};

@@ -1,7 +1,8 @@
-/// Methods that are shown the answer, to see what a leak would gain: never to be compared with.
+/// Oracle methods with access to the reference, which quantify the gain from such a leak; never
+/// compared with other methods.
 ///
-/// A Method sees a Problem, and no Problem holds the reference. What is listed here is made with
-/// the reference by the harness alone; every row it leaves says so.
+/// A Method has a Problem as input, and no Problem contains the reference. Only the harness
+/// constructs the methods listed here with the reference; every row of theirs is marked.
 #pragma once
 
 #include <vector>
@@ -11,11 +12,11 @@
 namespace loopbench {
 
 struct OracleEntry {
-  MethodEntry listed;  ///< name, kind, options; what it makes was shown no reference and declines
+  MethodEntry listed;  ///< name, kind, options; it makes a method without reference that declines
   std::function<Stage(const Params&, const Trajectory& reference)> make;  ///< throws OptionError
 };
 
-/// Every oracle, in the order tables show them.
+/// All oracles, in table order.
 std::vector<OracleEntry> oracles();
 
 }  // namespace loopbench

@@ -22,10 +22,11 @@ OracleEntry oracle(std::string name, std::string summary, typename T::Options de
 
 std::vector<OracleEntry> oracles() {
   return {
-      oracle<PaperOracle>(
-          "paper_oracle", "dm, but y' = f(x') is asked at the reference's x': shows a leak", {}),
+      oracle<PaperOracle>("paper_oracle",
+                          "dm with y' = f(x') evaluated at the reference's x'; quantifies a leak",
+                          {}),
       oracle<PaperOracle>("paper_oracle_families",
-                          "dm, but the reference chooses between parabola, cubic, sine, rational",
+                          "dm with parabola, cubic, sine or rational selected by the reference",
                           {.dm = {.families = "poly2 poly3 sin1 rat02"},
                            .reference_abscissa = false,
                            .reference_families = true}),

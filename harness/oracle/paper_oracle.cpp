@@ -7,8 +7,10 @@
 namespace loopbench {
 namespace {
 
-/// The reference as the keyframes' world has it: p = R^T (p_reference - t) / scale.
-Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference, Align align) {
+/// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
+Trajectory aligned_reference(const Trajectory& keyframes,
+                             const Trajectory& reference,
+                             Align align) {
   Protocol protocol;
   protocol.align = align;
   const Alignment to_reference = evaluate(reference, keyframes, protocol).alignment;
@@ -21,7 +23,7 @@ Trajectory in_world_of(const Trajectory& keyframes, const Trajectory& reference,
   return out;
 }
 
-/// Mean squared distance to the reference over the edges a window stands for [m^2].
+/// Mean squared distance to the reference over the edges of a window [m^2].
 manifold::PieceJudge nearest_to(const Polyline& reference) {
   return [&reference](const manifold::PlanarPiece& piece,
                       const manifold::Window& window,
@@ -35,12 +37,12 @@ manifold::PieceJudge nearest_to(const Polyline& reference) {
         const double u = static_cast<double>(k) / parts;
         const double time = std::lerp(nodes.stamps[edge], nodes.stamps[edge + 1], u);
         if (!(time >= reference.start() && time <= reference.end())) continue;
-        const Vector3 seen = reference.at(time).translation - nodes.base;
-        sum += (asked(piece, spline.at(edge, time)) - seen).squaredNorm();
+        const Vector3 reference_point = reference.at(time).translation - nodes.base;
+        sum += (asked(piece, spline.at(edge, time)) - reference_point).squaredNorm();
         ++count;
       }
     }
-    return count > 0.0 ? sum / count : 0.0;  // the first family where there is no reference
+    return count > 0.0 ? sum / count : 0.0;  // selects the first family outside the reference
   };
 }
 
@@ -55,11 +57,11 @@ std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem, Report& report) const {
-  Polyline reference(in_world_of(problem.keyframes, reference_, options_.reference_align));
+  Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
   manifold::PieceJudge judge;
   if (options_.reference_families) judge = nearest_to(reference);
   std::shared_ptr<const manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
-  report.notes.push_back("oracle: was shown the reference");
+  report.notes.push_back("oracle: uses the reference");
   if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
   return std::make_unique<ReferenceAbscissa>(
       std::move(fitted), std::move(reference), options_.reference_abscissa);

@@ -1,6 +1,7 @@
-/// The article's smoother where the reference takes part: at which x' it is asked, and which family
-/// a window takes. The article says neither whose x it uses nor who chose its curves ("most
-/// consistent with the real trajectory"); this shows what either would gain.
+/// The article's smoother with access to the reference, which sets the x' at which curves are
+/// evaluated, or the family of each window. The article states neither which x' it uses nor how its
+/// curves were selected ("most consistent with the real trajectory"); this quantifies the gain of
+/// either choice.
 #pragma once
 
 #include "methods/method.hpp"
@@ -23,8 +24,8 @@ class PaperOracle final : public Smoother {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// The keyframes are aligned to the reference as a protocol would, and the reference brought into
-  /// their world by the inverse. Throws std::runtime_error when there is no unique alignment.
+  /// Aligns the keyframes to the reference as a protocol does, and transforms the reference to
+  /// their world frame by the inverse. Throws std::runtime_error without a unique alignment.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
@@ -35,11 +36,11 @@ class PaperOracle final : public Smoother {
 
 template <class Visit>
 void fields(PaperOracle::Options& o, Visit visit) {
-  visit("reference_abscissa", o.reference_abscissa, "curves are asked at the reference's x'");
+  visit("reference_abscissa", o.reference_abscissa, "evaluate curves at the reference's x'");
   visit("reference_families",
         o.reference_families,
-        "of `families`, each window takes the one nearest to the reference");
-  visit("reference_align", o.reference_align, "how the reference is brought to the keyframes");
+        "select for each window the one of `families` nearest to the reference");
+  visit("reference_align", o.reference_align, "alignment of the reference to the keyframes");
   fields(o.dm, visit);
 }
 

@@ -18,8 +18,8 @@ constexpr bool is_function_of_x<Graph<Function>> = true;
 Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& reference) const {
   const Parts& parts = curve_->parts();
   const manifold::Place own = parts.spline.at(edge, time);
-  const Vector3 levelled = reference + parts.up.dot(own.point - reference) * parts.up;
-  const manifold::Place seen{levelled, own.way, own.time};
+  const Vector3 projected = reference + parts.up.dot(own.point - reference) * parts.up;
+  const manifold::Place seen{projected, own.way, own.time};
   const auto ask = [&](const PlanarPiece& piece) {
     return std::visit(
         [&](const auto& shape) {
@@ -29,7 +29,7 @@ Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& r
   };
   const Vector3 planar = parts.planar ? parts.planar->at(edge, time, ask) : own.point;
   if (!parts.spatial) return planar;
-  const Vector3& where = parts.planar ? planar : levelled;
+  const Vector3& where = parts.planar ? planar : projected;
   const double height = parts.up.dot(planar);
   const auto over = [&](const Height& piece) { return piece.over<double>(where, height); };
   return planar + (parts.spatial->at(edge, time, over) - height) * parts.up;

@@ -1,4 +1,4 @@
-/// A manifold curve asked where the reference is, not where its own spline is.
+/// A manifold curve evaluated at the reference's abscissa instead of the estimate's.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace loopbench {
 
 class ReferenceAbscissa final : public Curve {
  public:
-  /// `reference` in the world of `curve`. Not `used`: the curve as it is.
+  /// `reference` in the world frame of `curve`. If not `used`, the unchanged curve.
   ReferenceAbscissa(std::shared_ptr<const manifold::ManifoldCurve> curve,
                     Polyline reference,
                     bool used = true)
@@ -19,10 +19,10 @@ class ReferenceAbscissa final : public Curve {
   double start() const override { return curve_->start(); }
   double end() const override { return curve_->end(); }
 
-  /// y' = f(x'): x' is the reference's, so the output has that x' too; z' stays the estimate's.
-  /// z' = q(x', y') without a planar step: only z' comes of the reference's x' and y'. Pieces that
-  /// are no function of x' (arcs, splines, F(x', y') = 0), times outside the reference and all
-  /// orientations stay what they are.
+  /// y' = f(x'): x' is the reference's, so the output has that x', too; z' remains the estimate's.
+  /// z' = q(x', y') without a planar step: only z' is computed from the reference's x' and y'.
+  /// Pieces that are not a function of x' (arcs, splines, F(x', y') = 0), times outside the
+  /// reference and all orientations are unchanged.
   using Curve::sample;
   void sample(std::span<const double> times, std::span<Pose> poses) const override;
 

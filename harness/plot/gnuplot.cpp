@@ -15,7 +15,7 @@
 namespace loopbench {
 namespace {
 
-/// Single-gnuplot_quoted gnuplot text: a quote is doubled, a line break cannot stand in it.
+/// Single-quoted gnuplot string: quotes are doubled; line breaks are not possible in it.
 std::string gnuplot_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
@@ -30,8 +30,8 @@ std::string data_block(const std::string& name, const PlotSeries& series) {
   return out + "EOD\n";
 }
 
-/// All of one number is a range that gnuplot warns about: heights of a path in the plane, errors
-/// across it. Widened here to `least` or a tenth of the number.
+/// Range of an axis. gnuplot warns about empty ranges (planar paths, errors across the plane), so
+/// these are widened to `least` or a tenth of the number.
 std::string axis_range(const char* axis,
                        const std::vector<PlotSeries>& series,
                        Eigen::Index coordinate,
@@ -113,16 +113,16 @@ void write_figure(const std::filesystem::path& file,
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   script += "unset multiplot\n";
 
-  write_file(file, "");  // says why when it cannot be written, as gnuplot does not
+  write_file(file, "");  // reports why it cannot be written, which gnuplot does not
   std::FILE* pipe = popen("gnuplot >/dev/null", "w");
   if (pipe == nullptr) throw InputError(file.string() + ": cannot start gnuplot");
-  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // where there is no gnuplot to read it
+  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // in case gnuplot is missing
   const bool sent = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
   const int ended = pclose(pipe);
   std::signal(SIGPIPE, usual);
   if (ended != 0 || !sent || std::filesystem::file_size(file) == 0) {
     std::filesystem::remove(file);
-    throw InputError(file.string() + ": gnuplot could not draw it (package gnuplot-nox)");
+    throw InputError(file.string() + ": gnuplot failed (package gnuplot-nox)");
   }
 }
 

@@ -1,4 +1,4 @@
-/// Vector figures by way of gnuplot, which needs no display.
+/// Vector graphics with gnuplot, without a display.
 #pragma once
 
 #include <filesystem>
@@ -23,17 +23,17 @@ struct PlotPanel {
   std::string y_label = "y [m]";
   std::string z_label = "z [m]";
   bool spatial = false;    ///< x, y and z; otherwise x and y
-  bool same_scale = true;  ///< a metre is as long along y as along x (in the plane only)
+  bool same_scale = true;  ///< equal scales of x and y (in the plane only)
   std::vector<PlotSeries> series;
 };
 
-/// Panels row by row on one page, 640 x 480 points a panel: SVG, or PDF where the file is named so.
-/// Throws InputError when gnuplot is missing or the file cannot be written.
+/// Panels row by row on one page, 640 x 480 points per panel: SVG, or PDF by the file's extension.
+/// Throws InputError if gnuplot is missing or the file cannot be written.
 void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
                   std::size_t columns);
 
-/// Every k-th point so that at most `most` are left, the last one kept: what is drawn, not judged.
+/// Every k-th point such that at most `most` remain, including the last one; for drawing only.
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Figures for papers from the traces of a store.
+/// Figures from the traces of a store.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace loopbench {
 
-/// What is drawn of one sequence: `methods` on its first repeat, in their order; those without a
-/// trace are left out.
+/// Panels for one sequence: `methods` on its first repeat, in their order; methods without a trace
+/// are skipped.
 struct SequenceFigures {
   std::vector<PlotPanel> trajectories;  ///< from above and in space; empty without a trace
   std::vector<PlotPanel> errors;        ///< x, y, z [m] and angle [deg] along the path [m]
@@ -22,7 +22,7 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
                                  const std::string& sequence,
                                  const std::vector<std::string>& methods);
 
-/// "closed, 180 keyframes" -> "closed_180_keyframes": safe as a file's name.
+/// "closed, 180 keyframes" -> "closed_180_keyframes": a safe file name.
 std::string file_stem(const std::string& label);
 
 }  // namespace loopbench

@@ -14,7 +14,7 @@ constexpr double kMegabyte = 1e6;
 
 std::string milliseconds(double seconds) { return fmt::format("{:.4g}", 1e3 * seconds); }
 
-/// Median over the cells that know the value, as text; a dash when none does.
+/// Median over the cells that have the value, as text; otherwise a dash.
 template <class Get, class Text>
 std::string median_text(const std::vector<const CellRecord*>& cells, Get get, Text text) {
   std::vector<double> values;
@@ -46,7 +46,7 @@ std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& ce
 
 std::string plain(double value) { return fmt::format("{:.6g}", value); }
 
-/// Medians by name, names in the order in which they first come.
+/// Medians by name, names in order of first appearance.
 class ByName {
  public:
   void add(const std::string& name, double value) {
@@ -104,19 +104,19 @@ Listing costs(const std::vector<CellRecord>& cells) {
          median_text(timed, iterations, plain)});
   }
   out.notes.push_back(
-      "medians over cells; memory: the largest of the whole process while the "
-      "method ran, and what it added to it (memory that an earlier cell gave back "
-      "to the allocator is used again unseen)");
+      "medians over cells; memory: the largest resident size of the whole process while the method "
+      "ran, and its increase (memory that an earlier cell returned to the allocator is reused "
+      "without being counted)");
   if (shared) {
     out.notes.push_back(std::string(alone ? "some" : "all") +
-                        " cells ran beside others: `timing: true` in the config runs them alone");
+                        " cells ran beside others; `timing: true` in the config runs them alone");
   }
   std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 
 Listing reported(const std::vector<CellRecord>& cells) {
-  Listing out{"what methods report of themselves", {"method", "what", "name", "median"}, {}, {}};
+  Listing out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const auto& [method, all] : by_method(cells)) {
     ByName phases;
     ByName counts;

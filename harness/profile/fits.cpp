@@ -34,7 +34,7 @@ std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vecto
   }
   PowerLaw out;
   out.exponent = xy / xx;
-  const double left = std::max(0.0, yy - out.exponent * xy);  // squares the line does not explain
+  const double left = std::max(0.0, yy - out.exponent * xy);  // residual sum of squares
   out.error = std::sqrt(left / static_cast<double>(n - 2) / xx);
   out.r2 = yy > 0.0 ? 1.0 - left / yy : 1.0;
   return out;

@@ -1,4 +1,4 @@
-/// Small helpers that the tables of a profile share.
+/// Helpers for the tables of a profile.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace loopbench {
 
-/// Cells by method, methods in the order in which they first appear.
+/// Cells by method, methods in order of first appearance.
 inline std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_method(
     const std::vector<CellRecord>& cells) {
   std::vector<std::pair<std::string, std::vector<const CellRecord*>>> out;
@@ -22,25 +22,24 @@ inline std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_me
   return out;
 }
 
-/// Whether the method was shown the reference in some cell.
+/// Whether the method used the reference in some cell.
 inline bool is_oracle(const std::vector<const CellRecord*>& cells) {
   return std::ranges::any_of(cells, [](const CellRecord* cell) { return cell->oracle; });
 }
 
-/// The method as tables name it.
+/// Name of the method in tables.
 inline std::string shown_name(const std::string& method,
                               const std::vector<const CellRecord*>& cells) {
   return method + (is_oracle(cells) ? " (oracle)" : "");
 }
 
-/// What "(oracle)" means, and which sequences have closures from the reference; nothing where
-/// neither occurs.
+/// Note on "(oracle)" and on sequences with closures from the reference; empty if neither occurs.
 inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cells) {
   std::vector<std::string> out;
   std::vector<std::string> measured;
   for (const CellRecord& cell : cells) {
     if (cell.oracle && out.empty()) {
-      out.emplace_back("oracle: the method or its data was shown the reference");
+      out.emplace_back("oracle: the method or its data uses the reference");
     }
     if (cell.oracle_closures && std::ranges::count(measured, cell.sequence) == 0) {
       measured.push_back(cell.sequence);
@@ -52,12 +51,12 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
   return out;
 }
 
-/// Its method ran to its end.
+/// Whether the method of the cell finished.
 inline bool is_timed(const CellRecord& cell) {
   return cell.runs > 0 && (cell.status == "ok" || cell.status == "incomplete");
 }
 
-/// Of at least one value.
+/// Geometric mean of at least one value.
 inline double median_of(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t middle = values.size() / 2;

@@ -13,7 +13,7 @@
 namespace loopbench {
 namespace {
 
-/// Of values not below zero.
+/// Geometric mean of non-negative values.
 double geometric_mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += std::log(value);
@@ -38,7 +38,7 @@ bool is_score(const Record& r, const Accuracy& accuracy) {
          r.axis == accuracy.axis;
 }
 
-/// The first protocol, dense where there is dense; a metric by its label rather than by its name.
+/// The first protocol, dense if available; a metric by its label before its name.
 Chosen choose(const std::vector<Record>& records, const Accuracy& accuracy) {
   Chosen out;
   for (const Record& r : records) {
@@ -53,12 +53,12 @@ Chosen choose(const std::vector<Record>& records, const Accuracy& accuracy) {
 struct Point {
   std::string method;
   bool is_oracle = false;
-  std::size_t runs = 0;  // with an error
+  std::size_t runs = 0;  // runs with an error
   double error = 0.0;
   double seconds = 0.0;
 };
 
-/// A point per method that has errors, the fastest first. `error_of`: by position of the cell.
+/// One point per method that has errors, the fastest first. `error_of`: by position of the cell.
 std::vector<Point> points_of(const std::vector<CellRecord>& cells,
                              const std::map<std::int64_t, double>& error_of) {
   std::vector<Point> points;
@@ -85,7 +85,7 @@ std::vector<Point> points_of(const std::vector<CellRecord>& cells,
   return points;
 }
 
-/// yes, no, or a dash for those that do not compete.
+/// yes, no, or a dash for methods that are excluded.
 std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t runs) {
   const auto competes = [&](const Point& p) { return p.runs == runs && !p.is_oracle; };
   std::vector<double> errors;
@@ -148,8 +148,8 @@ Listing pareto(const std::vector<CellRecord>& cells,
   }
   out.notes.push_back(fmt::format(
       "geometric means over sequences of the mean over repeats; protocol {}, {}; front: no method "
-      "is both faster and more accurate (differences below {} relative count as none); -: lacks "
-      "runs or was shown the reference",
+      "is both faster and more accurate (relative differences below {} are ignored); -: excluded, "
+      "because it lacks runs or uses the reference",
       chosen.protocol,
       chosen.times,
       kRelevant));

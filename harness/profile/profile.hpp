@@ -1,4 +1,4 @@
-/// What methods cost: time, memory, growth with size, and what accuracy that buys.
+/// Cost of methods: time, memory, scaling with size, and accuracy against time.
 #pragma once
 
 #include <optional>
@@ -10,36 +10,37 @@
 
 namespace loopbench {
 
-/// A straight line through points of logarithms: y ~ x^exponent.
+/// Least-squares line in log-log coordinates: y ~ x^exponent.
 struct PowerLaw {
   double exponent = 0.0;
   double error = 0.0;  ///< standard error of the exponent
-  double r2 = 0.0;     ///< share of the spread of log y that it explains
+  double r2 = 0.0;     ///< coefficient of determination of log y
 };
 
-/// Least squares over all points; nothing with fewer than three, with x or y not above zero, or
-/// when the largest x is less than four times the smallest: too short a lever. O(n).
+/// Least squares over all points; nullopt with fewer than three, with x or y not above zero, or if
+/// the largest x is less than four times the smallest. O(n).
 std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vector<double>& y);
 
-/// For each point whether no other is at least as good in both and better in one; less is better,
-/// and a relative difference up to kRelevant (statistics/ranks.hpp) is none. O(n^2).
+/// For each point, whether it is Pareto-optimal: no other is at least as good in both and better in
+/// one. Less is better; relative differences up to kRelevant (statistics/ranks.hpp) are ignored.
+/// O(n^2).
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Every table below marks methods that were shown the reference with "(oracle)", and its notes
-/// name sequences whose closures were measured in it.
+/// Every table below marks methods that use the reference with "(oracle)", and its notes name
+/// sequences whose closures were measured in the reference.
 
-/// A row per method: wall and CPU time, memory, allocations, iterations. Medians over its cells
-/// that ran to their end, largest value for memory.
+/// One row per method: wall and CPU time, memory, allocations, iterations. Medians over its
+/// finished cells, maximum for memory.
 Listing costs(const std::vector<CellRecord>& cells);
 
-/// A row per phase and count that a method reports of itself: medians over its cells.
+/// One row per phase and count that a method reports: medians over its cells.
 Listing reported(const std::vector<CellRecord>& cells);
 
-/// A row per method with cells of three sizes or more: exponent of its time in keyframes. One point
-/// per size: the median over the cells of that size.
+/// One row per method with cells of three sizes or more: exponent of its time in the number of
+/// keyframes. One point per size: the median over the cells of that size.
 Listing scaling(const std::vector<CellRecord>& cells);
 
-/// Which score stands for accuracy.
+/// The score used as accuracy.
 struct Accuracy {
   std::string metric = "ate";  ///< label
   std::string relation = "translation";
@@ -47,9 +48,9 @@ struct Accuracy {
   std::string value = "rmse";
 };
 
-/// A row per method: geometric means over all sequences of its mean error and median time over
-/// repeats, and whether it is on the front of those that have all runs and were not shown the
-/// reference. Errors are those of the store's first protocol, dense where there are dense ones.
+/// One row per method: geometric means over all sequences of its mean error and median time over
+/// repeats, and whether it is on the Pareto front of methods that have all runs and do not use the
+/// reference. Errors are those of the store's first protocol, dense if available.
 Listing pareto(const std::vector<CellRecord>& cells,
                const std::vector<Record>& records,
                const Accuracy& accuracy);

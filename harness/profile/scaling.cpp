@@ -37,7 +37,7 @@ Listing scaling(const std::vector<CellRecord>& cells) {
   }
   if (out.rows.empty()) {
     out.notes.push_back(
-        "none: it takes three numbers of keyframes, the largest four times the "
+        "none: needs at least three numbers of keyframes, the largest four times the "
         "smallest, for example `sweep: {keyframes: [100, 1000, 10000]}`");
   }
   std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));

@@ -1,4 +1,4 @@
-/// What this program is.
+/// Identification of this program's build.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@ namespace loopbench {
 /// Version, compiler, flags, versions of the libraries it was built with, by name.
 std::vector<std::pair<std::string, std::string>> build_facts();
 
-/// A hash of the running program's code and constants, of build_facts(), of the names of its shared
-/// libraries (which hold their versions) and of the C library's version: another build that could
-/// give other numbers has another. Constant while it runs, some milliseconds the first time.
+/// Hash of the running program's code and constants, of build_facts(), of the names of its shared
+/// libraries (which contain their versions) and of the C library's version: it differs for every
+/// build that could give other results. Constant during a run; takes some milliseconds on the first
+/// call.
 const std::string& build_id();
 
 }  // namespace loopbench

@@ -19,8 +19,8 @@ struct Part {
   std::size_t end = 0;
 };
 
-/// What is mapped read-only, without the notes and the headers before them: the linker's build id
-/// is a note, and depends on everything, the commit too.
+/// Read-only mappings, without the notes and the headers before them: the linker's build id is a
+/// note that depends on everything, including the commit.
 int find_read_only(dl_phdr_info* object, std::size_t, void* out) {
   auto& parts = *static_cast<std::vector<Part>*>(out);
   std::size_t notes_end = 0;
@@ -37,20 +37,20 @@ int find_read_only(dl_phdr_info* object, std::size_t, void* out) {
     if (notes_end > part.begin && notes_end <= part.end) part.begin = notes_end;
     parts.push_back(part);
   }
-  return 1;  // the program comes first; its libraries are not walked
+  return 1;  // stop after the program, which comes first
 }
 
 std::string computed() {
   std::vector<Part> parts;
   dl_iterate_phdr(find_read_only, &parts);
-  // From the file: in memory, AddressSanitizer forbids to look between constants.
+  // Read from the file, because AddressSanitizer forbids reading between constants in memory.
   std::ifstream in("/proc/self/exe", std::ios::binary);
   Fields fields;
   for (const Part& part : parts) {
     std::string bytes(part.end - part.begin, '\0');
     in.seekg(static_cast<std::streamoff>(part.begin));
     if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-      throw InputError("/proc/self/exe: cannot be read to tell this build from others");
+      throw InputError("/proc/self/exe: cannot be read to identify this build");
     }
     fields.add(bytes);
   }

@@ -9,8 +9,8 @@
 namespace loopbench {
 namespace {
 
-/// All options, defaults included, whole numbers written as real ones where the default is real:
-/// saying a default or writing 1 for 1.0 is no change.
+/// All options including defaults, integers written as reals if the default is real: setting a
+/// default explicitly, or 1 instead of 1.0, does not change the key.
 Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   Params out;
   for (const OptionInfo& option : options) out.emplace(option.name, option.value);
@@ -23,7 +23,7 @@ Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   return out;
 }
 
-/// "NAME, a=1, b=2": every option, defaults included.
+/// "NAME, a=1, b=2" with all options.
 std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
   const std::string text = to_text(in_full(options, choice.options));
   return choice.name + (text.empty() ? "" : ", ") + text;
@@ -46,13 +46,13 @@ std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
   return fields.hashed();
 }
 
-std::string of_judging(const Sweep& sweep, const Catalogue& catalogue) {
+std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
   for (const NamedProtocol& protocol : sweep.protocols) {
     fields.add(protocol.label()).add(protocol.version).add(to_text(echo(protocol.rules)));
   }
   for (const MetricChoice& metric : sweep.metrics) {
-    // The label is in the rows, so it is content here.
+    // The rows contain the label, so it is part of the content.
     fields.add(metric.label)
         .add(metric.metric.name)
         .add(hashed(
@@ -71,7 +71,7 @@ CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root
       catalogue_(catalogue),
       root_(std::move(root)),
       build_(std::move(build)),
-      judged_(of_judging(sweep, catalogue)) {
+      judged_(evaluation_fields(sweep, catalogue)) {
   for (const MethodChoice& choice : sweep.methods) methods_.push_back(of_method(choice, catalogue));
 }
 
@@ -83,7 +83,7 @@ const std::string& CellKeys::asked(const Cell& cell) {
   const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
-  if (!choice.group.empty()) fields.add(choice.group);  // it is kept with the sequence
+  if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
   return place->second = fields.hashed();
 }
 

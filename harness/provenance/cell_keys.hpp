@@ -1,9 +1,9 @@
-/// The content key of a cell: same key, same numbers.
+/// Content key of a cell: equal keys mean equal results.
 ///
-/// It covers the dataset with all its options and its repeat's seed, the bytes of every file it was
-/// read from, the method's stages with all their options, the protocols with every rule, the times,
-/// metrics and their options, min_coverage, how it is timed, whether a trace is kept, the version
-/// of a plugin's method and the build. Labels, limits and the place in the sweep are not in it.
+/// It covers the dataset with all its options and its repeat's seed, the bytes of its input files,
+/// the method's stages with all their options, the protocols with all fields, the times, metrics
+/// and their options, min_coverage, the timing mode, whether a trace is kept, the version of a
+/// plugin's method and the build. Labels, limits and the position in the sweep are not included.
 #pragma once
 
 #include <map>
@@ -19,30 +19,30 @@ namespace loopbench {
 
 class CellKeys {
  public:
-  /// `build` stands for whatever else decides the numbers: build_id() outside tests.
-  /// The sweep and the catalogue must live as long.
+  /// `build` identifies the program: build_id() outside tests. Sweep and catalogue must outlive
+  /// this.
   CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build);
 
-  /// What the config asks of a cell's sequence: a hash of dataset, options, seed and group.
+  /// Hash of a cell's sequence as configured: dataset, options, seed and group.
   const std::string& asked(const Cell& cell);
 
-  /// The same in words: "simulated: closures.angle=30.0, ...", every option, defaults included.
+  /// The same as text: "simulated: closures.angle=30.0, ..." with all options.
   std::string dataset_in_full(const Cell& cell) const;
 
-  /// What the labels of metrics and methods stand for: "LABEL\tNAME, every option" a line; the
-  /// stages of a method are joined by "; +".
+  /// Definitions of the labels of metrics and methods: one line "LABEL\tNAME, all options" each;
+  /// the stages of a method are joined by "; +".
   std::string metrics_in_full() const;
   std::string methods_in_full() const;
 
-  /// Of what is kept about the sequence: of what is asked, the content of its files and the build.
+  /// Key of a sequence's stored metadata: configuration, content of its files and build.
   std::string sequence_key(const Cell& cell, const std::vector<InputFile>& inputs);
 
-  /// `inputs`: the files the sequence was read from; empty when it never finished loading. O(1).
+  /// `inputs`: input files of the sequence; empty if it could not be loaded. O(1).
   std::string key(const Cell& cell, const std::vector<InputFile>& inputs);
 
-  /// Files that the sequence was read from another time, as they are now: one that an option names
-  /// is looked for again, and the content of each is hashed again. One that is gone is taken to be
-  /// what it was. Throws InputError for one that cannot be read.
+  /// Current state of files that the sequence was read from earlier: searches again for files named
+  /// by an option and hashes all of them again. A file that does not exist is assumed unchanged.
+  /// Throws InputError for a file that cannot be read.
   std::vector<InputFile> as_they_are(const Cell& cell, std::vector<InputFile> inputs) const;
 
   const Sweep& sweep() const { return sweep_; }
@@ -54,7 +54,7 @@ class CellKeys {
   const Catalogue& catalogue_;
   DataRoot root_;
   std::string build_;
-  std::string judged_;                ///< protocols, metrics, times and the like, for all cells
+  std::string judged_;                ///< protocols, metrics, times and so on, common to all cells
   std::vector<std::string> methods_;  ///< for each method of the sweep
   std::map<std::pair<std::size_t, int>, std::string> asked_;
 };

@@ -14,7 +14,7 @@
 namespace loopbench {
 namespace {
 
-/// The first "model name" of /proc/cpuinfo; other machines than PCs have none.
+/// The first "model name" of /proc/cpuinfo, which exists only on PCs.
 std::string cpu_name() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {

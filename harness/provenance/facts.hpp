@@ -1,4 +1,4 @@
-/// Where and by what results were made, beside the results.
+/// Provenance of results: build and machine.
 #pragma once
 
 #include <map>
@@ -9,15 +9,15 @@
 
 namespace loopbench {
 
-/// The commit the program was built from, as its main file knows it.
+/// The commit that the program was built from, as compiled into the executable.
 struct Source {
   std::string commit = "unknown";
   std::string state = "unknown";  ///< clean | dirty | unknown
 };
 
 /// build_facts(), commit, state, build, C library, shared libraries, CPU, cores, memory, kernel,
-/// the seeds of every seeded dataset and the versions of plugins. None of it depends on when it is
-/// asked.
+/// the seeds of every seeded dataset and the versions of plugins. Does not depend on the time of
+/// the call.
 std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue);

@@ -14,7 +14,7 @@ std::string made_by(const std::map<std::string, std::string>& provenance) {
     }
     return out;
   };
-  constexpr std::size_t kShort = 12;  // digits of a commit that tell it from all others
+  constexpr std::size_t kShort = 12;  // unambiguous prefix of a commit
   return "loopbench " + fact("version") + " (" + fact("commit", kShort) + ", " + fact("source") +
          "), " + fact("compiler") + ", " + fact("flags") + "; " + fact("cpu") + ", " +
          fact("kernel");

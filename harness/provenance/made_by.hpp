@@ -1,4 +1,4 @@
-/// Provenance in a line, for the foot of an export.
+/// One-line provenance for the end of an export.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 namespace loopbench {
 
 /// "loopbench 0.1.0 (a9736e1dc55d, dirty), GNU 12.2.0, -O3 -DNDEBUG; AMD EPYC, Linux 6.1 x86_64".
-/// Of a store's provenance; what differs between its cells is told with slashes.
+/// From a store's provenance; values that differ between its cells are separated by slashes.
 std::string made_by(const std::map<std::string, std::string>& provenance);
 
 }  // namespace loopbench

@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-constexpr double kDistance = 1e-4;  // [m]; trajectory files round to this or less
+constexpr double kDistance = 1e-4;  // [m]; rounding of trajectory files is at most this
 constexpr double kAngle = 1e-4;     // [rad]
 
 }  // namespace
@@ -28,7 +28,7 @@ std::size_t closures_equal_to_reference(const Sequence& sequence) {
 }
 
 bool are_oracle_closures(std::size_t equal, std::size_t all) {
-  constexpr std::size_t kOneIn = 20;  // false closures are at most 95 % of all
+  constexpr std::size_t kOneIn = 20;  // at most 95 % of all closures are false
   return equal > 0 && kOneIn * equal >= all;
 }
 

@@ -1,4 +1,4 @@
-/// Loop closures that were taken from the reference without saying so.
+/// Detection of loop closures that were computed from the reference without a declaration.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,14 @@
 
 namespace loopbench {
 
-/// How many closures equal the reference's own relative pose to within 0.1 mm and 0.1 mrad, which
-/// is far below what any sensor measures; the reference is interpolated at the keyframes' stamps.
-/// Not counted: closures measured as the identity (a placeholder, or a body at rest). 0 for
-/// simulated data, whose closures may be free of noise, and for a reference without attitudes.
-/// O(keyframes + closures).
+/// Number of closures that equal the reference's relative pose to within 0.1 mm and 0.1 mrad, far
+/// below sensor noise; the reference is interpolated at the keyframe stamps. Closures measured as
+/// the identity are not counted (a placeholder, or a body at rest). 0 for simulated data, whose
+/// closures can be noise-free, and for a reference without orientations. O(keyframes + closures).
 std::size_t closures_equal_to_reference(const Sequence& sequence);
 
-/// Whether so many of the closures equal the reference that the rest are false or added ones: at
-/// least one in twenty.
+/// Whether at least one in twenty closures equals the reference, so that the others can be added
+/// false closures.
 bool are_oracle_closures(std::size_t equal, std::size_t all);
 
 }  // namespace loopbench

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// Numbers as bytes; members one by one, because padding has no defined value.
+/// Serialises numbers, members one by one, because padding has undefined values.
 class ContentHash {
  public:
   void add(double value) { append(&value, sizeof value); }
@@ -47,7 +47,7 @@ class ContentHash {
     bytes_.append(static_cast<const char*>(data), size);
   }
 
-  std::string bytes_;  ///< not hashed yet, after the hash of all before
+  std::string bytes_;  ///< data not yet hashed, after the hash of the preceding data
 };
 
 std::string hash_of_poses(const Trajectory& poses) {

@@ -1,4 +1,4 @@
-/// Which sequences hold the same numbers, and which share the noise in them.
+/// Identity of sequences: equal content, and shared noise.
 #pragma once
 
 #include <string>
@@ -7,27 +7,27 @@
 
 namespace loopbench {
 
-/// Hash of all that a method is given and is judged against: keyframes, frames, odometry, closures
-/// with information and scale, common_view, planar and the reference, bit by bit. Equal content is
-/// one observation, however often it was loaded. O(poses + edges).
+/// Hash of the method's input and the reference: keyframes, frames, odometry, closures with
+/// information and scale, common_view, planar and the reference, bit by bit. Sequences with equal
+/// content are one observation. O(poses + edges).
 std::string content_of(const Sequence& sequence);
 
-/// The noise that a sequence shares with others; sequences of equal source are not independent.
+/// Source of the noise in a sequence; sequences with equal source are not independent.
 ///
-/// `reference:HASH`: measured data, by the bytes of the reference file. Whatever was derived from
-/// one recording shares its motion and its sensor noise: several odometers on one route, several
-/// runs of one system, closures drawn with several seeds. `reference_body` and keyframe rules make
-/// no difference. Where the reference is no file of its own, its poses are hashed.
+/// `reference:HASH`: measured data, hash of the reference file. Everything derived from one
+/// recording shares its motion and sensor noise: several odometers on one route, several runs of
+/// one system, closures drawn with several seeds. `reference_body` and keyframe rules do not change
+/// it. If the reference is not a separate file, its poses are hashed.
 ///
 /// `noise:HASH`: simulated data, by stream and seed. Another seed draws all noise anew and is
-/// another source although the path is the same: paths are closed formulas that a config selects,
-/// no sample of a population of paths. A p value over seeds therefore says what other noise on
-/// these paths would do, one over recordings what other recordings would do; `group` in a dataset's
-/// entry groups by path where a statement about paths is wanted.
+/// another source although the path is the same: paths are closed formulas selected by the config,
+/// not a sample of a population of paths. A p value over seeds therefore generalises to other noise
+/// on these paths, and a p value over recordings to other recordings. For a statement about paths,
+/// set `group` in the dataset's entry.
 ///
 /// `estimate:HASH`: no reference; by the poses of the keyframes.
 ///
-/// `reference_hash`: of the file in Provenance::reference; empty where there is none.
+/// `reference_hash`: of the file in Provenance::reference; empty if there is none.
 std::string source_of(const Sequence& sequence, const std::string& reference_hash);
 
 }  // namespace loopbench

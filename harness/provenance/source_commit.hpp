@@ -1,5 +1,5 @@
-/// Which commit the program was built from; defined by a file that the build writes into the
-/// executable alone, so that a commit links nothing else again.
+/// Commit from which the program was built; defined in a file that the build links only into the
+/// executable, so that a commit does not relink anything else.
 #pragma once
 
 extern char source_commit[];  ///< 40 hexadecimal digits, or "unknown"

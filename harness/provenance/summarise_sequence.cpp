@@ -13,24 +13,25 @@
 namespace loopbench {
 namespace {
 
-/// Whether the raw keyframes move as if the reference were somebody else; empty: they do not.
+/// Warning if the motion of the raw keyframes indicates another body than the reference's;
+/// otherwise empty.
 std::string reference_of_other_body(const Sequence& sequence) {
   const Trajectory& keyframes = sequence.problem.keyframes;
   if (sequence.reference.empty() || is_position_only(sequence.reference)) return "";
-  const auto there = poses_at(sequence.reference, stamps(keyframes), {});
+  const auto reference_poses = poses_at(sequence.reference, stamps(keyframes), {});
   Trajectory estimate, reference;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    if (!there[i]) continue;
+    if (!reference_poses[i]) continue;
     estimate.push_back(keyframes[i]);
-    reference.push_back({keyframes[i].stamp, *there[i]});
+    reference.push_back({keyframes[i].stamp, *reference_poses[i]});
   }
   const auto offset = body_offset(reference, estimate, {});
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
   const std::string text = offset ? other_body(*offset, stated.value_or(Pose{})) : "";
-  return text.empty() || !stated ? text : text + "; reference_body of the dataset takes it in";
+  return text.empty() || !stated ? text : text + "; see reference_body of the dataset";
 }
 
-/// Closures that are the reference's own, whatever file they come from, are an oracle's.
+/// Marks closures that equal the reference as oracle closures, for any source file.
 void flag_oracle_closures(SequenceFacts& out, const Sequence& sequence) {
   if (out.oracle_closures) return;
   const std::size_t all = sequence.problem.closures.size();

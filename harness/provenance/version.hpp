@@ -2,7 +2,7 @@
 
 namespace loopbench {
 
-/// From CMake's project(VERSION).
+/// Version of CMake's project().
 inline constexpr const char* kVersion = LOOPBENCH_VERSION;
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// The files of a report's page, carried in the program (cmake/embed.cmake writes the definition).
+/// Embedded files of the report page (cmake/embed.cmake generates the definition).
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,11 @@
 namespace loopbench {
 
 struct Asset {
-  std::string_view name;  ///< "page/report.css": its path below harness/report
+  std::string_view name;  ///< "page/report.css": path relative to harness/report
   std::string_view text;
 };
 
-/// In the order of their names within page/ and assets/.
+/// Sorted by name within page/ and assets/.
 const std::vector<Asset>& assets();
 
 }  // namespace loopbench

@@ -44,7 +44,7 @@ ReportContent read_report_content(const std::filesystem::path& store) {
   }
   const std::string baseline = out.run["baseline"];
   std::vector<Record> scores = out.records;
-  // Gain is the ratio of the comparison again, pairs and times are told by the profile.
+  // Gain equals the ratio of the comparison, and the profile covers pairs and times.
   std::erase_if(scores, [](const Record& r) {
     return r.metric == "gain" || r.metric == "pairs" || r.metric == "time";
   });

@@ -1,4 +1,4 @@
-/// What a report tells, read from a store.
+/// Contents of a report, read from a store.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ struct ReportContent {
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;
   std::vector<CellRecord> cells;
-  std::vector<Record> records;          ///< gains, pair counts and times included
+  std::vector<Record> records;          ///< including gains, pair counts and times
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
   std::vector<std::string> sequences;   ///< labels in the order of the sweep
   std::vector<std::string> methods;     ///< likewise
 
-  /// The comparison a summary starts with: ATE of positions under the first protocol, dense where
-  /// there is dense, else whatever comes first. Null when none compares two methods.
+  /// The headline comparison of the summary: position ATE under the first protocol, dense if
+  /// available, otherwise the first comparison. Null if none compares two methods.
   const Comparison* headline() const;
 };
 
-/// Throws InputError when it is not a store, or one without cells.
+/// Throws InputError if it is not a store, or a store without cells.
 ReportContent read_report_content(const std::filesystem::path& store);
 
 }  // namespace loopbench

@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostSections = 600;  // of a kind: more are thinner than a pixel
+constexpr std::size_t kMostSections = 600;  // per kind; more are thinner than a pixel
 
 struct CutKind {
   std::size_t all = 0;

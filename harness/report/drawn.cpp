@@ -10,12 +10,12 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMostPointsOfACell = 400;  // of a cell: beyond that a screen shows no more
-constexpr std::size_t kGoodPoints = 200;    // enough for a curve: then another repeat says more
-constexpr std::size_t kFewestPoints = 60;   // below it curves turn into polygons
-constexpr std::size_t kLeastPoints = 10;    // below it there is no curve
-constexpr std::size_t kMostClosures = 200;  // of a sequence; more hide the trajectory
-constexpr double kBytesOfAPoint = 14.0;     // four words of 16 bits in base64, and a share of grids
+constexpr std::size_t kMostPointsOfACell = 400;  // per cell: screen resolution
+constexpr std::size_t kGoodPoints = 200;    // sufficient for a curve; prefer more repeats beyond
+constexpr std::size_t kFewestPoints = 60;   // fewer make curves look like polygons
+constexpr std::size_t kLeastPoints = 10;    // minimum for a curve
+constexpr std::size_t kMostClosures = 200;  // per sequence; more hide the trajectory
+constexpr double kBytesOfAPoint = 14.0;     // four 16-bit words in base64, and a share of grids
 
 using Column = std::vector<double>;
 
@@ -55,7 +55,7 @@ std::string closures_json(const SequenceTrace& trace) {
 }
 
 struct CellErrors {
-  DrawnPath reference;  ///< where it was judged
+  DrawnPath reference;  ///< at the evaluated poses
   Column x, y, z, angle;
 };
 
@@ -82,7 +82,7 @@ std::map<std::string, std::set<std::int64_t>> repeats_of(const std::vector<CellR
   return out;
 }
 
-/// Cells of the first `repeats` repeats of their sequence, by place in `cells`.
+/// Cells of the first `repeats` repeats of their sequence, as indices into `cells`.
 std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::size_t repeats) {
   const auto known = repeats_of(cells);
   std::vector<std::size_t> out;
@@ -94,7 +94,7 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::
   return out;
 }
 
-/// A sequence as it grows: its reference, then the closures of each of its repeats.
+/// A sequence under construction: its reference, then the closures of each of its repeats.
 struct DrawnSequence {
   double origin = 0.0;  ///< [s]
   std::string reference;

@@ -21,19 +21,18 @@ struct Affected {
   std::set<std::string> scores;
 };
 
-/// Cells that have no scores, or scores of too little.
+/// Cells without scores, or with too little coverage.
 Listing of_cells(const ReportContent& content) {
   std::map<Reason, Affected> reasons;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == "ok" && cell.why.empty()) continue;
-    const std::string status = cell.status == "ok" ? "not judged" : cell.status;
+    const std::string status = cell.status == "ok" ? "not evaluated" : cell.status;
     const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
     Affected& affected = reasons[{status, cell.method, why}];
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
   }
-  Listing out{
-      "cells without their numbers", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  Listing out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
     out.rows.push_back(
@@ -42,7 +41,7 @@ Listing of_cells(const ReportContent& content) {
   return out;
 }
 
-/// Scores that are missing from cells that ran to their end.
+/// Scores missing from cells that finished.
 Listing of_scores(const ReportContent& content) {
   std::set<std::int64_t> ended;
   for (const CellRecord& cell : content.cells) {
@@ -57,10 +56,8 @@ Listing of_scores(const ReportContent& content) {
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
   }
-  Listing out{"scores without a number",
-              {"method", "status", "scores", "cells", "sequences", "why"},
-              {},
-              {}};
+  Listing out{
+      "undefined scores", {"method", "status", "scores", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
     out.rows.push_back({method,
@@ -81,7 +78,7 @@ std::string failures_html(const ReportContent& content) {
     if (!listing.rows.empty()) out += html_text_table(listing);
   }
   if (!out.empty()) return out;
-  return "<p>Every cell ran to its end and every score has its number.</p>\n";
+  return "<p>Every cell finished and every score has a value.</p>\n";
 }
 
 }  // namespace loopbench

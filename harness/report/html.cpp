@@ -74,7 +74,7 @@ std::string script_text(std::string json) {
   std::string out;
   out.reserve(json.size());
   for (const char c : json) {
-    // In JSON a < stands in strings only.
+    // In JSON, < occurs only in strings.
     if (c == '<') {
       out += "\\u003c";
     } else {

@@ -1,4 +1,4 @@
-/// Texts and tables as HTML.
+/// Conversion of text and tables to HTML.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace loopbench {
 /// For element content and quoted attributes: & < > " ' replaced, control characters dropped.
 std::string html_text(std::string_view text);
 
-/// JSON for a <script> element: no `<` is left, so that nothing in it can end the element.
+/// JSON for a <script> element, with every `<` escaped, so that no content can end the element.
 std::string script_text(std::string json);
 
-/// A table with its caption; notes in a list below. `attributes` stands in the figure's tag as is.
+/// A table with its caption and a list of notes. `attributes` is inserted into the figure's tag.
 std::string html_table(const Sheet& sheet, const std::string& attributes = "");
 std::string html_table(const Listing& listing);
 
-/// Likewise for columns of words rather than numbers.
+/// The same for columns of words instead of numbers.
 std::string html_text_table(const Listing& listing);
 
 }  // namespace loopbench

@@ -18,7 +18,7 @@ namespace {
 
 using Placeholders = std::map<std::string, std::string, std::less<>>;
 
-/// The template with every {{name}} replaced, in one pass: what is put in is not looked at again.
+/// Replaces every {{name}} in the template in one pass; inserted text is not searched again.
 std::string filled(std::string_view page, const Placeholders& values) {
   std::string out;
   while (true) {
@@ -40,9 +40,9 @@ std::string asset_text(std::string_view name) {
   throw std::logic_error("report: no such asset");
 }
 
-/// The library, then the page's own scripts, each after those that it builds on.
+/// The library, then the page's own scripts in order of their dependencies.
 std::string scripts() {
-  // The licence asks for its notice in all copies, and every report holds one.
+  // The licence requires its notice in all copies, so every report includes it.
   std::string out = "<script>/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
                     asset_text("assets/d3.min.js") + "</script>\n";
   for (const char* name : {"data",
@@ -89,7 +89,7 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
     const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));
     const double room = static_cast<double>(bytes - std::min(bytes, taken));
     if (thin(thinning, room / std::max(1.0, traces))) continue;
-    throw InputError(fmt::format("{}: the report takes {:.2f} MB at least, --size allows {:.2f}",
+    throw InputError(fmt::format("{}: the report needs at least {:.2f} MB, --size is {:.2f}",
                                  content.store.string(),
                                  std::ceil(1e-4 * static_cast<double>(html.size())) / 100.0,
                                  1e-6 * static_cast<double>(bytes)));

@@ -1,4 +1,4 @@
-/// One HTML file that tells what a sweep found; opens offline, prints, needs nothing beside it.
+/// HTML report of a sweep in one self-contained file.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 namespace loopbench {
 
 /// Tables and verdicts are plain HTML; figures are drawn from embedded data by the page's scripts
-/// (d3, embedded). Trajectories are thinned until all stays below `bytes`, first of later repeats.
-/// Throws InputError naming the least size when that is not enough.
+/// (d3, embedded). Trajectories are thinned until the file is smaller than `bytes`, later repeats
+/// first. Throws InputError naming the minimum size if that is not possible.
 std::string report_html(const ReportContent& content, std::size_t bytes = 9'000'000);
 
 }  // namespace loopbench

@@ -25,7 +25,7 @@ std::string score_name(const Comparison& c) {
   return field(c.kind, "score") + " " + c.options.value + " [" + c.kind.unit + "]";
 }
 
-/// "-27.3 %" in large type with its interval, when there is something to say so plainly.
+/// The gain in large type with its interval, if it can be stated as one number.
 std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
   if (best.method == c.options.baseline || !best.ratio) return "";
@@ -77,7 +77,7 @@ std::string summary_html(const ReportContent& content) {
   if (!headline->oracles.empty()) {
     std::string names;
     for (const std::string& name : headline->oracles) names += (names.empty() ? "" : ", ") + name;
-    out += "<p class=\"warning\">Shown the reference, and so left out of verdicts: " +
+    out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
            html_text(names) + "</p>\n";
   }
   std::set<std::string> measured;
@@ -86,8 +86,8 @@ std::string summary_html(const ReportContent& content) {
   }
   for (const std::string& name : measured) {
     out += "<p class=\"warning\">" + html_text(name) +
-           ": loop closures were measured in the reference or selected by it (oracle), better than "
-           "any detector's.</p>\n";
+           ": loop closures were measured in the reference or selected by it (oracle), which is "
+           "better than any detector.</p>\n";
   }
   return out;
 }
@@ -100,7 +100,7 @@ std::string verdicts_html(const ReportContent& content) {
     out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
   }
   out.notes.push_back(
-      "each score is tested by itself: with many scores, some claims are false by chance");
+      "each score is tested separately; with many scores, some claims are false by chance");
   return html_text_table(out);
 }
 
@@ -149,11 +149,11 @@ std::string provenance_html(const ReportContent& content) {
   };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
          html_text(value_of("protocol")) + "</pre>\n";
-  Listing made{"made by", {"what", "value"}, {}, {}};
+  Listing made{"provenance", {"item", "value"}, {}, {}};
   for (const auto& [key, value] : content.provenance) made.rows.push_back({key, value});
   out += html_text_table(made);
   if (!content.inputs.empty()) {
-    Listing files{"made from", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    Listing files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
       for (const InputFile& input : inputs) {
         files.rows.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});

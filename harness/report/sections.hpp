@@ -1,4 +1,4 @@
-/// The parts of a report that are plain HTML.
+/// Static HTML sections of a report.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace loopbench {
 
-/// How much was run and with what outcome, and the headline verdict in large type.
+/// Summary: number of cells by status, and the headline verdict in large type.
 std::string summary_html(const ReportContent& content);
 
-/// A verdict for every score.
+/// Verdict for every score.
 std::string verdicts_html(const ReportContent& content);
 
 /// The headline comparison in full.
@@ -19,13 +19,13 @@ std::string comparison_html(const ReportContent& content);
 /// Methods by scores, a table for each sequence, times and protocol.
 std::string scores_html(const ReportContent& content);
 
-/// Cells that did not end well, by reason.
+/// Failed cells and undefined scores, by reason.
 std::string failures_html(const ReportContent& content);
 
-/// Costs, what methods report of themselves, growth with size, accuracy against time.
+/// Costs, values reported by the methods, scaling with size, accuracy against time.
 std::string costs_html(const ReportContent& content);
 
-/// Protocols in full, by what and from what it was made, the config.
+/// Protocols, provenance, input files, config.
 std::string provenance_html(const ReportContent& content);
 
 }  // namespace loopbench

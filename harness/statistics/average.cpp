@@ -6,14 +6,14 @@
 namespace loopbench {
 
 double mean(std::span<const double> values) {
-  if (values.empty()) throw std::invalid_argument("the mean of nothing");
+  if (values.empty()) throw std::invalid_argument("mean of an empty list");
   double sum = 0.0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
 double sample_deviation(std::span<const double> values) {
-  if (values.size() < 2) throw std::invalid_argument("a deviation needs two values");
+  if (values.size() < 2) throw std::invalid_argument("standard deviation of fewer than two values");
   const double middle = mean(values);
   double sum = 0.0;
   for (const double value : values) sum += (value - middle) * (value - middle);

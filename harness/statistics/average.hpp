@@ -1,14 +1,14 @@
-/// One number for many: means. (The median is metrics/numerics/median.hpp.)
+/// Mean and standard deviation. (The median is in metrics/numerics/median.hpp.)
 #pragma once
 
 #include <span>
 
 namespace loopbench {
 
-/// Throws std::invalid_argument when empty.
+/// Arithmetic mean. Throws std::invalid_argument for an empty list.
 double mean(std::span<const double> values);
 
-/// With the divisor n - 1. Throws std::invalid_argument on fewer than two values.
+/// Standard deviation with divisor n - 1. Throws std::invalid_argument for fewer than two values.
 double sample_deviation(std::span<const double> values);
 
 }  // namespace loopbench

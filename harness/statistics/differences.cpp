@@ -11,7 +11,7 @@ namespace loopbench {
 Differences paired_differences(std::span<const double> values,
                                std::span<const double> baseline,
                                double tie) {
-  if (values.size() != baseline.size()) throw std::invalid_argument("pairs need two of each");
+  if (values.size() != baseline.size()) throw std::invalid_argument("paired lists differ in size");
   const auto positive = [](double value) { return value > 0.0; };
   Differences out;
   out.is_ratio = std::ranges::all_of(values, positive) && std::ranges::all_of(baseline, positive);

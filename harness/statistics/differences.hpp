@@ -1,4 +1,4 @@
-/// Two values of the same run, laid against each other.
+/// Paired differences between two lists of values.
 #pragma once
 
 #include <span>
@@ -6,17 +6,16 @@
 
 namespace loopbench {
 
-/// Relative difference below which two errors are the same number computed in another order, not a
-/// better and a worse one.
+/// Relative difference below which two errors count as the same number computed in another order.
 inline constexpr double kTie = 1e-9;
 
 struct Differences {
   std::vector<double> values;  ///< negative: lower than the baseline; ties are exactly 0
-  bool is_ratio = false;       ///< they are logarithms of value / baseline
+  bool is_ratio = false;       ///< values are logarithms of value / baseline
 };
 
-/// Logarithms of ratios where all values are positive, so that a run with errors of metres does not
-/// drown one with errors of centimetres; plain differences otherwise. The spans have one length
+/// Log ratios if all values are positive, so that runs with errors of metres do not dominate runs
+/// with errors of centimetres; otherwise plain differences. The spans must have equal length
 /// (std::invalid_argument). O(n).
 Differences paired_differences(std::span<const double> values,
                                std::span<const double> baseline,

@@ -1,4 +1,4 @@
-/// Many tests, one error rate.
+/// Correction for multiple tests.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 namespace loopbench {
 
 /// p-values adjusted by Holm's step-down procedure (Scandinavian Journal of Statistics 6, 1979), in
-/// the order given: rejecting where the adjusted p is below alpha keeps the chance of any false
-/// rejection below alpha, whatever the dependence between the tests. O(n log n).
+/// input order: rejecting if the adjusted p is below alpha limits the probability of any false
+/// rejection to alpha, for any dependence between the tests. O(n log n).
 std::vector<double> holm(std::span<const double> p);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Ranks in which equals share.
+/// Ranks with ties.
 #pragma once
 
 #include <span>
@@ -6,15 +6,15 @@
 
 namespace loopbench {
 
-/// Relative difference up to which two errors count as equal: less is rounding, another order of
-/// summation or another solver, whatever its p.
+/// Relative difference up to which two errors count as equal: smaller ones are due to rounding,
+/// summation order or solver, for any p value.
 inline constexpr double kRelevant = 1e-6;
 
 /// Whether |a - b| <= tie * max(|a|, |b|).
 bool tied(double a, double b, double tie);
 
-/// 1 for the smallest; ties get the mean of the ranks they span. Neighbours in order that are
-/// `tied` share, and so do chains of them; 0 ties only equals. No NaN. O(n log n).
+/// 1 for the smallest; ties get the mean of their ranks. Neighbouring values that are `tied` share
+/// a rank, also in chains; 0 ties only equal values. No NaN. O(n log n).
 std::vector<double> midranks(std::span<const double> values, double tie = 0.0);
 
 }  // namespace loopbench

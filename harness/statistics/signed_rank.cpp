@@ -15,7 +15,7 @@ struct Tails {
   double upper;  ///< P(T >= t)
 };
 
-/// Of the sum of those ranks whose fair coin shows heads. Midranks are halves: twice them is whole.
+/// Exact distribution of the sum of ranks with random signs. Midranks are doubled to be integers.
 Tails exact_tails(const std::vector<double>& ranks, double t) {
   std::size_t total = 0;
   for (const double rank : ranks) total += static_cast<std::size_t>(std::lround(2.0 * rank));
@@ -38,7 +38,7 @@ Tails exact_tails(const std::vector<double>& ranks, double t) {
   return tails;
 }
 
-/// The variance of the ranks at hand, which holds with ties and dropped zeros.
+/// Variance given the observed ranks, which is correct with ties and dropped zeros.
 Tails normal_tails(const std::vector<double>& ranks, double t, bool continuity) {
   double center = 0.0;
   double variance = 0.0;
@@ -70,7 +70,7 @@ SignedRank signed_rank(std::span<const double> differences, const SignedRankOpti
     signs.push_back(difference > 0.0);
   }
   const std::vector<double> all = midranks(magnitudes);
-  std::vector<double> ranks;  // of those that are not zero
+  std::vector<double> ranks;  // of non-zero differences
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (magnitudes[i] == 0.0) continue;
     ranks.push_back(all[i]);

@@ -77,9 +77,9 @@ void read_details(Database& database,
                   const std::string& table,
                   CellRows& rows,
                   const std::function<void(std::size_t cell, Statement& row)>& each) {
-  std::size_t cell = 0;  // rows of one cell mostly follow those of the cell before it
+  std::size_t cell = 0;  // rows of one cell mostly follow each other
   std::vector<RowsDigest> digests(rows.cells.size());
-  // Not by an index: what it leads to may be less than there is.
+  // Not by an index, which can be damaged and miss rows.
   Statement row = database.prepare("SELECT * FROM " + table + " NOT INDEXED ORDER BY rowid");
   while (row.step()) {
     const std::int64_t id = row.integer();
@@ -100,8 +100,8 @@ void read_details(Database& database,
 
 void refuse_damaged(const std::filesystem::path& file, const std::string& what) {
   throw InputError(file.string() + ": is damaged: " + what +
-                   " not what was written; 'loopbench run' with its config and '--retry damaged' "
-                   "makes it again");
+                   " not as written; run 'loopbench run' with its config and '--retry damaged' "
+                   "to recompute it");
 }
 
 void require_whole(const CellRows& rows, const std::filesystem::path& file) {
@@ -118,7 +118,7 @@ std::string label_of(const CellRecord& cell) {
   const std::string repeat = cell.repeat > 0 ? " (repeat " + std::to_string(cell.repeat) + ")" : "";
   std::string out = cell.sequence + repeat + " / " + cell.method;
   for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // of a damaged name
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // in a damaged name
   }
   return out;
 }

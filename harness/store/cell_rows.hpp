@@ -1,4 +1,4 @@
-/// The rows of a store, each held against its digest.
+/// Rows of a store, each checked against its digest.
 #pragma once
 
 #include <array>
@@ -15,43 +15,43 @@ namespace loopbench {
 
 struct CellRow {
   std::int64_t id = 0;
-  bool placed = false;  ///< the config asks for it
+  bool placed = false;  ///< part of the current config
   std::string sequence_key;
   std::int64_t failed_scores = 0;
   std::array<std::string, 6> details;  ///< digests of its rows by detail_number()
   std::string digest;
-  bool whole = false;  ///< is, as far as was looked at, what was written
-  CellRecord record;   ///< without phases, counts, notes and what its sequence knows
+  bool whole = false;  ///< unchanged since it was written, as far as checked
+  CellRecord record;   ///< without phases, counts, notes and sequence data
 };
 
 struct CellRows {
   std::vector<CellRow> cells;  ///< by id
-  bool complete = false;       ///< none was lost: their digests sum up to what was written
+  bool complete = false;       ///< no row is missing: the digests match the stored sum
 };
 
-/// The table cell. O(cells).
+/// Reads the table cell. O(cells).
 CellRows read_cell_rows(Database& database);
 
-/// Every row of `table` (score, phase, count, note or section) whose cell is there, in the order of
-/// writing, at its second column; then marks the cells that are not whole. O(rows).
+/// Visits every row of `table` (score, phase, count, note or section) whose cell exists, in order
+/// of writing, from its second column; then marks the damaged cells. O(rows).
 void read_details(Database& database,
                   const std::string& table,
                   CellRows& rows,
                   const std::function<void(std::size_t cell, Statement& row)>& each = {});
 
-/// Place of a table (score, phase, count, note, section or trace) in CellRow::details.
+/// Index of a table (score, phase, count, note, section or trace) in CellRow::details.
 std::size_t detail_number(const std::string& table);
 
-/// Throws InputError naming the first cell that is not whole, or when one was lost.
+/// Throws InputError naming the first damaged cell, or if a cell is missing.
 void require_whole(const CellRows& rows, const std::filesystem::path& file);
 
-/// Throws InputError: `what` in `file` is not what was written.
+/// Throws InputError: `what` in `file` is not as written.
 [[noreturn]] void refuse_damaged(const std::filesystem::path& file, const std::string& what);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
 std::string label_of(const CellRecord& cell);
 
-/// Positions in `rows.cells` of the cells that the config asks for, in the order of the sweep.
+/// Indices in `rows.cells` of the cells of the current config, in sweep order.
 std::vector<std::size_t> in_order(const CellRows& rows);
 
 }  // namespace loopbench

@@ -176,9 +176,9 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .run();
   }
   const SequenceSize& size = facts.size;
-  Statement there = database_.prepare("SELECT digest FROM sequence WHERE sequence_key = ?");
-  if (there.bind(sequence_key).step()) digests_.remove("sequence", there.text());
-  there.reset();
+  Statement stored = database_.prepare("SELECT digest FROM sequence WHERE sequence_key = ?");
+  if (stored.bind(sequence_key).step()) digests_.remove("sequence", stored.text());
+  stored.reset();
   database_
       .prepare(
           "INSERT OR REPLACE INTO sequence (sequence_key, asked, options, keyframes, odometry, "

@@ -1,4 +1,4 @@
-/// One cell's rows.
+/// Writes the rows of one cell.
 #pragma once
 
 #include <set>
@@ -14,11 +14,11 @@ namespace loopbench {
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {
  public:
-  /// `made`: the rows of the table provenance that say by what these cells are made.
+  /// `made`: key of the provenance rows for these cells.
   CellWriter(Database& database, std::string made);
 
-  /// One transaction: everything about the cell, and about its sequence when it is new; what was
-  /// at the cell's place goes. Throws InputError; then nothing of the cell is written.
+  /// Writes a cell, and its sequence if it is new, in one transaction; replaces the cell at the
+  /// same position. Throws InputError; then nothing of the cell is written.
   void write(const CellResult& result, CellKeys& keys);
 
  private:
@@ -38,10 +38,10 @@ class CellWriter {
   Statement section_;
   Statement trace_;
   DigestWriter digests_;
-  std::set<std::string> facts_;  ///< sequences whose facts are written, by their keys
+  std::set<std::string> facts_;  ///< keys of sequences whose metadata are written
 };
 
-/// Removes the cell with that id from every table; not from the sum of digests.
+/// Removes the cell with that id from every table, but not from the sum of digests.
 void remove_cell(Database& database, std::int64_t id);
 
 }  // namespace loopbench

@@ -47,7 +47,7 @@ Sound look(Database& database, bool traces) {
       if (!sequence->second.whole) cell.whole = false;
       continue;
     }
-    // Only a cell that failed may have none: its sequence never finished loading.
+    // Only a failed cell can have none, because its sequence could not be loaded.
     const auto status = from_text<Status>(cell.record.status);
     if (lost && !(status && is_failure(*status))) cell.whole = false;
   }
@@ -63,7 +63,7 @@ void remove(Database& database, const Sound& found) {
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.whole) remove_cell(database, cell.id);
   }
-  // Rows whose cell was damaged beyond telling which it is must not fall to a later one.
+  // Rows of a removed cell must not be assigned to a later cell with the same id.
   for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
     database.execute(std::string("DELETE FROM ") + table +
                      " WHERE cell NOT IN (SELECT id FROM cell)");
@@ -91,9 +91,10 @@ Sound remove_damaged(Database& database, const std::filesystem::path& file, bool
   remove(database, found);
   Sound out = look(database, traces);
   if (!is_whole(out)) {
-    throw InputError(file.string() +
-                     ": is damaged beyond mending; --fresh keeps it as previous.sqlite and starts "
-                     "anew");
+    throw InputError(
+        file.string() +
+        ": is damaged and cannot be repaired; --fresh keeps it as previous.sqlite and starts "
+        "a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.whole) out.removed.push_back(label_of(cell.record));
@@ -115,8 +116,8 @@ void require_whole_texts(Database& database,
                          const std::filesystem::path& file) {
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
   throw InputError(file.string() + ": is damaged: its table " + table +
-                   " is not what was written; 'loopbench run' with its config and '--fresh' starts "
-                   "anew and keeps this one as previous.sqlite");
+                   " is not as written; run 'loopbench run' with its config and '--fresh', which "
+                   "keeps this store as previous.sqlite");
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Taking out of a store what is not as it was written.
+/// Removal of damaged rows from a store.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ namespace loopbench {
 struct Sound {
   CellRows cells;
   SequenceRows sequences;
-  std::vector<std::string> removed;  ///< labels of the cells that were damaged
-  bool lost = false;                 ///< others, of which nothing is left
+  std::vector<std::string> removed;  ///< labels of the damaged cells
+  bool lost = false;                 ///< further cells are missing completely
 };
 
-/// Removes every cell that is damaged, or whose sequence is: it counts as never run. Traces, nearly
-/// all of the file, and indexes are seen to only with `traces`. To be called within a transaction.
-/// O(rows). Throws InputError when what is damaged is not of a cell.
+/// Removes every cell that is damaged, or whose sequence is; it counts as not run. Checks traces
+/// (nearly all of the file) and indexes only with `traces`. Call within a transaction. O(rows).
+/// Throws InputError if the damage is outside the cells.
 Sound remove_damaged(Database& database, const std::filesystem::path& file, bool traces);
 
-/// Throws InputError unless all of the store is what was written, traces too. O(bytes).
+/// Throws InputError unless the complete store, including traces, is as written. O(bytes).
 void require_whole_store(const std::filesystem::path& file);
 
-/// Throws InputError unless `table`, run or provenance, is what was written.
+/// Throws InputError unless `table`, run or provenance, is as written.
 void require_whole_texts(Database& database,
                          const std::string& table,
                          const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-/// What a changed byte is found by: SQLite keeps no checksums of its own.
+/// Digests for the detection of changed bytes; SQLite has no checksums.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace loopbench {
 
-/// Of rows in their order. Chained MurmurHash3 x64 128.
+/// Digest of rows in order. Chained MurmurHash3 x64 128.
 class RowsDigest {
  public:
-  /// The columns in [from, to).
+  /// Adds the columns in [from, to).
   void add(Statement& row, int from, int to);
 
-  /// 32 hexadecimal digits, or nothing when there was no row.
+  /// 32 hexadecimal digits; empty without rows.
   std::string text() const { return any_ ? hex(state_) : ""; }
 
  private:
@@ -23,14 +23,14 @@ class RowsDigest {
   bool any_ = false;
 };
 
-/// Of the columns in [from, to) of one row, the same as that of a list of it alone.
+/// Digest of the columns in [from, to) of one row, equal to that of a list of this row.
 std::string digest_of_columns(Statement& row, int from, int to);
 
-/// Of rows in any order, kept up to date row by row: the sum of their digests, 64 bits at a time
+/// Digest of rows in any order, updated row by row: the sum of their digests, 64 bits at a time
 /// (AdHash; Bellare and Micciancio 1997).
 class SumOfDigests {
  public:
-  /// `digest`: a text() of this or of RowsDigest; anything else counts as zero.
+  /// `digest`: a text() of this class or of RowsDigest; any other text counts as zero.
   void add(std::string_view digest);
   void remove(std::string_view digest);
   std::string text() const { return hex(sum_); }

@@ -22,7 +22,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   if (reason == EWOULDBLOCK) {
     throw InputError(folder.string() +
                      ": another sweep is writing its results here; wait for it, "
-                     "or give this one a folder of its own with --out");
+                     "or choose another folder with --out");
   }
   throw InputError(folder.string() + ": cannot be locked: " + std::strerror(reason));
 }

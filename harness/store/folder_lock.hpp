@@ -1,15 +1,15 @@
-/// One sweep a folder at a time.
+/// Lock that allows one sweep per folder.
 #pragma once
 
 #include <filesystem>
 
 namespace loopbench {
 
-/// Holds a folder until destroyed, or until the process ends however it ends: nothing is left
-/// behind by a kill.
+/// Locks a folder until destroyed or until the process ends; a killed process leaves no lock
+/// behind.
 class FolderLock {
  public:
-  /// Throws InputError when another process holds it, or it cannot be opened.
+  /// Throws InputError if another process holds the lock, or the folder cannot be opened.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

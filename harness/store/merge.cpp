@@ -34,7 +34,7 @@ constexpr const char* kCellColumns =
     "failed_scores, score_digest, phase_digest, count_digest, note_digest, section_digest, "
     "trace_digest";
 
-/// The tables that belong to a cell, and their columns but `cell`.
+/// The tables of a cell's rows, with their columns except `cell`.
 constexpr std::pair<const char*, const char*> kDetails[] = {
     {"score",
      "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target, "
@@ -59,7 +59,7 @@ class Merge {
 
   void add(const std::filesystem::path& store) {
     store_ = store_file(store).string();
-    require_whole_store(store_);  // and takes up what a kill has left
+    require_whole_store(store_);  // also recovers the log of a killed process
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
@@ -103,8 +103,8 @@ class Merge {
   void add(MergedCell& cell) {
     if (build_.empty()) build_ = cell.build;
     if (cell.build != build_ && !mixed_builds_) {
-      throw InputError(store_ + ": was made by build " + cell.build + ", the stores before it by " +
-                       build_ + "; --mixed-builds merges them all the same");
+      throw InputError(store_ + ": was computed by build " + cell.build +
+                       ", the earlier stores by " + build_ + "; use --mixed-builds to merge them");
     }
     const Identity identity{cell.key, cell.sequence, cell.repeat, cell.method};
     if (const auto same = known_.find(identity); same != known_.end()) {
@@ -123,7 +123,7 @@ class Merge {
       if (cell.build == build_ ||
           !labels_.emplace(cell.sequence, cell.repeat, cell.method).second) {
         throw InputError(store_ + ": " + cell.sequence + " / " + method +
-                         " is in an earlier store too, with other options, inputs or protocols");
+                         " is also in an earlier store, with other options, inputs or protocols");
       }
     }
     if (!positions_.insert(cell.position).second) {
@@ -168,10 +168,11 @@ class Merge {
         "AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN (SELECT sequence_key "
         "FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
     if (other.step()) {
-      throw InputError(store_ + ": read another " + other.text() + " than the stores before it");
+      throw InputError(store_ + ": was computed from another " + other.text() +
+                       " than the earlier stores");
     }
     other.reset();
-    // Whole from one store, for their digests; one with a trace rather than one without.
+    // Copied completely from one store, because of the digests; preferably with a trace.
     for (const char* table : {"input", "sequence"}) {
       database_.execute(
           "DELETE FROM main." + std::string(table) +
@@ -188,7 +189,7 @@ class Merge {
     }
   }
 
-  /// What differs is told one below the other; the baseline is the first store's.
+  /// Different values are concatenated as lines; the baseline is that of the first store.
   void add_texts() {
     database_.execute(
         "INSERT INTO main.run SELECT key, value FROM source.run WHERE key <> 'exported' ON "
@@ -204,9 +205,9 @@ class Merge {
   Database database_;
   DigestWriter digests_;
   bool mixed_builds_;
-  std::string store_;  ///< being added
+  std::string store_;  ///< the store being added
   std::string build_;  ///< of the first cell
-  /// Key and labels as they were: two labels may ask for the same.
+  /// Original key and labels; two labels can have the same key.
   using Identity = std::tuple<std::string, std::string, std::int64_t, std::string>;
   std::map<Identity, MergedCell> known_;
   std::set<std::tuple<std::string, std::int64_t, std::string>> labels_;
@@ -220,7 +221,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     bool mixed_builds) {
   if (std::filesystem::exists(out)) {
-    throw InputError(out.string() + ": is there already; merge writes a new store");
+    throw InputError(out.string() + ": exists already; merge writes a new store");
   }
   const std::filesystem::path partial = out.string() + ".partial";
   std::error_code none;
@@ -233,7 +234,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
       for (const std::filesystem::path& store : stores) merge.add(store);
       merged = merge.done();
     }
-    require_whole_store(partial);  // what a damaged index did not find was not copied
+    require_whole_store(partial);  // detects rows that a damaged index did not find
     std::filesystem::rename(partial, out);
     return merged;
   } catch (const std::filesystem::filesystem_error& error) {

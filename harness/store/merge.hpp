@@ -1,4 +1,4 @@
-/// Several stores as one.
+/// Merging of several stores.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,16 @@ namespace loopbench {
 
 struct Merged {
   std::size_t cells = 0;
-  std::size_t twice = 0;  ///< cells that were in an earlier store too, left out
+  std::size_t twice = 0;  ///< duplicate cells that were skipped
 };
 
-/// Writes the cells of all `stores` (those their configs ask for) into the new store `out`, whole
-/// or not at all. A cell with the same key and labels as an earlier one is left out, unless the
-/// earlier one failed and this one did not; two labels for the same both stay. Cells keep their
-/// positions where these are free. With `mixed_builds`, a cell that another build made too gets its
-/// build into the method's label. Throws InputError: `out` is there, cells of several builds, cells
-/// with the same labels that differ in anything else, sequences read from different files.
+/// Writes the cells of all `stores` (those of their current configs) into the new store `out`; on
+/// error nothing is written. Skips a cell with the same key and labels as an earlier one, unless
+/// the earlier one failed and this one did not; two labels for the same key are both kept. Cells
+/// keep their positions where these are free. With `mixed_builds`, the build is added to the method
+/// label of a cell that another build also computed. Throws InputError if `out` exists, for cells
+/// of several builds, cells with equal labels but other differences, and sequences read from
+/// different files.
 Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     bool mixed_builds);

@@ -9,7 +9,7 @@ std::filesystem::path store_file(const std::filesystem::path& given) {
   const std::filesystem::path file =
       std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
   if (!std::filesystem::exists(file)) {
-    throw InputError(file.string() + ": no such file, expected a store of results");
+    throw InputError(file.string() + ": file not found, expected a store of results");
   }
   return file;
 }

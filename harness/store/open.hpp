@@ -1,4 +1,4 @@
-/// Opening a finished store for reading.
+/// Opens a finished store for reading.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace loopbench {
 
-/// `given`, or results.sqlite in the folder it is. Throws InputError when there is none.
+/// `given`, or results.sqlite if it is a folder. Throws InputError if the file does not exist.
 std::filesystem::path store_file(const std::filesystem::path& given);
 
-/// Within a transaction for reading, which ends with it: what a sweep writes meanwhile is not seen.
-/// Throws InputError when it is not a store of this schema.
+/// Opens the database in a read transaction, which does not see concurrent writes. Throws
+/// InputError if it is not a store of this schema.
 Database open_store(const std::filesystem::path& given);
 
-/// Throws InputError naming `file` unless the schema is this program's.
+/// Throws InputError naming `file` if the schema differs from this program's.
 void check_schema(Database& database, const std::filesystem::path& file);
 
 }  // namespace loopbench

@@ -14,7 +14,7 @@
 namespace loopbench {
 namespace {
 
-/// Adds the lines of `more` that `text` does not have.
+/// Appends the lines of `more` that are not in `text`.
 void add_lines(std::string& text, const std::string& more) {
   std::istringstream lines(more);
   for (std::string line; std::getline(lines, line);) {
@@ -30,7 +30,7 @@ std::string sequence_label(const CellRecord& cell) {
                          : cell.sequence;
 }
 
-/// What every record of the cell has.
+/// The common fields of all records of a cell.
 Record record_of(const CellRecord& cell) {
   Record r;
   r.cell = cell.position;
@@ -71,14 +71,14 @@ void add_score(const CellRecord& cell, Statement& row, std::vector<Record>& out)
   r.pairs = row.integer();
   r.possible = row.integer();
   row.real();  // span
-  // An incomplete cell may be complete at other times: its scores know.
+  // An incomplete cell can be complete at other times, so its scores have their own status.
   const std::string status = row.text();
   const std::string why = row.text();
   if (cell.status == "ok" || cell.status == "incomplete") r.status = status;
   if (cell.why.empty() || cell.status == "incomplete") r.why = why;
 }
 
-/// Calls `add(sequence label, row)` once for every sequence of the cells that the config asks for.
+/// Calls `add(sequence label, row)` once for every sequence of the config's cells.
 template <class Add>
 void for_sequences(const std::filesystem::path& file, Add add) {
   Database database = open_store(file);
@@ -111,7 +111,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
     const auto sequence = sequences.by_key.find(rows.cells[cell].sequence_key);
-    // A declined or failed cell has no score.
+    // A declined or failed cell has no scores.
     if (scores[cell].empty()) scores[cell].push_back(record_of(rows.cells[cell].record));
     for (Record& r : scores[cell]) {
       if (sequence == sequences.by_key.end()) break;

@@ -1,5 +1,5 @@
-/// Reading a store. Only what the config asks for is read: cells it asks for no more are kept for
-/// their keys, but are in no answer here.
+/// Reads a store. Only cells of the current config are read; others are kept in the store for
+/// reuse.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,25 @@
 
 namespace loopbench {
 
-/// All records in the order of the sweep, whatever the order they were written in. A metric that
-/// failed or was declined as a whole has a record for every score it gives elsewhere. `file` may be
-/// the folder that holds results.sqlite. Throws InputError when it is not a store.
+/// All records in sweep order. A metric that failed or was declined completely has a record for
+/// every score that it has elsewhere. `file` can be the folder with results.sqlite. Throws
+/// InputError if it is not a store.
 std::vector<Record> read_records(const std::filesystem::path& file);
 
-/// One row per cell, in the order of the sweep.
+/// One row per cell, in sweep order.
 std::vector<CellRecord> read_cells(const std::filesystem::path& file);
 
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);
 
-/// By what the cells that the config asks for were made: commit, compiler, machine and so on. What
-/// differs between cells stands on lines of its own, in the order of the sweep.
+/// Provenance of the cells of the current config: commit, compiler, machine and so on. Values that
+/// differ between cells are separate lines, in sweep order.
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file);
 
-/// The files each sequence was read from, by "LABEL" or "LABEL (repeat N)".
+/// Input files of each sequence, by "LABEL" or "LABEL (repeat N)".
 std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file);
 
-/// "DATASET: every option, defaults included" of each sequence that was loaded, by the same labels.
+/// "DATASET: all options including defaults" of each loaded sequence, by the same labels.
 std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file);
 
 }  // namespace loopbench

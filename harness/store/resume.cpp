@@ -9,7 +9,7 @@
 namespace loopbench {
 namespace {
 
-/// A cell as it is in the store.
+/// A cell in the store.
 struct Row {
   std::int64_t id = 0;
   std::int64_t position = -1;  ///< -1: none
@@ -17,7 +17,7 @@ struct Row {
   std::int64_t repeat = 0;
   std::string method;
   Status status = Status::ok;
-  bool failed = false;  ///< the method, or a metric on it
+  bool failed = false;  ///< the method, or one of its metrics
   bool claimed = false;
 };
 
@@ -45,8 +45,8 @@ bool same_content(const Inputs& a, const Inputs& b) {
   return std::ranges::equal(a, b, {}, &InputFile::hash, &InputFile::hash);
 }
 
-/// The inputs of a cell's sequence as they are now. A store may know several contents of what is
-/// asked for, each with its own list of files: the one that is still true, or else any list.
+/// The current inputs of a cell's sequence. A store can hold several versions of a sequence, each
+/// with its own list of files: returns the version that matches the files now, or otherwise any.
 Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, const Cell& cell) {
   Inputs now;
   for (const SequenceRow* sequence : known) {
@@ -56,7 +56,7 @@ Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, 
   return now;
 }
 
-/// The key of every cell, with the inputs as they are now.
+/// The key of every cell with the current inputs.
 std::vector<std::string> keys_now(const SequenceRows& sequences,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
@@ -79,7 +79,7 @@ bool same_labels(const Row& row, const Cell& cell, const Sweep& sweep) {
          row.method == sweep.methods[cell.method].label;
 }
 
-/// The row of each cell, or null. Two cells may have one key; then labels tell whose is whose.
+/// The row of each cell, or null. If two cells have the same key, the labels decide.
 std::vector<Row*> claim(Rows& rows,
                         const std::vector<std::string>& keys,
                         const std::vector<Cell>& all,
@@ -103,19 +103,20 @@ std::vector<Row*> claim(Rows& rows,
 }  // namespace
 
 Resumed match(Database& database,
-              const Sound& there,
+              const Sound& stored_rows,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  Rows rows = rows_of(there.cells);
-  const std::vector<Row*> claimed = claim(rows, keys_now(there.sequences, keys, all), all, sweep);
+  Rows rows = rows_of(stored_rows.cells);
+  const std::vector<Row*> claimed =
+      claim(rows, keys_now(stored_rows.sequences, keys, all), all, sweep);
   DigestWriter digests(database);
 
   Resumed out;
-  out.damaged = there.removed;
-  out.lost = there.lost;
+  out.damaged = stored_rows.removed;
+  out.lost = stored_rows.lost;
   out.unchanged = true;
   Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
   for (const auto& [key, same_key] : rows) {

@@ -1,4 +1,4 @@
-/// Matching what a store holds with what a sweep asks for.
+/// Matches the cells of a store with those of a sweep.
 #pragma once
 
 #include "harness/provenance/cell_keys.hpp"
@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-/// See Store::resume. `there`: what the store holds. To be called within a transaction.
+/// See Store::resume. `there`: cells of the store. Call within a transaction.
 Resumed match(Database& database,
               const Sound& there,
               CellKeys& keys,

@@ -2,10 +2,10 @@
 
 namespace loopbench {
 
-/// Raised when a table or column changes its meaning; stored as SQLite's user_version.
+/// Incremented when a table or column changes its meaning; stored as SQLite's user_version.
 inline constexpr int kSchemaVersion = 6;
 
-/// Creates the tables of a store. Readable with any SQLite tool.
+/// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
   CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);  -- what was asked for last
   CREATE TABLE provenance (            -- by what cells were made

@@ -51,9 +51,9 @@ SequenceRows read_sequence_rows(Database& database) {
 }
 
 void require_whole(const SequenceRows& rows, const std::filesystem::path& file) {
-  if (!rows.complete) refuse_damaged(file, "what it knows of its sequences is");
+  if (!rows.complete) refuse_damaged(file, "the table of sequences is");
   for (const auto& [sequence_key, row] : rows.by_key) {
-    if (!row.whole) refuse_damaged(file, "what it knows of sequence " + row.options + " is");
+    if (!row.whole) refuse_damaged(file, "the metadata of sequence " + row.options + " is");
   }
 }
 

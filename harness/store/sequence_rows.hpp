@@ -1,4 +1,4 @@
-/// What a store knows of its sequences, each held against its digest.
+/// Sequence metadata of a store, checked against digests.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace loopbench {
 
 struct SequenceRow {
   std::string asked;    ///< CellKeys::asked
-  std::string options;  ///< "DATASET: every option, defaults included"
+  std::string options;  ///< "DATASET: all options including defaults"
   std::int64_t keyframes = 0;
   std::int64_t closures = 0;
   std::string content;
@@ -22,18 +22,18 @@ struct SequenceRow {
   std::vector<InputFile> inputs;
   std::string trace_digest;
   std::string digest;
-  bool whole = false;  ///< it and its inputs are what was written
+  bool whole = false;  ///< it and its inputs are as written
 };
 
 struct SequenceRows {
   std::map<std::string, SequenceRow> by_key;  ///< CellKeys::sequence_key
-  bool complete = false;                      ///< none was lost
+  bool complete = false;                      ///< no row is missing
 };
 
-/// The tables sequence and input. O(rows).
+/// Reads the tables sequence and input. O(rows).
 SequenceRows read_sequence_rows(Database& database);
 
-/// Throws InputError when one is not what was written, or was lost.
+/// Throws InputError if a row is damaged or missing.
 void require_whole(const SequenceRows& rows, const std::filesystem::path& file);
 
 }  // namespace loopbench

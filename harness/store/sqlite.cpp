@@ -11,7 +11,7 @@ void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_final
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
   sqlite3* handle = nullptr;
-  // One thread at a time; a WAL left by a kill is merged by whoever opens it for writing.
+  // Used by one thread at a time; a WAL left by a killed process is merged on opening for writing.
   const int flags =
       SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   int code = sqlite3_open_v2(file_.c_str(), &handle, flags, nullptr);
@@ -27,7 +27,7 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
 
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
-    fail("refused a statement");
+    fail("rejected a statement");
   }
 }
 
@@ -38,7 +38,7 @@ Transaction::~Transaction() {
   try {
     database_.execute("ROLLBACK");
   } catch (const std::exception&) {
-    // SQLite has rolled back by itself, as it does when the disk is full.
+    // SQLite has already rolled back, as it does when the disk is full.
   }
 }
 
@@ -46,7 +46,7 @@ Statement Database::prepare(const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
   const int size = static_cast<int>(sql.size());
   if (sqlite3_prepare_v2(handle_.get(), sql.c_str(), size, &statement, nullptr) != SQLITE_OK) {
-    fail("refused a statement");
+    fail("rejected a statement");
   }
   return {*this, statement};
 }

@@ -1,4 +1,4 @@
-/// The little of SQLite that the store needs, with errors as exceptions.
+/// Thin wrapper around SQLite with exceptions.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// A prepared statement; parameters and columns count from 0 and are walked in order.
+/// A prepared statement; parameters and columns are accessed in order, starting at 0.
 class Statement {
  public:
   Statement& bind(std::int64_t value);
@@ -50,23 +50,23 @@ class Statement {
   }
   Statement& bind_null();
 
-  /// Runs to completion and makes ready for the next binding.
+  /// Runs to completion and resets for the next binding.
   void run();
 
-  /// Ends a walk over rows early or late and makes ready for the next binding.
+  /// Ends an iteration over rows and resets for the next binding.
   void reset();
 
-  /// The next row, or false when there is none.
+  /// Advances to the next row; false if there is none.
   bool step();
   std::int64_t integer();
   double real();
   std::string text();
   std::string blob();
-  bool is_null() const;  ///< of the next column, which stays the next
+  bool is_null() const;  ///< of the next column, without consuming it
 
   int columns() const;
-  /// Types and values of the row's columns in [from, to), so that no two rows give the same bytes.
-  /// Valid until the next call.
+  /// Unambiguous serialisation of types and values of the row's columns in [from, to). Valid until
+  /// the next call.
   std::string_view bytes_of_columns(int from, int to);
 
  private:
@@ -84,7 +84,7 @@ class Statement {
   std::string bytes_;
 };
 
-/// Everything or nothing: what is not committed when it is destroyed is undone.
+/// Transaction that is rolled back on destruction unless committed.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) {

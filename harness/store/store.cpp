@@ -23,24 +23,24 @@ void set_aside(const std::filesystem::path& file) {
     if (std::filesystem::exists(file)) {
       std::filesystem::rename(file, file.parent_path() / "previous.sqlite");
     }
-    // Left by a kill: they belong to the file just moved and would corrupt the new one.
+    // Log files left by a killed process belong to the moved file and would corrupt the new one.
     for (const char* tail : {"-wal", "-shm"}) std::filesystem::remove(file.string() + tail);
   } catch (const std::filesystem::filesystem_error& error) {
     throw InputError(file.string() + ": cannot be written: " + error.code().message());
   }
 }
 
-/// WAL with NORMAL survives a killed process; only a power cut may lose the last cells, whole. The
-/// log is copied into the file every 16 MB, some hundred cells with traces: each copy waits for the
-/// disk.
+/// WAL with NORMAL is safe if the process is killed; a power cut can lose the last cells, each
+/// completely. The log is copied into the file every 16 MB, some hundred cells with traces, because
+/// each copy waits for the disk.
 void make_ready(Database& database) {
   database.execute(
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
 }
 
-/// SQLite reads a file that was cut off as far as it goes.
+/// SQLite does not detect that the end of a file is missing.
 void check_size(Database& database, const std::filesystem::path& file) {
-  if (std::filesystem::exists(file.string() + "-wal")) return;  // its end may lie there
+  if (std::filesystem::exists(file.string() + "-wal")) return;  // can hold the end of the file
   Statement pages =
       database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
   const std::int64_t whole = pages.step() ? pages.integer() : 0;
@@ -48,41 +48,41 @@ void check_size(Database& database, const std::filesystem::path& file) {
   if (size >= whole) return;
   throw InputError(
       fmt::format("{}: is damaged ({} bytes of {}); --fresh keeps it as previous.sqlite and starts "
-                  "anew",
+                  "a new store",
                   file.string(),
                   size,
                   whole));
 }
 
-/// Killed between making the file and its tables.
+/// Whether the process was killed between creating the file and its tables.
 bool is_empty(Database& database) {
   Statement count = database.prepare("SELECT count(*) FROM sqlite_master");
   return count.step() && count.integer() == 0;
 }
 
-void say_run(Database& database, const CellKeys& keys) {
+void write_run(Database& database, const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
-  const auto say = [&](const std::string& key, const std::string& text) {
+  const auto set_value = [&](const std::string& key, const std::string& text) {
     insert.bind(key).bind(text).run();
   };
-  say("loopbench", kVersion);
-  say("sweep", sweep.name);
-  say("config", sweep.text);
-  std::string rules;  // in full, one protocol a line
+  set_value("loopbench", kVersion);
+  set_value("sweep", sweep.name);
+  set_value("config", sweep.text);
+  std::string rules;  // in full, one protocol per line
   for (const NamedProtocol& protocol : sweep.protocols) {
     rules +=
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
-  say("protocol", rules);
-  say("metrics", keys.metrics_in_full());
-  say("methods", keys.methods_in_full());
-  say("baseline", sweep.baseline);
+  set_value("protocol", rules);
+  set_value("metrics", keys.metrics_in_full());
+  set_value("methods", keys.methods_in_full());
+  set_value("baseline", sweep.baseline);
   renew_texts(database, "run");
 }
 
-/// Whether the store says of its run what it would say now: a default may have changed in the code.
-bool says_the_same(Database& database, const CellKeys& keys) {
+/// Whether the stored description of the run is current: a default in the code can have changed.
+bool is_run_current(Database& database, const CellKeys& keys) {
   const auto is = [&](const std::string& key, const std::string& text) {
     Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
     return row.bind(key).step() && row.text() == text;
@@ -91,14 +91,14 @@ bool says_the_same(Database& database, const CellKeys& keys) {
          is("methods", keys.methods_in_full());
 }
 
-/// What the cells of this run say they are made by.
+/// Provenance of the cells of this run.
 std::string made_key(const std::map<std::string, std::string>& provenance) {
   Fields fields;
   for (const auto& [key, value] : provenance) fields.add(key).add(value);
   return fields.hashed();
 }
 
-void say_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
+void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
   const std::string made = made_key(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
   for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
@@ -134,9 +134,9 @@ Store::~Store() {
   writer_.reset();
   if (!database_) return;
   try {
-    database_->execute("PRAGMA journal_mode = DELETE");  // leaves one file, nothing beside it
+    database_->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
   } catch (const std::exception&) {
-    // Another reader holds it: the -wal file stays and is merged by the next one to open it.
+    // Another process reads it: the -wal file remains until the next process opens it.
   }
 }
 
@@ -147,8 +147,8 @@ void Store::create() {
   if (failed) throw InputError(file_.string() + ": cannot be written: " + failed.message());
   if (!lock_) {
     lock_ = std::make_unique<FolderLock>(folder);
-    if (std::filesystem::exists(file_)) {  // the folder was not there a moment ago
-      throw InputError(file_.string() + ": another sweep wrote it meanwhile; run again");
+    if (std::filesystem::exists(file_)) {  // created since the check above
+      throw InputError(file_.string() + ": another sweep created it in the meantime; run again");
     }
   }
   if (!empty_) set_aside(file_);
@@ -157,7 +157,7 @@ void Store::create() {
   Transaction transaction(*database_);
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  say_run(*database_, keys_);
+  write_run(*database_, keys_);
   renew_texts(*database_, "provenance");
   renew_sum(*database_, "cell");
   renew_sum(*database_, "sequence");
@@ -173,15 +173,15 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Transaction transaction(*database_);
   const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
-  out.unchanged = out.unchanged && says_the_same(*database_, keys_);
+  out.unchanged = out.unchanged && is_run_current(*database_, keys_);
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
-  // Digests are of tables, but a cell is replaced by way of an index.
+  // Digests cover tables, but cells are replaced through an index.
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    say_run(*database_, keys_);
+    write_run(*database_, keys_);
   }
   transaction.commit();
   return out;
@@ -192,7 +192,7 @@ void Store::write(const CellResult& result) {
   if (!writer_) {
     Transaction transaction(*database_);
     changes();
-    say_provenance(*database_, provenance_);
+    write_provenance(*database_, provenance_);
     transaction.commit();
     writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
   }

@@ -1,9 +1,9 @@
-/// The results of one sweep in one SQLite file, written as cells finish and taken up again later.
+/// Results of one sweep in one SQLite file, written as cells finish, and resumed by later runs.
 ///
-/// Schema: `run` says what was asked for, `provenance` and `input` by and from what it was made;
-/// `cell` has a row per cell, `score` one per score, `phase`, `count` and `note` what the method
-/// reported, `trace` and `sequence_trace` what a report draws: see schema.hpp. Each cell is one
-/// transaction: a killed sweep leaves whole cells only.
+/// Schema: `run` holds the configuration, `provenance` and `input` the build and the input files;
+/// `cell` has a row per cell, `score` one per score, `phase`, `count` and `note` the method's
+/// report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each cell is one
+/// transaction, so a killed sweep leaves only complete cells.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,8 @@
 
 namespace loopbench {
 
-/// Which cells that are there are run again. What is damaged is in any case; `damaged` looks at
-/// traces and indexes too.
+/// Stored cells to run again. Damaged cells are always recomputed; `damaged` also checks traces and
+/// indexes.
 enum class Retry { none, failed, damaged, all };
 inline auto choices(Retry) {
   return std::array{std::pair{"none", Retry::none},
@@ -30,23 +30,24 @@ inline auto choices(Retry) {
                     std::pair{"all", Retry::all}};
 }
 
-/// What a store makes of a plan.
+/// Result of matching a store with a plan.
 struct Resumed {
   std::vector<Cell> missing;         ///< to be run, in order
-  std::size_t there = 0;             ///< planned cells that need no run
-  std::size_t failed = 0;            ///< of those, kept failures
-  std::size_t incomplete = 0;        ///< of those, judged below min_coverage
-  bool unchanged = false;            ///< the store holds exactly the sweep, of exactly this config
-  std::vector<std::string> damaged;  ///< cells that were, and count as missing; by label
-  bool lost = false;      ///< others may have been lost: they were not as many as written
-  bool exported = false;  ///< and what is derived from it was written, see Store::exported()
+  std::size_t there = 0;             ///< planned cells with stored results
+  std::size_t failed = 0;            ///< of those, failures
+  std::size_t incomplete = 0;        ///< of those, with coverage below min_coverage
+  bool unchanged = false;            ///< the store holds exactly this sweep and config
+  std::vector<std::string> damaged;  ///< labels of damaged cells, which count as missing
+  bool lost = false;                 ///< further cells may be missing: fewer rows than written
+  bool exported = false;             ///< derived files are up to date, see Store::exported()
 };
 
 class Store {
  public:
-  /// Takes the lock of the folder if it is there. A store that is there is opened; with `fresh` it
-  /// is kept as `previous.sqlite` beside a new one. Nothing is written before resume() or write().
-  /// Throws InputError: another sweep writes, not a store, another schema, damaged.
+  /// Locks the folder if it exists. Opens an existing store; with `fresh` keeps it as
+  /// `previous.sqlite` beside a new one. Writes nothing before resume() or write(). Throws
+  /// InputError if another sweep is writing, or the file is not a store, has another schema, or is
+  /// damaged.
   Store(std::filesystem::path file,
         CellKeys& keys,
         std::map<std::string, std::string> provenance,
@@ -55,17 +56,17 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// Gives cells that are there their place in the sweep, by their keys, and sets aside the others.
-  /// What is not as it was written is taken out first, see damage.hpp.
-  /// `all`: every cell of the sweep; `planned`: those that --only leaves. O(cells + bytes of
-  /// input).
+  /// Matches stored cells with the sweep by their keys, and marks the others as unused. Damaged
+  /// cells are removed first, see damage.hpp. `all`: every cell of the sweep; `planned`: those
+  /// selected by
+  /// --only. O(cells + bytes of input).
   Resumed resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry);
 
-  /// One transaction; replaces what is at the cell's place. Throws InputError, for example when the
-  /// disk is full.
+  /// Writes a cell in one transaction; replaces the cell at its position. Throws InputError, for
+  /// example if the disk is full.
   void write(const CellResult& result);
 
-  /// Says that everything derived from it is written; forgotten by the next change.
+  /// Records that all derived files are up to date; reset by the next change.
   void exported();
 
  private:
@@ -78,7 +79,7 @@ class Store {
   CellKeys& keys_;
   std::map<std::string, std::string> provenance_;
   bool fresh_;
-  bool empty_ = false;                ///< a file that is there, without tables
+  bool empty_ = false;                ///< the file exists, but without tables
   std::unique_ptr<FolderLock> lock_;  // released after the database is closed
   std::unique_ptr<Database> database_;
   std::unique_ptr<Writer> writer_;

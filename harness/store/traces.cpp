@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little);
 
 template <class Item>
 std::vector<Item> from_blob(const std::string& bytes) {
-  if (bytes.size() % sizeof(Item) != 0) throw InputError("a trace in the store is cut off");
+  if (bytes.size() % sizeof(Item) != 0) throw InputError("a trace in the store is truncated");
   std::vector<Item> out(bytes.size() / sizeof(Item));
   if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
   return out;
@@ -37,7 +37,7 @@ Traces::Traces(const std::filesystem::path& file)
   });
   require_whole(rows_, file_);
   require_whole(sequences_, file_);
-  database_.execute("COMMIT");  // a report takes long: whoever writes need not wait for it
+  database_.execute("COMMIT");  // a report takes long and must not block writers
   for (const std::size_t i : in_order(rows_))
     by_position_.emplace(rows_.cells[i].record.position, i);
 }

@@ -1,4 +1,4 @@
-/// Reading back what a report draws.
+/// Reads the data for plots from a store.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +15,21 @@
 
 namespace loopbench {
 
-/// The traces of one store, which stays open; not for several threads at once.
+/// Traces of one store, which stays open; not thread-safe.
 class Traces {
  public:
-  /// `file` may be the folder that holds results.sqlite. Throws InputError when
-  /// its cells, sections or sequences are not what was written. O(rows of these).
+  /// `file` can be the folder with results.sqlite. Throws InputError if cells, sections or
+  /// sequences are damaged. O(rows of these).
   explicit Traces(const std::filesystem::path& file);
 
-  /// Of the cell at that position of the sweep (Record::cell); nothing when none was kept. Throws
-  /// InputError when it is not what was written, as sequence() does.
+  /// Trace of the cell at that position of the sweep (Record::cell); nullopt if none is stored.
+  /// Throws InputError if it is damaged, as does sequence().
   std::optional<CellTrace> cell(std::int64_t position);
 
-  /// How the method of that cell cut up the way; empty when it told nothing. Stamps [s].
+  /// Sections of the path as reported by the method; empty without a report. Stamps [s].
   std::vector<Section> sections(std::int64_t position);
 
-  /// Of the sequence of the cell at that position; nothing when none was kept.
+  /// Trace of the sequence of the cell at that position; nullopt if none is stored.
   std::optional<SequenceTrace> sequence(std::int64_t position);
 
  private:
@@ -39,11 +39,11 @@ class Traces {
   Database database_;
   CellRows rows_;
   SequenceRows sequences_;
-  std::vector<std::vector<Section>> sections_;  ///< as rows_
+  std::vector<std::vector<Section>> sections_;  ///< parallel to rows_
   std::unordered_map<std::int64_t, std::size_t> by_position_;
 };
 
-/// A list of trace structs as they lie in memory; valid as long as the list.
+/// Raw memory of a list of trace structs; valid as long as the list.
 template <class Item>
 std::string_view bytes_of(const std::vector<Item>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)};

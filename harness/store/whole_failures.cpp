@@ -12,12 +12,12 @@ using Run = std::pair<std::string, std::int64_t>;
 
 MetricKey metric_key(const Record& r) { return {r.protocol, r.times, r.metric, metric_label(r)}; }
 
-/// Without relation: no score of a metric is.
+/// A record without relation: the metric has no scores.
 bool is_whole_metric(const Record& r) {
   return !r.metric.empty() && r.status != "ok" && r.relation.empty();
 }
 
-/// The scores that a metric gives, in the order of their first appearance.
+/// The scores of a metric in order of first appearance.
 using Scores = std::vector<const Record*>;
 
 void add(Scores& scores, const Record& r) {

@@ -1,4 +1,4 @@
-/// Scores that a metric failed to give.
+/// Expansion of failed metrics into their scores.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,10 @@
 
 namespace loopbench {
 
-/// A metric that throws leaves one record without relation and axis, since it gives no scores.
-/// Replaces each such record by one for every score that the metric gives under the same protocol
-/// at the same times: to other methods on the same run, or else on any run. Then a failure belongs
-/// to the scores that it is missing from. Records of metrics that give no score at all stay as they
-/// are. O(n log n).
+/// A metric that throws leaves one record without relation and axis. Replaces each such record by
+/// one for every score of the metric under the same protocol and times: of other methods on the
+/// same run, or otherwise of any run. The failure is then assigned to the missing scores. Records
+/// of metrics without any score remain unchanged. O(n log n).
 void name_failed_scores(std::vector<Record>& records);
 
 }  // namespace loopbench

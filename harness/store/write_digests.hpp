@@ -1,4 +1,4 @@
-/// Writing the digests of a store, always in the transaction that writes what they are of.
+/// Writes the digests of a store, in the same transaction as the data.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace loopbench {
 
-/// Digests of single rows and of what belongs to them, read back from the tables.
+/// Digests of single rows and of their related rows, read back from the tables.
 class DigestWriter {
  public:
   explicit DigestWriter(Database& database);
 
-  /// Of the cell with that id and of its rows in every other table; into the sum of cells too.
+  /// Updates the digest of the cell with that id and of its rows in other tables, and the sum.
   void add_cell(std::int64_t id);
 
-  /// Of the cell's own row, after its labels or its place have changed. Not into the sum.
+  /// Updates the digest of the cell's own row after a change of labels or position. Not the sum.
   void renew_cell(std::int64_t id);
 
-  /// Of that sequence's row, inputs and trace; into the sum of sequences too.
+  /// Updates the digest of that sequence's row, inputs and trace, and the sum.
   void add_sequence(const std::string& sequence_key);
 
-  /// Takes a row about to go out of the sum of its table, cell or sequence.
+  /// Subtracts a row that will be removed from the sum of its table, cell or sequence.
   void remove(const std::string& table, const std::string& digest);
 
  private:
@@ -48,15 +48,15 @@ class DigestWriter {
   Statement set_sum_;
 };
 
-/// The sum of a table's digests, cell or sequence, from its rows. O(rows).
+/// Sum of a table's digests, cell or sequence, computed from its rows. O(rows).
 std::string sum_of_digests(Database& database, const std::string& table);
 void renew_sum(Database& database, const std::string& table);
 
-/// The digest of a table of texts, run or provenance.
+/// Digest of a table of texts, run or provenance.
 std::string digest_of_texts(Database& database, const std::string& table);
 void renew_texts(Database& database, const std::string& table);
 
-/// What the store says of a table: cell, sequence, run or provenance.
+/// Stored digest of a table: cell, sequence, run or provenance.
 std::string written_digest(Database& database, const std::string& table);
 
 }  // namespace loopbench

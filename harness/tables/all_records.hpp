@@ -1,4 +1,4 @@
-/// From a store to the tables of a spec, gain and time included.
+/// Computes the tables of a spec from a store, including gain and time.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-/// Stored records, then gains, pair counts and run times: columns in that order.
+/// Stored records, then gains, pair counts and run times: columns in this order.
 std::vector<Record> all_records(const std::filesystem::path& store);
 
 }  // namespace loopbench

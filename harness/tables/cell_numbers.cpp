@@ -32,7 +32,7 @@ double CellNumbers::gain() const {
 }
 
 std::optional<double> CellNumbers::average() const {
-  // A single error of zero would make any geometric mean zero.
+  // One zero error would make the geometric mean zero.
   const auto zeros = std::ranges::count(values_, 100.0);
   const bool has_no_mean = is_gain_ && zeros > 0 && zeros < std::ssize(values_);
   if (values_.empty() || has_no_mean) return std::nullopt;

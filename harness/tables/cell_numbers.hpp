@@ -1,4 +1,4 @@
-/// The numbers that fell into one cell of a table.
+/// The numbers that are aggregated in one cell of a table.
 #pragma once
 
 #include <map>
@@ -11,21 +11,21 @@
 
 namespace loopbench {
 
-/// What tells the runs of a cell apart: the data of the run where it is known, else its name.
+/// Key of a run within a cell: the content of its data if known, otherwise its name.
 std::string run_key(const Record& record);
 
 class CellNumbers {
  public:
   void add(const Record& record, double value);
 
-  /// Records that were added.
+  /// Number of added records.
   std::size_t size() const { return values_.size(); }
 
-  /// The mean; of gains 1 - the geometric mean ratio, over groups as a verdict has it. None where
-  /// that is not a number.
+  /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
+  /// is not a number.
   std::optional<double> average() const;
 
-  const ByRun& runs() const { return runs_; }  ///< without those that were shown the reference
+  const ByRun& runs() const { return runs_; }  ///< without oracles
   const std::string& method() const { return method_; }
   Better better() const { return better_; }
   double target() const { return target_; }

@@ -32,7 +32,7 @@ std::string rank_text(const MethodVerdict& m) {
                                          : fmt::format("{}-{}", m.lowest_rank, m.highest_rank);
 }
 
-/// With the runs that it is of where that is not all of them.
+/// With the number of runs if not all runs are included.
 std::string median_text(const Comparison& c, const MethodVerdict& m, int digits) {
   if (m.runs == 0) return "-";
   const std::string over = m.fails > 0 ? fmt::format(" ({} of {})", m.runs, c.runs) : "";

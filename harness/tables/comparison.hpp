@@ -1,4 +1,4 @@
-/// Comparisons as text.
+/// Output of comparisons as text.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace loopbench {
 
-/// A line per method, best first: median, ratio to the baseline with its interval, wins, losses and
-/// ties against it, p, effect size, the ranks that the claims leave, and letters. The best is
-/// marked where it is proven. Notes: verdict, remarks.
+/// One line per method, best first: median, ratio to the baseline with its interval, wins, losses
+/// and ties against it, p, effect size, range of possible ranks, and letters. The best method is
+/// marked if it is significantly better. Notes: verdict, remarks.
 Sheet sheet(const Comparison& comparison);
 
-/// A line per method of every comparison, numbers in full precision; empty where there is none.
+/// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);
 
-/// An array with an object per comparison: what it is of, verdict, remarks, methods, gaps.
+/// Array with one object per comparison: its score, verdict, remarks, methods, gaps.
 std::string json(const std::vector<Comparison>& comparisons);
 
 }  // namespace loopbench

@@ -15,7 +15,7 @@ std::string quoted(const std::string& text) {
 
 namespace {
 
-/// What too little coverage makes incomplete is measured all the same; the status stands beside it.
+/// Incomplete scores have numbers, too; the status column marks them.
 bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "incomplete"; }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::string csv(const std::vector<Record>& records) {
                        r.unit,
                        to_text(r.better),
                        r.better == Better::target ? fmt::format("{}", r.target) : "");
-    // An undefined score has no numbers, not zeros.
+    // An undefined score has empty fields, not zeros.
     const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
     out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
                                                : fmt::format("{},{},{},{},{},{},{},{},{},{},",

@@ -21,13 +21,13 @@ bool is_gain_source(const Record& r) {
   return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
 }
 
-/// Not a number where the baseline has no error that could be reduced.
+/// NaN if the baseline has zero error.
 double gain(double value, double baseline) {
   if (baseline <= zero_floor(std::max(value, baseline))) return std::nan("");
   return 100.0 * (1.0 - value / baseline);
 }
 
-/// A score that is one number: every statistic is that number.
+/// A score of a single number: every statistic has this value.
 template <class Number>
 std::vector<Record> one_per_cell(const std::vector<Record>& records,
                                  const std::string& metric,
@@ -80,7 +80,7 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
     }
     if (!std::isfinite(g.statistics.rmse)) {
       g.status = "declined";
-      g.why = "the baseline " + baseline + " has no error here that could be reduced";
+      g.why = "the error of the baseline " + baseline + " is zero";
     }
     out.push_back(std::move(g));
   }

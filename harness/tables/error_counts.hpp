@@ -1,4 +1,4 @@
-/// How many errors the numbers of a table are made of, where those are not the judged poses.
+/// Number of errors behind the values of a table, if it differs from the evaluated poses.
 #pragma once
 
 #include <map>
@@ -10,17 +10,17 @@
 
 namespace loopbench {
 
-/// A relative error has fewer pairs than poses were judged, a closure residual one error a closure.
+/// A relative error has fewer pairs than evaluated poses, a closure residual one error per closure.
 class ErrorCounts {
  public:
-  /// Numbers that are single, or of as many errors as poses were judged, are passed over.
+  /// Ignores single values and scores with as many errors as evaluated poses.
   void add(std::size_t column, const Record& record);
 
-  /// "rpe 1 s [m]: 396 to 398; ..."; empty: every number is of the judged poses.
+  /// "rpe 1 s [m]: 396 to 398; ..."; empty if every value is over the evaluated poses.
   std::string text(const std::vector<std::string>& columns) const;
 
  private:
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> range_;  ///< least, most of a column
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> range_;  ///< min, max by column
 };
 
 }  // namespace loopbench

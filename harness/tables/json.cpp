@@ -7,7 +7,7 @@ namespace loopbench {
 
 std::string json(const std::vector<Table>& tables) {
   using Json = nlohmann::ordered_json;
-  const auto replace = Json::error_handler_t::replace;  // names need not be UTF-8
+  const auto replace = Json::error_handler_t::replace;  // names can be invalid UTF-8
   Json out = Json::array();
   for (const Table& table : tables) {
     Json entry{{"title", table.title},

@@ -30,7 +30,7 @@ std::string escaped_latex(const std::string& text) {
       case '"':
         out += "\\textquotedbl{}";  // \usepackage[T1]{fontenc}
         break;
-      case '[':  // behind \\ it would start an optional length
+      case '[':  // after \\ it would start an optional length
         out += "{[}";
         break;
       default:

@@ -1,4 +1,4 @@
-/// A table of texts.
+/// A table of strings.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct Listing {
   std::vector<std::string> notes;
 };
 
-/// Padded, so that it reads on a terminal too; the first column to the left, the others to the
-/// right. Pipes are escaped.
+/// Padded for reading on a terminal; the first column is left-aligned, the others right-aligned.
+/// Pipes are escaped.
 std::string markdown(const Listing& listing);
 
-/// RFC 4180, the title as first column.
+/// RFC 4180, with the title as first column.
 std::string csv(const Listing& listing);
 
 }  // namespace loopbench

@@ -12,7 +12,7 @@ namespace {
 
 struct MarkContest {
   std::vector<std::size_t> entries;  // competitors with a value
-  std::vector<bool> is_complete;     // of each entry: knows every run
+  std::vector<bool> is_complete;     // per entry: has a value or failure on every run
   GroupedValues values;
   std::size_t groups = 0;
 };
@@ -58,7 +58,7 @@ Marks mark_best(const Lane& lane, const RankingOptions& options) {
   if (all.entries.size() < 2 || all.groups == 0) return out;
   const Ranking ranking = rank_methods(all.values, options);
   if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
-    out.why_none = fmt::format("{} independent run{} a cell cannot prove a difference at {:g}",
+    out.why_none = fmt::format("{} independent run{} per cell cannot prove a difference at {:g}",
                                all.groups,
                                all.groups == 1 ? "" : "s",
                                options.alpha);

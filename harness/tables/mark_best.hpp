@@ -1,4 +1,4 @@
-/// Which values of a table's column (or row) are marked as best and second best.
+/// Selection of the best and second-best values in a table's column (or row).
 #pragma once
 
 #include <map>
@@ -15,26 +15,26 @@ enum class Mark { none, second, best };
 /// "best", "second" or "".
 const char* mark_name(Mark mark);
 
-/// The values that fell into one cell, by run; none where the method failed.
+/// The values of one cell by run; nullopt if the method failed.
 using ByRun = std::map<std::string, std::optional<double>>;
 
-/// What is compared where the best is marked.
+/// Input of the comparison for marks.
 struct Lane {
   std::vector<ByRun> competitors;
-  std::map<std::string, std::string> group;  ///< of a run; a group by itself where there is none
+  std::map<std::string, std::string> group;  ///< group of each run; without entry, the run itself
   Better better = Better::lower;
   double target = 0.0;
 };
 
 struct Marks {
-  std::vector<Mark> marks;  ///< one for each competitor
-  std::string why_none;     ///< set when nothing could be tested, whatever the values
+  std::vector<Mark> marks;  ///< one per competitor
+  std::string why_none;     ///< set if no test was possible for any values
 };
 
-/// Best: proven better than every other competitor by `rank_methods`, as verdicts have it; second
-/// best: than all but the best. Methods that are equal share a mark. A competitor that lacks a run
-/// without having failed on it is compared where all have one, but never marked. Competitors
-/// without values do not compete.
+/// Best: significantly better than every other competitor by `rank_methods`, as in verdicts; second
+/// best: significantly better than all except the best. Equal methods share a mark. A competitor
+/// that lacks a run without having failed on it is compared on the common runs, but never marked.
+/// Competitors without values are ignored.
 Marks mark_best(const Lane& lane, const RankingOptions& options);
 
 }  // namespace loopbench

@@ -5,8 +5,8 @@
 namespace loopbench {
 namespace {
 
-/// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
-/// or a sign: names like uniform_position and p < 0.05 stay readable.
+/// Escapes `_` only at word boundaries, and `<` and `&` only before a letter or a sign, so that
+/// names such as uniform_position and p < 0.05 remain readable.
 std::string escaped_markdown(const std::string& text) {
   const std::string line = one_line(text);
   const auto is_word = [&](std::size_t i) {
@@ -18,13 +18,13 @@ std::string escaped_markdown(const std::string& text) {
     const bool is_tag =
         i + 1 < line.size() &&
         (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
-    const bool opens = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
+    const bool is_emphasis = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
     if (c == '<' && is_tag) {
       out += "&lt;";
     } else if (c == '&' && is_tag) {
       out += "&amp;";
     } else {
-      if (opens || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
+      if (is_emphasis || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
       out += c;
     }
   }

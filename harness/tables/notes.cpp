@@ -17,7 +17,7 @@ std::string listed(const std::vector<std::string>& list) {
   return out;
 }
 
-/// The list that goes with a key, keys in the order they first came.
+/// The list of a key, keys in order of first appearance.
 template <class Key>
 class Lists {
  public:
@@ -37,10 +37,10 @@ class Lists {
 
 std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   using Reason = std::tuple<std::string, std::string, std::string>;  // first of row, then of whats
-  Lists<Reason> whats;
-  for (const Missing& m : missing) add_once(whats.of({m.row, m.status, m.why}), m.what);
+  Lists<Reason> items;
+  for (const Missing& m : missing) add_once(items.of({m.row, m.status, m.why}), m.what);
   Lists<Reason> rows;
-  for (const auto& [reason, list] : whats.lists) {
+  for (const auto& [reason, list] : items.lists) {
     const auto& [row, status, why] = reason;
     add_once(rows.of({listed(list), status, why}), row);
   }

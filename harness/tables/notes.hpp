@@ -1,4 +1,4 @@
-/// Why numbers are missing from a table, said once.
+/// Notes with the reasons for missing values in a table, grouped.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace loopbench {
 
-/// One missing number, or all of a row when `what` is empty.
+/// One missing value, or all values of a row if `what` is empty.
 struct Missing {
   std::string row;
   std::string what;    ///< "ate rotation"
@@ -14,8 +14,8 @@ struct Missing {
   std::string why;
 };
 
-/// A line for each reason, in the order they came: "ROWS: WHATS STATUS: WHY". What one row misses
-/// for the same reason is listed together, and then the rows that miss the same. O(n log n).
+/// One line for each reason, in order of appearance: "ROWS: WHATS STATUS: WHY". Groups values of
+/// one row with the same reason, then rows with the same groups. O(n log n).
 std::vector<std::string> grouped(const std::vector<Missing>& missing);
 
 }  // namespace loopbench

@@ -10,7 +10,7 @@ namespace {
 
 using OriginJson = nlohmann::ordered_json;
 
-/// "key: value", or for several lines "key:" and each of them indented.
+/// "key: value", or "key:" and indented lines for a multi-line value.
 void add_fact(std::vector<std::string>& out, const std::string& key, const std::string& value) {
   std::istringstream in(value);
   std::vector<std::string> lines;

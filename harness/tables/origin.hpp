@@ -1,4 +1,4 @@
-/// What made the numbers of a store, in the form that each kind of export can carry.
+/// Provenance of a store's numbers, in a form for each output format.
 #pragma once
 
 #include <filesystem>
@@ -16,20 +16,21 @@ struct Origin {
   std::map<std::string, std::vector<InputFile>> inputs;  ///< by sequence
 };
 
-/// Throws InputError when it is not a store.
+/// Throws InputError if it is not a store.
 Origin read_origin(const std::filesystem::path& store);
 
-/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for a file beside a
+/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for the file beside a
 /// CSV.
 std::string json(const Origin& origin);
 
-/// {"provenance": that, KEY: VALUE}; `value` is JSON.
+/// {"provenance": PROVENANCE, KEY: VALUE}; `value` is JSON.
 std::string with_origin(const Origin& origin, const std::string& key, const std::string& value);
 
-/// A line per fact, each behind `mark`: "% commit: ...". Control characters become spaces.
+/// One line per entry, each prefixed with `mark`: "% commit: ...". Control characters become
+/// spaces.
 std::string origin_lines(const Origin& origin, const std::string& mark);
 
-/// An HTML comment, which Markdown hides. No value can end it: `--` becomes `- -`.
+/// HTML comment, which Markdown hides. `--` becomes `- -`, so that no value can end it.
 std::string origin_comment(const Origin& origin);
 
 /// "table.csv" -> "table.provenance.json".

@@ -19,13 +19,13 @@ std::string shown(const TableCell& cell, int digits) {
 
 int digits_of(const Table& table, std::size_t column) {
   double largest = 0.0;
-  bool all_whole = true;
+  bool all_integers = true;
   for (const auto& row : table.cells) {
     const double value = row[column].value.value_or(0.0);
     largest = std::max(largest, std::abs(value));
-    all_whole = all_whole && value == std::round(value);
+    all_integers = all_integers && value == std::round(value);
   }
-  return all_whole && largest > 0.0 ? 0 : decimals(largest);
+  return all_integers && largest > 0.0 ? 0 : decimals(largest);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// A table as it is shown: text only, the same for every format that people read.
+/// A formatted table: text only, common to all output formats.
 #pragma once
 
 #include <string>
@@ -14,44 +14,44 @@ struct SheetEntry {
   Mark mark = Mark::none;
 };
 
-/// The first column names the rows and stands left, the others are numbers and stand right.
+/// The first column has the row names and is left-aligned; the others are right-aligned numbers.
 struct Sheet {
   std::string title;
   std::vector<std::string> headings;
   std::vector<std::vector<SheetEntry>> lines;  ///< [row][column]
-  std::vector<std::string> notes;              ///< one a line, below
+  std::vector<std::string> notes;              ///< one per line, below the table
 };
 
-/// A number with the decimals its column needs: four significant ones for the largest.
+/// Number of decimals of a column: four significant digits for its largest value.
 int decimals(double largest);
 
-/// `value` with that many decimals; never -0.00, which says nothing.
+/// `value` with that many decimals; -0.00 is printed as 0.00.
 std::string fixed(double value, int digits);
 
-/// A table's numbers with the decimals that each column needs.
+/// Formats a table's numbers with the decimals of each column.
 Sheet sheet(const Table& table);
 
-/// GitHub Markdown with padded columns, so that it reads on a terminal too. Best bold, second best
-/// in italics. Whatever Markdown or HTML would take for markup is escaped.
+/// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
+/// Markdown and HTML markup is escaped.
 std::string markdown(const Sheet& sheet);
 
-/// Aligned columns without markup: `*` behind the best, `+` behind the second best.
+/// Aligned columns without markup: `*` after the best, `+` after the second best.
 std::string terminal(const Sheet& sheet);
 
-/// A booktabs tabular with its caption and notes as comments around it. Best bold, second best
-/// underlined. Escaped; needs \usepackage{booktabs} and UTF-8.
+/// A booktabs tabular with its caption and notes as comments. Best in bold, second best underlined.
+/// Escaped; needs \usepackage{booktabs} and UTF-8.
 std::string latex(const Sheet& sheet);
 
-/// Columns on a terminal: code points, not bytes.
+/// Width on a terminal: code points, not bytes.
 std::size_t width(const std::string& text);
 
-/// Filled up with spaces to that width.
+/// Padded with spaces to that width.
 std::string padded(const std::string& text, std::size_t columns, bool left);
 
-/// Line breaks, tabs and other control characters as spaces: a name never leaves its cell.
+/// Replaces line breaks, tabs and other control characters by spaces.
 std::string one_line(const std::string& text);
 
-/// The widest text of each column, headings included, once `escaped` has been applied to the text
+/// Width of the widest text of each column, including headings, after `escaped` is applied to text
 /// and marks.
 std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lines);
 

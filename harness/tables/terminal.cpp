@@ -13,7 +13,7 @@ std::string terminal(const Sheet& sheet) {
                                                                                  : ""));
     }
   }
-  // The mark has a column of its own, so that digits stay below each other.
+  // The mark has its own column, so that digits are aligned.
   for (std::size_t c = 1; c < sheet.headings.size(); ++c) {
     bool has_mark = false;
     for (const auto& line : sheet.lines) has_mark = has_mark || line[c].mark != Mark::none;

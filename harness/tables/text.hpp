@@ -1,4 +1,4 @@
-/// Tables as text.
+/// Tables as CSV and JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace loopbench {
 
-/// A CSV field, in quotes where it needs them (RFC 4180).
+/// A CSV field, quoted if necessary (RFC 4180).
 std::string quoted(const std::string& text);
 
 std::string markdown(const Table& table);
@@ -19,11 +19,11 @@ std::string markdown(const std::vector<Table>& tables);
 /// best, second or empty.
 std::string csv(const std::vector<Table>& tables);
 
-/// The long table: a line per record with every column.
+/// The long table: one line per record with all columns.
 std::string csv(const std::vector<Record>& records);
 
-/// An array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, status,
-/// mark}}; value is null where status is not ok.
+/// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, status,
+/// mark}}; value is null unless status is ok.
 std::string json(const std::vector<Table>& tables);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Fingerprints of what results depend on. Not for secrets: nobody forges a trajectory here.
+/// Hashes of inputs and results; not cryptographic.
 ///
 /// Source: MurmurHash3_x64_128, A. Appleby, SMHasher (public domain), on little-endian machines.
 #pragma once
@@ -17,16 +17,16 @@ struct Hash {
   bool operator==(const Hash&) const = default;
 };
 
-/// Of the bytes. O(n), some gigabytes a second.
+/// Hash of the bytes. O(n), some gigabytes per second.
 Hash hash_of(std::string_view bytes, std::uint32_t seed = 0);
 
-/// Of a whole file, read again every time: a date and a size can lie. Throws InputError.
+/// Hash of a file, always read completely, since date and size are not reliable. Throws InputError.
 Hash hash_of_file(const std::filesystem::path& file);
 
 /// 32 lower-case hexadecimal digits.
 std::string hex(const Hash& hash);
 
-/// Collects fields so that no two different lists of fields give the same bytes.
+/// Serialises fields unambiguously: different lists of fields give different bytes.
 class Fields {
  public:
   Fields& add(std::string_view field) {

@@ -15,7 +15,7 @@ re2::StringPiece piece(std::string_view text) { return {text.data(), text.size()
 
 Pattern::Pattern(std::string_view expression) {
   if (expression.size() > kLongestPattern) {
-    throw InputError("a pattern of more than 1000 characters");
+    throw InputError("the pattern is longer than 1000 characters");
   }
   compiled_ = std::make_shared<const re2::RE2>(piece(expression), re2::RE2::Quiet);
   if (!compiled_->ok()) {

@@ -1,4 +1,4 @@
-/// Regular expressions typed by people: of configs (`exclude`, `where`) and of the command line.
+/// Regular expressions in configs (`exclude`, `where`) and on the command line.
 #pragma once
 
 #include <memory>
@@ -11,20 +11,20 @@ class RE2;
 
 namespace loopbench {
 
-/// A regular expression in RE2's syntax, so neither a pattern nor a text can make the program hang
-/// or crash: O(text) time at fixed pattern, bounded memory; no look-ahead and no back-references.
-/// Copies share the compiled expression; safe to use from several threads.
+/// A regular expression in RE2's syntax: O(text) time for a fixed pattern and bounded memory for
+/// any input; no look-ahead and no back-references. Copies share the compiled expression.
+/// Thread-safe.
 class Pattern {
  public:
-  /// Throws InputError in words that follow the name of the option: `'(' is not a regular
-  /// expression (missing ): ()`.
+  /// Throws InputError with a message to be appended to the name of the option: `'(' is not a
+  /// regular expression (missing ): ()`.
   explicit Pattern(std::string_view expression);
-  /// The same; the error begins with the option's name.
+  /// The same; the message begins with the option's name.
   static Pattern of_option(std::string_view option, std::string_view expression);
 
   /// Whether it matches anywhere in the text.
   [[nodiscard]] bool is_in(std::string_view text) const;
-  /// Whether it matches the text from end to end.
+  /// Whether it matches the complete text.
   [[nodiscard]] bool is_all_of(std::string_view text) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// Bytes of the code point that `text` begins with; 0 when it is no UTF-8 or a control character.
+/// Length of the code point at the start of `text`; 0 if it is not UTF-8 or a control character.
 std::size_t shown_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return std::uint32_t{static_cast<unsigned char>(text[i])};

@@ -1,4 +1,4 @@
-/// Text from files and command lines, safe to show on a terminal.
+/// Makes text from files and command lines safe to print on a terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace loopbench {
 
-/// Newlines and UTF-8 stay; other control characters (C0, DEL, C1) and bytes that are no UTF-8
-/// become "\x1b": a file must not be able to steer the terminal that its name or text is shown on.
+/// Keeps newlines and UTF-8. Replaces other control characters (C0, DEL, C1) and bytes that are not
+/// UTF-8 by "\x1b", so that file names and contents cannot send terminal escape sequences.
 std::string printable(std::string_view text);
 
 }  // namespace loopbench

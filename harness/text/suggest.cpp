@@ -27,7 +27,7 @@ std::string closest(const std::string& given, const std::vector<std::string>& kn
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, given.size() / 3) + 1;
   for (const std::string& name : known) {
-    // Each character too many is an edit: what is far too long need not be compared.
+    // Each surplus character is an edit, so much longer names need no comparison.
     if (given.size() >= name.size() + best_distance) continue;
     if (const std::size_t d = distance(given, name); d < best_distance) {
       best = name;

@@ -1,4 +1,4 @@
-/// "did you mean ...?" for names typed by people.
+/// "did you mean ...?" suggestions for misspelled names.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace loopbench {
 
-/// The closest known name when it is close enough to be a slip of the hand, else empty.
+/// The closest known name if it is similar enough for a typing error, otherwise empty.
 /// Distance: Damerau-Levenshtein (optimal string alignment). O(names * length^2).
 std::string closest(const std::string& given, const std::vector<std::string>& known);
 
-/// "nothing named 'x'; did you mean 'y'?" or, when nothing is close, the list of all names.
+/// "no KIND is named 'x'; did you mean 'y'?" or, without a similar name, the list of all names.
 std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);

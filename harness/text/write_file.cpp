@@ -29,15 +29,15 @@ int write_all(int descriptor, const std::string& text) {
   return 0;
 }
 
-/// Writes and closes; returns 0 or errno. Some file systems tell of a full disk only on closing.
+/// Writes and closes; returns 0 or errno. Some file systems report a full disk only on closing.
 int write_and_close(int descriptor, const std::string& text) {
   const int reason = write_all(descriptor, text);
   return ::close(descriptor) != 0 && reason == 0 ? errno : reason;
 }
 
-/// Where the links end, be it there or not.
+/// Resolves symbolic links, also if the target does not exist.
 FilePath link_target(FilePath file) {
-  constexpr int kMostLinks = 40;  // as Linux
+  constexpr int kMostLinks = 40;  // as in Linux
   std::error_code error;
   for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(file, error); ++i) {
     const FilePath next = std::filesystem::read_symlink(file, error);
@@ -46,25 +46,25 @@ FilePath link_target(FilePath file) {
   return file;
 }
 
-bool is_standard_output(const struct stat& there) {
+bool is_standard_output(const struct stat& status) {
   struct stat out {};
-  return ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == there.st_dev &&
-         out.st_ino == there.st_ino;
+  return ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == status.st_dev &&
+         out.st_ino == status.st_ino;
 }
 
-/// What is no ordinary file keeps being what it is.
-void write_into(const FilePath& file, const struct stat& there, const std::string& text) {
-  // Standard output is written where it stands: opened anew, a file would be written from its
-  // start.
-  const bool is_ours = is_standard_output(there);
-  if (is_ours) std::fflush(stdout);
+/// Writes into pipes and devices instead of replacing them.
+void write_into(const FilePath& file, const struct stat& status, const std::string& text) {
+  // Standard output is written at its current position: opening it again would write from the
+  // start of the file.
+  const bool is_own_output = is_standard_output(status);
+  if (is_own_output) std::fflush(stdout);
   const int descriptor =
-      is_ours ? ::dup(STDOUT_FILENO) : ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+      is_own_output ? ::dup(STDOUT_FILENO) : ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   const int reason = descriptor < 0 ? errno : write_and_close(descriptor, text);
   if (reason != 0) throw cannot_write(file, std::strerror(reason));
 }
 
-/// A new file of its own beside `file`, never one that is there; its descriptor, or -1 and errno.
+/// Creates a new temporary file beside `file`; returns its descriptor, or -1 and errno.
 int create_beside(const FilePath& file, FilePath& part) {
   for (int i = 0;; ++i) {
     part = file;
@@ -80,22 +80,22 @@ bool is_dash(const FilePath& file) { return file == "-"; }
 
 void require_no_dash(const std::string& option, const FilePath& file) {
   if (!is_dash(file)) return;
-  throw InputError(option + " -: standard output cannot hold this, expected a name");
+  throw InputError(option + " -: cannot be written to standard output, expected a name");
 }
 
 void write_file(const FilePath& file, const std::string& text) {
   if (is_dash(file)) {
-    std::fwrite(text.data(), 1, text.size(), stdout);  // main() reports when nobody takes it
+    std::fwrite(text.data(), 1, text.size(), stdout);  // main() reports write errors
     return;
   }
-  struct stat there {};
-  const bool exists = ::stat(file.c_str(), &there) == 0;
-  if (exists && S_ISDIR(there.st_mode)) throw cannot_write(file, "is a folder");
-  if (exists && (!S_ISREG(there.st_mode) || is_standard_output(there))) {
-    return write_into(file, there, text);
+  struct stat status {};
+  const bool exists = ::stat(file.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) throw cannot_write(file, "is a folder");
+  if (exists && (!S_ISREG(status.st_mode) || is_standard_output(status))) {
+    return write_into(file, status, text);
   }
-  // Renaming would not ask the file; and root is asked by the mode alone.
-  const bool is_read_only = exists && (there.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
+  // Renaming ignores the file's permissions, and root bypasses them.
+  const bool is_read_only = exists && (status.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
   if (is_read_only || (exists && ::access(file.c_str(), W_OK) != 0)) {
     throw cannot_write(file, is_read_only ? "is read-only" : std::strerror(errno));
   }
@@ -106,7 +106,7 @@ void write_file(const FilePath& file, const std::string& text) {
   FilePath part;
   const int descriptor = create_beside(target, part);
   if (descriptor < 0) throw cannot_write(file, std::strerror(errno));
-  if (exists) ::fchmod(descriptor, there.st_mode & 0777);
+  if (exists) ::fchmod(descriptor, status.st_mode & 0777);
   const int reason = write_and_close(descriptor, text);
   if (reason == 0) std::filesystem::rename(part, target, error);
   if (reason == 0 && !error) return;
@@ -120,7 +120,7 @@ void refuse_to_overwrite(const std::vector<FilePath>& inputs, const FilePath& fi
   if (is_dash(file) || !std::filesystem::is_regular_file(file, error)) return;
   for (const FilePath& input : inputs) {
     if (std::filesystem::equivalent(input, file, error) && !error) {
-      throw input_error(file.string(), 0, "is read by this command, so it is not written over");
+      throw input_error(file.string(), 0, "is an input of this command and is not overwritten");
     }
   }
 }

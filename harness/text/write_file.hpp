@@ -1,4 +1,4 @@
-/// Files that appear whole or not at all, and destroy nothing that was not meant.
+/// Atomic writing of files.
 #pragma once
 
 #include <filesystem>
@@ -7,20 +7,19 @@
 
 namespace loopbench {
 
-/// "-": standard output, as in other tools.
+/// "-" means standard output.
 bool is_dash(const std::filesystem::path& file);
 
-/// Throws InputError when `option` is given a dash and needs a folder or a database.
+/// Throws InputError if `option` is a dash but needs a folder or a database.
 void require_no_dash(const std::string& option, const std::filesystem::path& file);
 
-/// Writes beside and renames over, so that a reader never meets half a file; folders that are
-/// missing are made. A symbolic link is followed. What is there and no ordinary file (a pipe, a
-/// device, this process's standard output) is written into, not replaced; "-" is standard output.
-/// Throws InputError when
-/// folder or disk refuses, and for a folder or a file that nobody may write.
+/// Writes a temporary file and renames it, so that readers never see a partial file; creates
+/// missing folders. Follows symbolic links. Writes into an existing file that is not a regular file
+/// (a pipe, a device, this process's standard output) instead of replacing it; "-" is standard
+/// output. Throws InputError if the folder or file cannot be written, or if `file` is a folder.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
-/// Throws InputError when `file` is one of `inputs`, by whatever name. What is not there is none.
+/// Throws InputError if `file` is one of `inputs`, under any name. A missing file is none of them.
 void refuse_to_overwrite(const std::vector<std::filesystem::path>& inputs,
                          const std::filesystem::path& file);
 

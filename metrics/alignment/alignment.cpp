@@ -11,11 +11,11 @@
 namespace loopbench {
 namespace {
 
-// Singular values carry rounding of about 1e-16 of the first. Below this share the rotation about
-// the main direction would have fewer than four digits.
+// Singular values have a rounding error of about 1e-16 of the first. Below this ratio the rotation
+// about the main direction would have fewer than four digits.
 constexpr double kFlat = 1e-12;
 
-/// No wider than the rounding of its own coordinates.
+/// Whether the points differ by no more than the rounding of their coordinates.
 bool is_point(double spread, double count, const Vector3& mean) {
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * mean.norm();
   return spread <= count * rounding * rounding;
@@ -24,18 +24,18 @@ bool is_point(double spread, double count, const Vector3& mean) {
 std::runtime_error degenerate(Align type, double count, const std::string& why) {
   const std::string pairs = std::to_string(static_cast<std::size_t>(count)) + " pairs";
   return std::runtime_error("alignment " + to_text(type) + ": " + pairs + " " + why +
-                            ", so the rotation is not unique; align by origin or none");
+                            ", so the rotation is not unique; use align = origin or none");
 }
 
 Alignment least_squares(const Trajectory& reference, const Trajectory& estimate, Align type) {
   const Moments m = moments(reference, estimate);
   if (!std::isfinite(m.reference_spread) || !std::isfinite(m.estimate_spread) ||
       !m.cross.allFinite()) {
-    throw degenerate(type, m.count, "lie too far apart for double precision");
+    throw degenerate(type, m.count, "are too far apart for double precision");
   }
   if (is_point(m.reference_spread, m.count, m.reference_mean) ||
       is_point(m.estimate_spread, m.count, m.estimate_mean)) {
-    throw degenerate(type, m.count, "lie in one point");
+    throw degenerate(type, m.count, "coincide in one point");
   }
   const Eigen::JacobiSVD<Matrix3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector3 d = svd.singularValues();
@@ -46,9 +46,11 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
   Alignment out;
   out.type = type;
   out.rank = d[0] > 0.0 ? 1 + (d[1] > flat) + (d[2] > flat) : 0;
-  if (out.rank == 0) throw degenerate(type, m.count, "move without any common direction");
+  if (out.rank == 0) throw degenerate(type, m.count, "have no common direction of motion");
   if (out.rank == 1) throw degenerate(type, m.count, "lie on one straight line");
-  if (d[1] + mirror * d[2] <= flat) throw degenerate(type, m.count, "mirror the reference");
+  if (d[1] + mirror * d[2] <= flat) {
+    throw degenerate(type, m.count, "are mirror images of the reference");
+  }
   out.condition = d[0] / d[1];
 
   const Vector3 signs(1.0, 1.0, mirror);
@@ -60,8 +62,7 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
   return out;
 }
 
-/// The rotation about z that brings the estimate nearest, from `turned` = sum of e r^T or R_e
-/// R_r^T.
+/// The yaw of the best alignment, from `turned` = sum of e r^T or R_e R_r^T.
 Rotation best_yaw(const Matrix3& turned) {
   const double sine = turned(0, 1) - turned(1, 0);
   const double cosine = turned(0, 0) + turned(1, 1);
@@ -72,7 +73,7 @@ Alignment yaw_least_squares(const Trajectory& reference, const Trajectory& estim
   const Moments m = moments(reference, estimate);
   const double turn = std::hypot(m.cross(1, 0) - m.cross(0, 1), m.cross(0, 0) + m.cross(1, 1));
   if (turn <= kFlat * std::sqrt(m.reference_spread * m.estimate_spread)) {
-    throw degenerate(Align::posyaw, m.count, "do not move across z together");
+    throw degenerate(Align::posyaw, m.count, "have no common motion normal to z");
   }
   Alignment out;
   out.type = Align::posyaw;

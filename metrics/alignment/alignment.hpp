@@ -1,4 +1,4 @@
-/// Moving an estimate onto its reference: least squares, first pose, or not at all.
+/// Alignment of an estimate to its reference: least squares, first pose, or none.
 ///
 /// Source: S. Umeyama, Least-squares estimation of transformation parameters between two point
 /// patterns, PAMI 13(4), 1991.
@@ -15,26 +15,28 @@ struct Alignment {
   Pose reference_from_estimate;
   double scale = 1.0;
   /// Number of independent directions in the point pattern (0..3): 3 in general position, 2 planar
-  /// (still unique), 1 a straight line (rotation about it is free), 0 all in one point. Only se3,
-  /// sim3 and scale look.
+  /// (still unique), 1 a straight line (rotation about it is free), 0 all in one point. Computed
+  /// only for se3, sim3 and scale.
   int rank = 3;
-  /// First over second singular value of the cross covariance: large when the pattern is nearly a
-  /// straight line and rotation about it hangs on little. 1 for origin and none.
+  /// First over second singular value of the cross covariance. A large value means that the pattern
+  /// is nearly a straight line, so the rotation about it is poorly determined. 1 for origin and
+  /// none.
   double condition = 1.0;
 };
 
-/// Aligns paired poses (same size, not empty; std::invalid_argument else). For se3, sim3 and scale,
-/// throws std::runtime_error when fewer than two directions are independent, or the pattern is a
-/// mirror image with no preferred axis: the least-squares rotation is then not unique; for posyaw
-/// when nothing turns about z. `first` > 0: least squares see only so many pairs (or all there
-/// are). posyaw and posyaw_origin: rpg_trajectory_evaluation's align_trajectory.py, best yaw by the
-/// cross covariance or the first attitudes. O(n), reads each pose once from memory.
+/// Aligns paired poses. Throws std::invalid_argument if the lists differ in size or are empty. For
+/// se3, sim3 and scale, throws std::runtime_error if fewer than two directions are independent, or
+/// if the pattern is a mirror image without a preferred axis: the least-squares rotation is then
+/// not unique. For posyaw, throws std::runtime_error if the yaw is not determined. If `first` > 0,
+/// least squares uses only the first `first` pairs. posyaw and posyaw_origin follow
+/// rpg_trajectory_evaluation's align_trajectory.py: the best yaw from the cross covariance, or the
+/// yaw between the first orientations. O(n), one pass over the poses.
 Alignment align(const Trajectory& reference,
                 const Trajectory& estimate,
                 Align type,
                 std::size_t first = 0);
 
-/// The estimate moved: positions scaled, then everything left-multiplied.
+/// Applies the alignment: scales the positions, then left-multiplies every pose.
 Trajectory moved(const Alignment& alignment, Trajectory estimate);
 
 }  // namespace loopbench

@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-/// [m/s] from the pose at `stamp` to the next one, or to the one before.
+/// Speed [m/s] from the pose at `stamp` to the next one, or from the previous one.
 double speed(const Trajectory& reference, double stamp, bool is_ahead) {
   const auto here = std::ranges::lower_bound(reference, stamp, {}, &StampedPose::stamp);
   const auto last = reference.end() - 1;

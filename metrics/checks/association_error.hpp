@@ -1,4 +1,4 @@
-/// Position error that pairing poses of different times costs, whatever the estimate is.
+/// Position error caused by pairing poses of different times, independent of the estimate.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,14 @@
 namespace loopbench {
 
 struct AssociationError {
-  double largest_difference = 0.0;  ///< between the stamps of a pair [s]
+  double largest_difference = 0.0;  ///< largest time difference within a pair [s]
   double metres = 0.0;              ///< root mean square of |dt| times the reference's speed [m]
 };
 
-/// What the pairs of `evaluation` cost a perfect estimate: the distance that `reference`, the whole
-/// one, moves between the two stamps of a pair, at its speed from the paired pose to its neighbour
-/// on that side. Nothing for association `interpolate` and `index`. O(n log m).
+/// Position error that a perfect estimate would have with the pairs of `evaluation`: the distance
+/// that the complete `reference` moves between the two stamps of a pair, at its speed from the
+/// paired pose to its neighbour on that side. nullopt for associations `interpolate` and `index`.
+/// O(n log m).
 std::optional<AssociationError> association_error(const Trajectory& reference,
                                                   const Evaluation& evaluation);
 

@@ -6,8 +6,8 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kFewest = 20;      // stretches
-constexpr double kExplainsOffset = 0.5;  // of the squares, to be said
+constexpr std::size_t kFewest = 20;      // relative poses
+constexpr double kExplainsOffset = 0.5;  // share of the squares explained, for a warning
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string listed(const Vector3& place) {
@@ -18,7 +18,7 @@ std::string listed(const Vector3& place) {
   return out;
 }
 
-/// As `--ref-body` takes it.
+/// In the format of the option `--ref-body`.
 std::string place_text(const Pose& body_from_reference) {
   std::string out = listed(body_from_reference.translation);
   if (log_so3(body_from_reference.rotation).norm() < 1e-6) return out;
@@ -55,15 +55,17 @@ std::string other_body(const BodyOffset& offset, const Pose& stated) {
   const bool is_aside = fit.lever_explained >= kExplainsOffset;
   if (!is_turned && !is_aside) return "";
   if (!is_aside) fit.body_from_reference.translation.setZero();
-  std::string out = "the reference seems to follow another body, at " +
-                    place_text(fit.body_from_reference * stated) + " of the estimate's";
+  std::string out = "the reference seems to track another body, with the offset " +
+                    place_text(fit.body_from_reference * stated) + " in the estimate's body frame";
   if (is_aside) out += " (+- " + listed(fit.deviation) + " m)";
-  out += ": in turns, ";
-  if (is_turned) out += "axes explain " + percent(fit.turn_explained) + " of how they differ";
+  out += ": over rotations, ";
+  if (is_turned) {
+    out += "the rotation explains " + percent(fit.turn_explained) + " of the squared differences";
+  }
   if (is_turned && is_aside) out += " and ";
   if (is_aside) {
-    out += "the place explains " + percent(fit.lever_explained);
-    out += is_turned ? " of the rest" : " of how they differ";
+    out += "the lever arm explains " + percent(fit.lever_explained);
+    out += is_turned ? " of the rest" : " of the squared differences";
   }
   return out;
 }
@@ -71,7 +73,9 @@ std::string other_body(const BodyOffset& offset, const Pose& stated) {
 std::vector<Score> body_offset_scores(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options) {
   const auto found = body_offset(evaluation, options);
-  if (!found) throw Undefined("too few turns, or attitudes or whole positions are missing");
+  if (!found) {
+    throw Undefined("too few rotations, or orientations or unprojected positions are missing");
+  }
   const auto& [rotation, at] = found->fit.body_from_reference;
   std::vector<Score> out;
   constexpr const char* kAxes[] = {"x", "y", "z", "w"};

@@ -1,5 +1,5 @@
-/// Do reference and estimate follow the same body? A marker, an IMU or another camera beside it
-/// leaves an error in every score that no correction can take away.
+/// Detects whether reference and estimate track different bodies. A marker, an IMU or another
+/// camera with an offset adds an error to every score that no correction can remove.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,17 @@
 namespace loopbench {
 
 struct BodyOffsetOptions {
-  double turn = 6.0;      ///< of a stretch of the way that is looked at [deg]
-  double longest = 10.0;  ///< such stretch: later odometry has drifted [s]
+  double turn = 6.0;      ///< rotation angle over which relative poses are compared [deg]
+  double longest = 10.0;  ///< longest duration of such a relative pose; odometry drifts [s]
 };
 
 template <class Visit>
 void fields(BodyOffsetOptions& o, Visit visit) {
-  visit("turn", o.turn, "of a stretch of the way that is looked at [deg]", Between{0.1, 90.0});
-  visit("longest", o.longest, "such stretch: later odometry has drifted [s]", Above{0.0});
+  visit("turn",
+        o.turn,
+        "rotation angle over which relative poses are compared [deg]",
+        Between{0.1, 90.0});
+  visit("longest", o.longest, "longest duration of a compared relative pose [s]", Above{0.0});
 }
 
 struct BodyOffset {
@@ -25,25 +28,26 @@ struct BodyOffset {
   std::size_t stretches = 0;
 };
 
-/// `reference` and `estimate` are pairs. Nothing with fewer than 20 turning stretches. O(n).
+/// Estimates the offset from paired poses. nullopt with fewer than 20 relative poses. O(n).
 std::optional<BodyOffset> body_offset(const Trajectory& reference,
                                       const Trajectory& estimate,
                                       const BodyOffsetOptions& options);
 
-/// Of an evaluation's pairs; nothing either where a list holds positions only or the protocol has
-/// projected them.
+/// The same for the pairs of an evaluation. Also nullopt if a list holds only positions or the
+/// protocol has projected the trajectories.
 std::optional<BodyOffset> body_offset(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options);
 
-/// A sentence when axes or place explain at least half of the differences, else empty. `stated` is
-/// where the reference's body was already taken to be; the place told, x,y,z [m] and when turned
-/// qx,qy,qz,qw, is to stand in its stead. Smaller offsets that matter can stay unsaid: on KITTI
-/// below half a metre to a metre, hand-held below ten to twenty centimetres.
+/// Returns a warning if rotation or lever arm explain at least half of the differences, otherwise
+/// an empty string. `stated` is the offset that was already applied to the reference; the message
+/// gives the offset that should replace it: x,y,z [m] and, if rotated, qx,qy,qz,qw. Relevant
+/// offsets can go undetected if they are small: below 0.5 to 1 m on KITTI, below 0.1 to 0.2 m for
+/// hand-held cameras.
 std::string other_body(const BodyOffset& offset, const Pose& stated);
 
-/// The offset as numbers: position x, y, z and its deviation x, y, z [m], attitude x, y, z, w [1],
-/// turn [deg], turn_explained and position_explained [%], stretches. Throws Undefined where there
-/// is none.
+/// The offset as scores: position x, y, z and its standard deviation x, y, z [m], attitude x, y, z,
+/// w [1], turn [deg], turn_explained and position_explained [%], stretches. Throws Undefined if no
+/// offset can be estimated.
 std::vector<Score> body_offset_scores(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options);
 

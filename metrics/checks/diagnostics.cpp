@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-void look_at_pairs(const Evaluation& evaluation, Diagnostics& out) {
+void diagnose_pairs(const Evaluation& evaluation, Diagnostics& out) {
   const Trajectory& reference = evaluation.reference;
   const Trajectory& estimate = evaluation.estimate;
   for (std::size_t i = 0; i < reference.size(); ++i) {
@@ -27,11 +27,11 @@ void look_at_pairs(const Evaluation& evaluation, Diagnostics& out) {
   }
 }
 
-void look_for_losses(const Trajectory& reference,
-                     const Trajectory& estimate,
-                     double offset,
-                     const DiagnosticsOptions& o,
-                     Diagnostics& out) {
+void diagnose_gaps(const Trajectory& reference,
+                   const Trajectory& estimate,
+                   double offset,
+                   const DiagnosticsOptions& o,
+                   Diagnostics& out) {
   for (const Loss& loss : losses(reference, stamps(estimate), offset, o.loss, o.standing)) {
     const double duration = loss.end - loss.begin;
     ++out.losses;
@@ -48,7 +48,7 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
   out.possible = evaluation.coverage.possible;
   out.rank = evaluation.alignment.rank;
   out.condition = evaluation.alignment.condition;
-  look_at_pairs(evaluation, out);
+  diagnose_pairs(evaluation, out);
   const std::vector<Chord> ways = chords(evaluation.reference, options.window);
   const auto standing = std::ranges::count_if(
       ways, [&](const Chord& chord) { return !chord.is_moving(options.standing); });
@@ -58,7 +58,7 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
   out.position_only_estimate = is_position_only(evaluation.estimate);
   const Context& context = evaluation.context;
   if (context.reference != nullptr && context.estimate != nullptr) {
-    look_for_losses(*context.reference, *context.estimate, context.protocol.offset, options, out);
+    diagnose_gaps(*context.reference, *context.estimate, context.protocol.offset, options, out);
   }
   return out;
 }

@@ -1,4 +1,4 @@
-/// Can the numbers be trusted at all? What was matched, lost, doubled, or never turned.
+/// Checks of the input data: matched poses, tracking gaps, repeated pairs, rotation, alignment.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -13,37 +13,41 @@ struct DiagnosticsOptions {
 
 template <class Visit>
 void fields(DiagnosticsOptions& o, Visit visit) {
-  visit("standing", o.standing, "slower than this is standing still [m/s]", Between{0.0});
-  visit("window", o.window, "time over which speed is taken [s]", Between{0.0});
-  visit("loss", o.loss, "longest pause of the estimate that is no tracking loss [s]", Above{0.0});
+  visit("standing", o.standing, "speed below which the reference is at rest [m/s]", Between{0.0});
+  visit("window", o.window, "time window for the speed [s]", Between{0.0});
+  visit("loss",
+        o.loss,
+        "pause between estimate stamps beyond which tracking counts as lost [s]",
+        Above{0.0});
 }
 
-/// Values behind the scores of `diagnostics`.
+/// Values of the metric `diagnostics`.
 struct Diagnostics {
   std::size_t matched = 0;
   std::size_t possible = 0;
-  double largest_gap = 0.0;  ///< between neighbouring pairs [s]
-  /// Pairs that use a pose again (association evo), and pairs that step back in time against the
-  /// one before (association tum, around bursts). Doubled and unsorted stamps inside one file never
-  /// come this far: readers refuse them, or keep one when told to.
+  double largest_gap = 0.0;  ///< largest time between neighbouring pairs [s]
+  /// Pairs that use a pose a second time (association evo), and pairs whose estimate stamp is
+  /// before that of the previous pair (association tum, around bursts). Repeated or unsorted stamps
+  /// inside one file are handled by the readers, which reject them or, on request, keep one.
   std::size_t repeated = 0;
   std::size_t crossing = 0;
-  double off_unit = 0.0;  ///< largest | |q| - 1 |; readers refuse above their limit and normalise
-  int rank = 3;           ///< of the alignment, see Alignment
+  double off_unit =
+      0.0;       ///< largest | |q| - 1 |; readers reject values above a limit and normalise
+  int rank = 3;  ///< of the alignment, see Alignment
   double condition = 1.0;
-  double standing = 0.0;  ///< share of pairs at which the reference stands still, 0..1
-  bool position_only_reference = false;  ///< then rotation is not judged
+  double standing = 0.0;                 ///< share of pairs at which the reference is at rest, 0..1
+  bool position_only_reference = false;  ///< if true, rotation is not evaluated
   bool position_only_estimate = false;
-  /// Pauses of the estimate longer than `loss` during which the reference moved.
+  /// Tracking gaps: pauses of the estimate longer than `loss` during which the reference moved.
   std::size_t losses = 0;
-  double lost = 0.0;          ///< all of them together [s]
+  double lost = 0.0;          ///< total duration of the tracking gaps [s]
   double longest_loss = 0.0;  ///< [s]
 };
 
-/// O(n + m). Losses are looked for where the context has the whole estimate and reference.
+/// Tracking gaps are found only if the context has the complete estimate and reference. O(n + m).
 Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& options);
 
-/// Each value of Diagnostics as a single number; shares in %, flags as 0 or 1.
+/// Each value of Diagnostics as a single score; shares in %, flags as 0 or 1.
 std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOptions& options);
 
 }  // namespace loopbench

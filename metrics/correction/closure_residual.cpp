@@ -18,8 +18,8 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
   std::vector<double> mahalanobis;
   for (const Edge& edge : problem.closures) {
     if (edge.scale != 1.0) {
-      throw Undefined("closure_residual: a closure measures in another unit of length (" +
-                      to_text(edge.scale) + "), so its residual has no metres");
+      throw Undefined("closure_residual: a closure changes the scale (factor " +
+                      to_text(edge.scale) + "), so its residual is not in metres");
     }
     const Pose from_from_to =
         poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
@@ -30,7 +30,7 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
     mahalanobis.push_back(std::sqrt(e.dot(edge.information * e)));
   }
   const int ddof = evaluation.protocol.ddof;
-  // Zero is no merit: closures taken as exact have no residual, false ones neither.
+  // Not directed: closures taken as exact have zero residual, even false ones.
   return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
                        {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)},
                        {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}});

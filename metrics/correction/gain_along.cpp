@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-/// Magnitudes of the errors of every pair.
+/// Magnitudes of the errors of all pairs.
 struct Errors {
   std::vector<double> metres;
   std::array<std::vector<double>, 3> axes;  ///< x, y, z [m]
@@ -43,17 +43,17 @@ Score gain(const std::string& relation,
   const auto undefined = [&](const char* why) {
     return directed({relation, axis, "%", {}, why}, Better::higher);
   };
-  if (before.empty()) return undefined("no pose lies there");
+  if (before.empty()) return undefined("no pose in this part");
   const std::size_t count = after.size();
   const double b = quoted(statistics(std::move(before), protocol.ddof), protocol.statistic);
   const double a = quoted(statistics(std::move(after), protocol.ddof), protocol.statistic);
-  if (b == 0.0) return undefined("there was no error before");
+  if (b == 0.0) return undefined("the error before correction is zero");
   Score out = directed(single(relation, axis, "%", 100.0 * (1.0 - a / b)), Better::higher);
   out.statistics.count = count;
   return out;
 }
 
-/// The part of `errors` whose pose lies in third 0, 1 or 2 of the way.
+/// The `errors` of poses in third 0, 1 or 2 of the path.
 std::vector<double> third(const std::vector<double>& errors,
                           const std::vector<double>& way,
                           int which) {
@@ -66,9 +66,9 @@ std::vector<double> third(const std::vector<double>& errors,
   return out;
 }
 
-Evaluation judged_before(const Context& context) {
+Evaluation evaluate_raw(const Context& context) {
   const Problem& problem = needed(context.problem, "gain_along", "keyframes before correction");
-  const Trajectory& reference = needed(context.reference, "gain_along", "the whole reference");
+  const Trajectory& reference = needed(context.reference, "gain_along", "the complete reference");
   return evaluate(reference,
                   Polyline(problem.keyframes),
                   stamps(problem.keyframes),
@@ -80,11 +80,11 @@ Evaluation judged_before(const Context& context) {
 }  // namespace
 
 std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptions&) {
-  const Evaluation raw = judged_before(evaluation.context);
+  const Evaluation raw = evaluate_raw(evaluation.context);
   if (raw.reference.size() != evaluation.reference.size()) {
     throw std::runtime_error("gain_along: " + std::to_string(raw.reference.size()) +
                              " pairs before, " + std::to_string(evaluation.reference.size()) +
-                             " after: not the same poses");
+                             " after: the poses differ");
   }
   const Errors before = errors(raw);
   const Errors after = errors(evaluation);

@@ -9,7 +9,8 @@ namespace {
 
 double squared(const Twist& e, const Matrix6& information) { return e.dot(information * e); }
 
-/// Delta's translation and, in space, twice its quaternion's vector part; its angle in the plane.
+/// Delta's translation and, in 3-D, twice the vector part of its quaternion; its angle in the
+/// plane.
 Twist quaternion_error(const Pose& delta, bool planar) {
   const double sign = delta.rotation.w() < 0.0 ? -1.0 : 1.0;
   const Vector3 turn =
@@ -54,8 +55,8 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
     double out = 0.0;
     for (const Edge& edge : edges) {
       if (edge.scale != 1.0) {
-        throw std::runtime_error("graph_cost: an edge measures in another unit of length (" +
-                                 to_text(edge.scale) + "); rigid keyframes carry none");
+        throw std::runtime_error("graph_cost: an edge changes the scale (factor " +
+                                 to_text(edge.scale) + "), but the keyframes are rigid");
       }
       out += cost_of(edge, poses, problem.planar, options.error);
     }
@@ -63,7 +64,7 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
   };
   const double odometry = sum(problem.odometry);
   const double closures = sum(problem.closures);
-  // The sum is what solvers minimise; its two parts are traded for each other.
+  // Directed only for the sum, which solvers minimise; its two parts are traded off.
   return {single("chi2", "all", "1", odometry + closures),
           directed(single("chi2", "odometry", "1", odometry), Better::neither),
           directed(single("chi2", "closures", "1", closures), Better::neither)};

@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-/// Keyframes in a row at which the reference is known.
+/// Consecutive keyframes at which the reference is defined.
 std::vector<Trajectory> stretches(const Trajectory& reference,
                                   const std::vector<double>& keyframe_stamps,
                                   double max_gap) {
@@ -37,10 +37,10 @@ struct Floor {
   std::vector<double> polyline;  ///< [m]
   std::vector<double> cubic;     ///< [m]
   std::vector<double> slerp;     ///< [deg]
-  bool has_between = false;      ///< a reference pose that is no keyframe was judged
+  bool has_between = false;      ///< a reference pose other than a keyframe was evaluated
 };
 
-/// Judges one stretch; `next` is the first reference pose that no earlier stretch has passed.
+/// Evaluates one run of keyframes; `next` is the first reference pose after all earlier runs.
 void judge(Floor& floor, const Trajectory& nodes, const Trajectory& reference, std::size_t& next) {
   if (nodes.size() < 2) return;
   std::vector<Vector3> points;
@@ -68,9 +68,9 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                                        const InterpolationFloorOptions& options) {
   const Context& context = evaluation.context;
   const Trajectory& reference =
-      needed(context.reference, "interpolation_floor", "the whole reference");
+      needed(context.reference, "interpolation_floor", "the complete reference");
   std::vector<double> keyframe_stamps =
-      stamps(needed(context.estimate, "interpolation_floor", "the whole estimate"));
+      stamps(needed(context.estimate, "interpolation_floor", "the complete estimate"));
   for (double& stamp : keyframe_stamps) stamp += context.protocol.offset;
 
   Floor floor;

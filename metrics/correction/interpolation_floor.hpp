@@ -1,4 +1,4 @@
-/// The error that remains between keyframes if every keyframe were exact.
+/// Interpolation error between keyframes if every keyframe were exact.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -11,15 +11,15 @@ struct InterpolationFloorOptions {
 
 template <class Visit>
 void fields(InterpolationFloorOptions& o, Visit visit) {
-  visit("max_gap", o.max_gap, "largest reference gap a keyframe may lie in [s]", Above{0.0});
+  visit("max_gap", o.max_gap, "largest reference gap around a keyframe [s]", Above{0.0});
 }
 
-/// The reference itself is taken at the keyframes' stamps, joined again, and judged at each of its
-/// own stamps in between: polyline 3d [m] by straight lines, natural_cubic 3d [m] by the natural
-/// cubic spline in time, slerp 3d [deg] by great arcs. No method enters but its keyframe stamps, so
-/// this is the same in every row of a table; in files every pose is a keyframe. Keyframes outside
-/// the reference or in a gap of it are not exact: they end one stretch and begin the next.
-/// Throws Undefined when no reference pose lies between two keyframes. O(n + m).
+/// Samples the reference at the keyframe stamps, interpolates, and compares with the reference at
+/// each of its stamps in between: polyline 3d [m] (linear), natural_cubic 3d [m] (natural cubic
+/// spline in time), slerp 3d [deg]. Depends only on the keyframe stamps of a method, so the value
+/// is the same in every row of a table. In files every pose is a keyframe. Keyframes outside the
+/// reference or in a reference gap are not exact; the interpolation is split there. Throws
+/// Undefined if no reference pose lies between two keyframes. O(n + m).
 std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                                        const InterpolationFloorOptions& options);
 

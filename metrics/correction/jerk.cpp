@@ -11,9 +11,9 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMostSamples = 1e8;  // 6 GB: a rate beyond this is a slip
+constexpr double kMostSamples = 1e8;  // 6 GB
 
-/// Stamps of the curve's clock inside both spans, `rate` a second.
+/// Times inside both spans with the given rate, in the curve's time.
 std::vector<double> grid(const Curve& curve,
                          const Trajectory& reference,
                          double offset,
@@ -21,14 +21,14 @@ std::vector<double> grid(const Curve& curve,
   const double begin = std::max(curve.start(), reference.front().stamp - offset);
   const double end = std::min(curve.end(), reference.back().stamp - offset);
   if (!((end - begin) * rate < kMostSamples)) {
-    throw std::runtime_error("jerk: rate = " + to_text(rate) + " asks for too many samples");
+    throw std::runtime_error("jerk: rate = " + to_text(rate) + " needs more than 1e8 samples");
   }
   std::vector<double> out;
   for (double k = 0.0; begin + k / rate <= end; ++k) out.push_back(begin + k / rate);
   return out;
 }
 
-/// [m/s^3] at four samples in a row.
+/// Jerk [m/s^3] from four consecutive samples.
 double jerk_of(const StampedPose* samples) {
   std::array<double, 4> offsets;
   std::array<Vector3, 4> points;
@@ -44,7 +44,7 @@ double jerk_of(const StampedPose* samples) {
 std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options) {
   const Context& context = evaluation.context;
   const Curve& curve = needed(context.curve, "jerk", "a curve");
-  const Trajectory& reference = needed(context.reference, "jerk", "the whole reference");
+  const Trajectory& reference = needed(context.reference, "jerk", "the complete reference");
   const double offset = context.protocol.offset;
   const std::vector<double> times = grid(curve, reference, offset, options.rate);
   std::vector<double> reference_times;
@@ -53,31 +53,32 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
         std::clamp(time + offset, reference.front().stamp, reference.back().stamp));
   }
   const Trajectory ours = curve.sample(times);
-  const Trajectory theirs = Polyline(reference).sample(reference_times);
+  const Trajectory reference_samples = Polyline(reference).sample(reference_times);
 
   std::vector<double> estimate_jerk;
   std::vector<double> reference_jerk;
-  double gap_until = -std::numeric_limits<double>::infinity();  // end of the last gap met
-  std::size_t looked = 0;
+  double gap_until = -std::numeric_limits<double>::infinity();  // end of the last gap so far
+  std::size_t next_pose = 0;
   for (std::size_t i = 0; i + 3 < times.size(); ++i) {
-    // Gaps that begin before the stretch ends; the last of them is the only one that can reach it.
-    while (looked + 1 < reference.size() && reference[looked].stamp < theirs[i + 3].stamp) {
-      const double gap = reference[looked + 1].stamp - reference[looked].stamp;
-      if (gap > options.max_gap + kStampRounding) gap_until = reference[looked + 1].stamp;
-      ++looked;
+    // Only the last gap that begins before the end of the interval can overlap it.
+    while (next_pose + 1 < reference.size() &&
+           reference[next_pose].stamp < reference_samples[i + 3].stamp) {
+      const double gap = reference[next_pose + 1].stamp - reference[next_pose].stamp;
+      if (gap > options.max_gap + kStampRounding) gap_until = reference[next_pose + 1].stamp;
+      ++next_pose;
     }
-    if (gap_until > theirs[i].stamp) continue;
+    if (gap_until > reference_samples[i].stamp) continue;
     estimate_jerk.push_back(evaluation.alignment.scale * jerk_of(&ours[i]));
-    reference_jerk.push_back(jerk_of(&theirs[i]));
+    reference_jerk.push_back(jerk_of(&reference_samples[i]));
   }
   if (estimate_jerk.empty()) {
-    throw Undefined("jerk: curve and reference share no four samples at " + to_text(options.rate) +
-                    " a second without a gap");
+    throw Undefined("jerk: curve and reference have no four consecutive samples in common at " +
+                    to_text(options.rate) + " Hz outside gaps");
   }
   const int ddof = evaluation.protocol.ddof;
   Score estimate{"estimate", "3d", "m/s^3", statistics(std::move(estimate_jerk), ddof)};
   Score truth{"reference", "3d", "m/s^3", statistics(std::move(reference_jerk), ddof)};
-  Score ratio{"ratio", "3d", "1", {}, "the reference has no jerk to compare with"};
+  Score ratio{"ratio", "3d", "1", {}, "the reference has zero jerk"};
   if (truth.statistics.rmse > 0.0) {
     ratio = single("ratio", "3d", "1", estimate.statistics.rmse / truth.statistics.rmse);
   }

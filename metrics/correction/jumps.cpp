@@ -14,7 +14,7 @@ struct Motion {
   Vector3 acceleration = Vector3::Zero();  ///< [m/s^2]
 };
 
-/// The limit at `stamp` of four samples to one side of it, taken from `origin` to keep digits.
+/// One-sided limit at `stamp` from four samples, relative to `origin` to keep precision.
 Motion limit(double stamp, const Vector3& origin, const StampedPose* samples) {
   std::array<double, 4> offsets;
   std::array<Vector3, 4> points;
@@ -23,7 +23,7 @@ Motion limit(double stamp, const Vector3& origin, const StampedPose* samples) {
     points[k] = samples[k].world_from_body.translation - origin;
     if (offsets[k] == 0.0 || (k > 0 && offsets[k] == offsets[k - 1])) {
       throw std::runtime_error("jumps: the stamps around " + to_text(stamp) +
-                               " s are too coarse to look beside a keyframe");
+                               " s are too coarse for four samples beside a keyframe");
     }
   }
   const std::array<Vector3, 4> c = divided_differences(offsets, points);
@@ -36,7 +36,7 @@ Motion limit(double stamp, const Vector3& origin, const StampedPose* samples) {
   return out;
 }
 
-/// Four times before and four after each inner keyframe, sorted.
+/// Four times before and four after each interior keyframe, sorted.
 std::vector<double> times_beside(const Trajectory& keyframes, double reach) {
   std::vector<double> out;
   out.reserve(8 * (keyframes.size() - 2));
@@ -55,8 +55,8 @@ std::vector<double> times_beside(const Trajectory& keyframes, double reach) {
 std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& options) {
   const Curve& curve = needed(evaluation.context.curve, "jumps", "a curve");
   const Trajectory& keyframes = needed(evaluation.context.estimate, "jumps", "keyframes");
-  if (keyframes.size() < 3) throw Undefined("jumps: needs three keyframes");
-  // One call: a curve may cost O(n) to ask at all.
+  if (keyframes.size() < 3) throw Undefined("jumps: needs at least three keyframes");
+  // One call, because evaluating a curve can have an O(n) setup cost.
   const Trajectory samples = curve.sample(times_beside(keyframes, options.reach));
   const double scale = evaluation.alignment.scale;
   std::vector<double> position;

@@ -10,7 +10,7 @@ std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOpt
   const Trajectory& before =
       needed(evaluation.context.problem, "local_shape", "keyframes before correction").keyframes;
   const Trajectory& after = needed(evaluation.context.estimate, "local_shape", "keyframes");
-  if (before.size() < 2) throw Undefined("local_shape: needs two keyframes");
+  if (before.size() < 2) throw Undefined("local_shape: needs at least two keyframes");
   std::vector<double> metres;
   std::vector<double> degrees;
   const auto step = [](const Trajectory& poses, std::size_t i) {
@@ -22,7 +22,7 @@ std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOpt
     degrees.push_back(kDegrees * log_so3(E.rotation).norm());
   }
   const int ddof = evaluation.protocol.ddof;
-  // Measured from the uncorrected keyframes, not from the reference.
+  // Not directed: the change is relative to the uncorrected keyframes, not to the reference.
   return descriptions({{"translation", "3d", "m", statistics(std::move(metres), ddof)},
                        {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)}});
 }

@@ -17,7 +17,7 @@ struct Scored {
   bool right = false;
 };
 
-/// The reference at the keyframes; nothing where it does not reach.
+/// Reference poses at the keyframes; nullopt outside the reference.
 std::vector<std::optional<Pose>> truth_of(const Trajectory& keyframes,
                                           const Trajectory& reference) {
   std::vector<std::optional<Pose>> out(keyframes.size());
@@ -68,7 +68,7 @@ double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// From the surest down, those of one score together.
+/// In descending order of score; visits equal scores together.
 void add_curve(std::vector<Scored> all, Detection& out) {
   std::ranges::stable_sort(all, std::greater{}, &Scored::score);
   std::size_t right = 0;
@@ -142,13 +142,15 @@ std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionR
   const std::string name = "loop_detection";
   const auto& candidates = needed(context.loop_candidates, name, "loop candidates");
   if (candidates.empty()) {
-    throw Undefined(name + ": no loop candidates: only sequences made from images look for them");
+    throw Undefined(name +
+                    ": no loop candidates; only image sequences with place recognition have "
+                    "them");
   }
   const Trajectory& reference = needed(context.reference, name, "a reference");
-  if (reference.empty()) throw Undefined(name + ": no reference to judge against");
+  if (reference.empty()) throw Undefined(name + ": needs a reference");
   const Detection d =
       judge_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
-  if (d.revisits == 0) throw Undefined(name + ": the reference sees no place again");
+  if (d.revisits == 0) throw Undefined(name + ": the reference revisits no place");
   const auto whole = [](const char* what, std::size_t count) {
     return directed(single(what, "", "1", static_cast<double>(count)), Better::neither);
   };

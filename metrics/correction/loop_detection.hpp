@@ -1,4 +1,4 @@
-/// A place recogniser judged as a detector: precision, recall, and the curve between them.
+/// Evaluation of place recognition as a detector: precision, recall, precision-recall curve.
 #pragma once
 
 #include <array>
@@ -10,40 +10,49 @@
 
 namespace loopbench {
 
-/// What counts as the same place, and as a false closure.
+/// Criteria for a revisited place and for a false closure.
 struct DetectionRule {
-  double radius = 1.0;          ///< farthest that two views of a place lie apart [m]
-  double angle = 35.0;          ///< most that they look apart [deg]
-  double min_gap = 5.0;         ///< neighbours in time are no revisits [s]
-  double wrong_metres = 0.25;   ///< a closure off by more is false [m]
-  double wrong_degrees = 10.0;  ///< a closure off by more is false [deg]
+  double radius = 1.0;          ///< largest distance between two views of one place [m]
+  double angle = 35.0;          ///< largest rotation angle between two views of one place [deg]
+  double min_gap = 5.0;         ///< smallest time between a view and a revisit [s]
+  double wrong_metres = 0.25;   ///< translation error above which a closure is false [m]
+  double wrong_degrees = 10.0;  ///< rotation error above which a closure is false [deg]
 };
 
 template <class Visit>
 void fields(DetectionRule& o, Visit visit) {
-  visit("radius", o.radius, "farthest that two views of a place lie apart [m]", Above{0});
-  visit("angle", o.angle, "most that they look apart [deg]", Between{0, 180});
-  visit("min_gap", o.min_gap, "neighbours in time are no revisits [s]", Between{0});
-  visit("wrong_metres", o.wrong_metres, "a closure off by more is false [m]", Above{0});
-  visit("wrong_degrees", o.wrong_degrees, "a closure off by more is false [deg]", Above{0});
+  visit("radius", o.radius, "largest distance between two views of one place [m]", Above{0});
+  visit("angle",
+        o.angle,
+        "largest rotation angle between two views of one place [deg]",
+        Between{0, 180});
+  visit("min_gap", o.min_gap, "smallest time between a view and a revisit [s]", Between{0});
+  visit("wrong_metres",
+        o.wrong_metres,
+        "translation error above which a closure is false [m]",
+        Above{0});
+  visit("wrong_degrees",
+        o.wrong_degrees,
+        "rotation error above which a closure is false [deg]",
+        Above{0});
 }
 
 struct Detection {
-  std::size_t revisits = 0;    ///< keyframes that see a place again
+  std::size_t revisits = 0;    ///< keyframes that revisit a place
   std::size_t accepted = 0;    ///< candidates that became closures
-  std::size_t wrong_pose = 0;  ///< closures whose measured pose is false
-  double precision = 1.0;      ///< of the accepted; 1 when none was
-  double recall = 0.0;         ///< of the accepted
+  std::size_t wrong_pose = 0;  ///< closures with a false relative pose
+  double precision = 1.0;      ///< of the accepted candidates; 1 if none was accepted
+  double recall = 0.0;         ///< of the accepted candidates
   double average_precision = 0.0;
   double full_precision_recall = 0.0;        ///< recall before the first wrong candidate
-  std::array<double, 10> precision_at = {};  ///< best precision at recall 0.1 .. 1.0 or more
+  std::array<double, 10> precision_at = {};  ///< best precision at recall >= 0.1, 0.2, ..., 1.0
 };
 
-/// A keyframe is a revisit when an older one by min_gap lies within radius and angle of it in the
-/// reference (read between its poses); a candidate is right when its pair does. Candidates are
-/// taken from the highest score down, equal scores together; average precision is the sum of
-/// precision times gain in recall, without interpolation. Keyframes outside the reference's time
-/// are left out. Throws std::runtime_error without a reference. O(keyframes^2).
+/// A keyframe is a revisit if a keyframe at least min_gap older lies within radius and angle of it
+/// in the interpolated reference; a candidate is correct if its pair does. Candidates are taken in
+/// descending order of score, equal scores together. Average precision is the sum of precision
+/// times increase in recall, without interpolation. Keyframes outside the reference's time span are
+/// skipped. Throws std::runtime_error without a reference. O(keyframes^2).
 Detection judge_detection(const Problem& problem,
                           const Trajectory& reference,
                           const std::vector<LoopCandidate>& candidates,
@@ -53,13 +62,13 @@ inline Detection judge_detection(const Sequence& sequence, const DetectionRule& 
   return judge_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
 }
 
-/// One line of it.
+/// One-line summary.
 std::string to_text(const Detection& detection);
 
-/// The same as rows: counts of revisits, closures and false_poses; precision, recall,
+/// The same as scores: counts of revisits, closures and false_poses; precision, recall,
 /// average_precision, full_precision_recall; and the curve, precision_at_recall with the recall
-/// (0.1 .. 1.0) as axis. The same for every method: it is the sequence that is judged. Undefined
-/// without a reference, candidates (nothing was looked for, or nothing looked alike) or revisits.
+/// (0.1 .. 1.0) as axis. Identical for every method, because it evaluates the sequence. Undefined
+/// without a reference, without candidates, or without revisits.
 std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionRule& rule);
 
 }  // namespace loopbench

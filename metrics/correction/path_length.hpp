@@ -1,4 +1,4 @@
-/// Is the way as long as the reference's?
+/// Ratio of the path lengths of estimate and reference.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -10,11 +10,10 @@ struct PathLengthOptions {};
 template <class Visit>
 void fields(PathLengthOptions&, Visit) {}
 
-/// Sum of the straight steps between judged poses, after alignment: estimate [m], reference
-/// [m], ratio [1] = estimate over reference. Both are sampled at the same pairs,
-/// so neither gains by being denser; jitter still lengthens.
-/// sim3 alignment takes most of the ratio away. Throws Undefined when the reference
-/// stands still. O(n).
+/// Sum of the distances between evaluated poses, after alignment: estimate [m], reference [m],
+/// ratio [1] = estimate over reference. Both are sampled at the same pairs, so a denser list has no
+/// effect; jitter still increases the length. sim3 alignment removes most of the deviation from 1.
+/// Throws Undefined if the reference does not move. O(n).
 std::vector<Score> path_length_ratio(const Evaluation& evaluation,
                                      const PathLengthOptions& options);
 

@@ -8,7 +8,7 @@
 namespace loopbench {
 namespace {
 
-/// Stamps that repeat (association evo) keep the first pose.
+/// Keeps the first pose of repeated stamps (association evo).
 Series error_series(const Evaluation& evaluation) {
   Series out;
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
@@ -33,14 +33,14 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                                       const SmoothingHeadroomOptions& options) {
   Series errors = error_series(evaluation);
   if (errors.times.size() < 2) {
-    throw Undefined("smoothing_headroom: needs two poses at different times");
+    throw Undefined("smoothing_headroom: needs two poses with different stamps");
   }
   const int ddof = evaluation.protocol.ddof;
   const bool is_sharp = options.filter == Filter::sharp;
   if (is_sharp) errors = resampled(errors, std::bit_ceil(2 * errors.times.size()));
   const Statistics before = magnitudes(errors.values, ddof);
   if (before.rmse == 0.0) {
-    throw Undefined("smoothing_headroom: there is no error to take away");
+    throw Undefined("smoothing_headroom: the error is zero");
   }
   const Statistics after = magnitudes(
       is_sharp ? without_fast(errors, options.window) : moving_average(errors, options.window),

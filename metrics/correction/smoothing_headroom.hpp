@@ -1,4 +1,4 @@
-/// How much of the error is fast enough for a smoother to remove?
+/// High-frequency part of the error: upper bound of what a smoother can remove.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -18,22 +18,20 @@ struct SmoothingHeadroomOptions {
 
 template <class Visit>
 void fields(SmoothingHeadroomOptions& o, Visit visit) {
-  visit("window", o.window, "error of a shorter period counts as removable [s]", Above{0.0});
-  visit("filter", o.filter, "what parts slow error from fast");
+  visit("window", o.window, "period below which errors count as removable [s]", Above{0.0});
+  visit("filter", o.filter, "low-pass filter");
 }
 
-/// The position error vectors as a series in time, and what is left without its fast part:
-/// before and after 3d [m] (statistics of the magnitudes), gain [%] = 100 (1 -
-/// rmse after / rmse before). What a smoother that takes all fast error away and touches no slow
-/// error could have gained at most.
+/// Low-pass filters the position error vectors over time: before and after 3d [m] (statistics of
+/// the magnitudes), gain [%] = 100 (1 - rmse after / rmse before). The gain is an upper bound for a
+/// smoother that removes only high-frequency error.
 ///
-/// `sharp` removes every period below `window` and nothing else (low_pass.hpp). The error is joined
-/// by straight lines and read on an even grid at least twice as fine as the poses, so `before` is
-/// ate weighted by time; a hole counts as a straight line. `moving_average` is what a simple
-/// smoother of that width would do to the error: it also takes part of what is slower, so its gain
-/// is larger. A steady drift gains (nearly) nothing under either. Poses sparser than half a window
-/// hide the fast error: judge densely. Throws Undefined when there is no error, or no
-/// time passes. O(n log n).
+/// `sharp` removes exactly the periods below `window` (low_pass.hpp). The error is interpolated
+/// linearly on an even grid at least twice as dense as the poses, so `before` is ate weighted by
+/// time, and gaps are bridged linearly. `moving_average` models a simple smoother of that width: it
+/// also removes part of the lower frequencies, so its gain is larger. A steady drift has (nearly)
+/// no gain under either. Poses more than half a window apart hide the high-frequency error:
+/// evaluate densely. Throws Undefined if the error is zero or all poses have one stamp. O(n log n).
 std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                                       const SmoothingHeadroomOptions& options);
 

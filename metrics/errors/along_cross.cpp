@@ -8,13 +8,13 @@
 namespace loopbench {
 namespace {
 
-constexpr double kUpright = 1e-3;  // sine between T and up below which "beside" has no direction
+constexpr double kUpright = 1e-3;  // sine between T and up below which `cross` is undefined
 
-/// Unit direction of travel of each pose, kept while standing; before the first move, the first.
+/// Unit direction of travel of each pose, kept while at rest; before the first move, the first.
 std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOptions& o) {
   const std::vector<Chord> ways = chords(reference, o.window);
   std::vector<Vector3> out(ways.size());
-  std::size_t known = 0;  // poses whose direction is set
+  std::size_t known = 0;  // number of poses with a direction
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (!ways[i].is_moving(o.standing)) {
       if (known > 0) out[known++] = out[i - 1];
@@ -32,7 +32,7 @@ std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOpt
 
 Score magnitudes(const std::string& axis, std::vector<double> metres, int ddof) {
   if (!metres.empty()) return {"translation", axis, "m", statistics(std::move(metres), ddof)};
-  return {"translation", axis, "m", {}, "the reference only moves along `up`"};
+  return {"translation", axis, "m", {}, "the reference only moves parallel to `up`"};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Position error as a traveller sees it: ahead or behind, beside, above.
+/// Position error along, across and above the direction of travel.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -19,18 +19,21 @@ struct AlongCrossOptions {
 
 template <class Visit>
 void fields(AlongCrossOptions& o, Visit visit) {
-  visit("up", o.up, "axis of the reference's world that is vertical; y for cameras");
-  visit("window", o.window, "time over which the direction of travel is taken [s]", Between{0.0});
-  visit("standing", o.standing, "below this speed the last direction is kept [m/s]", Between{0.0});
+  visit("up", o.up, "vertical axis of the reference's world; y for camera frames");
+  visit("window", o.window, "time window for the direction of travel [s]", Between{0.0});
+  visit("standing",
+        o.standing,
+        "speed below which the last direction of travel is kept [m/s]",
+        Between{0.0});
 }
 
-/// translation [m], magnitudes. T is the reference's direction of travel (chord over `window`),
-/// kept while standing. `along` |e.T| and `off_track` |e - (e.T) T| do not depend on how the world
-/// is turned and their squares add up to the 3-D ones. `cross` and `vertical` split off_track:
-/// cross is horizontal (up x T), vertical is T x cross; poses where T points up or down have
-/// neither and their count is lower. (Frenet's normal and binormal are not used: undefined on
-/// straight parts and flipping at inflections.) Throws Undefined when the reference never
-/// moves. O(n).
+/// translation [m], magnitudes. e is the position error. T is the reference's unit direction of
+/// travel (chord over `window`), kept while the speed is below `standing`. `along` |e.T| and
+/// `off_track` |e - (e.T) T| do not depend on the orientation of the world frame, and their squares
+/// add up to the squared 3-D error. `cross` and `vertical` split off_track: cross is horizontal
+/// (up x T), vertical is T x cross. Both are undefined for poses where T is parallel to `up`, so
+/// their count can be lower. (Frenet's normal and binormal are not used: they are undefined on
+/// straight parts and flip at inflections.) Throws Undefined if the reference never moves. O(n).
 std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOptions& options);
 
 }  // namespace loopbench

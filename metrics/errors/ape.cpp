@@ -12,7 +12,9 @@ namespace loopbench {
 
 void check_combination(const ApeOptions& options) {
   if (options.relation != Relation::point_distance_error_ratio) return;
-  throw OptionError("relation", "relation = point_distance_error_ratio: is of motions: use rpe");
+  throw OptionError("relation",
+                    "relation = point_distance_error_ratio: is defined only for relative errors; "
+                    "use rpe");
 }
 
 std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) {

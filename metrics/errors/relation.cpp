@@ -27,7 +27,7 @@ std::string unit(Relation relation) {
 }
 
 double measure(Relation relation, const Pose& E, AngleFormula formula) {
-  // |R - I| = 2 sqrt(2) sin(angle / 2), from the quaternion without cancellation.
+  // |R - I| = 2 sqrt(2) sin(angle / 2), computed from the quaternion without cancellation.
   const double square = 8.0 * E.rotation.vec().squaredNorm();
   switch (relation) {
     case Relation::full_transformation:
@@ -41,7 +41,8 @@ double measure(Relation relation, const Pose& E, AngleFormula formula) {
     case Relation::rotation_angle_rad:
       return rotation_angle(formula, E.rotation);
     default:
-      throw std::logic_error("measure: " + to_text(relation) + " needs more than the transform");
+      throw std::logic_error("measure: " + to_text(relation) +
+                             " needs more than the error transform");
   }
 }
 

@@ -1,4 +1,4 @@
-/// What of an error transform is measured: evo's pose relations, and Euler angles.
+/// Quantities measured on an error transform: evo's pose relations, and Euler angles.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 namespace loopbench {
 
 enum class Relation {
-  usual,                       ///< the metric's own set of scores
-  full_transformation,         ///< Frobenius norm of E - I, metres and radians mixed
-  translation_part,            ///< length of E's translation [m]
-  rotation_part,               ///< Frobenius norm of R - I
-  rotation_angle_deg,          ///< [deg]
-  rotation_angle_rad,          ///< [rad]
-  point_distance,              ///< absolute: distance of points; relative: difference of two [m]
-  point_distance_error_ratio,  ///< relative only: the same over the reference's distance [%]
+  usual,                ///< the metric's default scores
+  full_transformation,  ///< Frobenius norm of E - I, which mixes metres and radians
+  translation_part,     ///< length of E's translation [m]
+  rotation_part,        ///< Frobenius norm of R - I
+  rotation_angle_deg,   ///< [deg]
+  rotation_angle_rad,   ///< [rad]
+  point_distance,       ///< absolute: distance of points; relative: difference of distances [m]
+  point_distance_error_ratio,  ///< relative only: point_distance over the reference's distance [%]
   rpy,                         ///< roll, pitch and yaw of E, magnitudes [deg]
 };
 inline auto choices(Relation) {
@@ -30,10 +30,10 @@ inline auto choices(Relation) {
                     std::pair{"rpy", Relation::rpy}};
 }
 
-/// "m", "deg", "rad", "%", or "1" for norms that mix.
+/// "m", "deg", "rad", "%", or "1" for norms that mix units.
 std::string unit(Relation relation);
 
-/// The number that E alone gives. Throws std::logic_error for usual, rpy and the point distances.
+/// Value of the relation for E. Throws std::logic_error for usual, rpy and the point distances.
 double measure(Relation relation, const Pose& E, AngleFormula formula);
 
 }  // namespace loopbench

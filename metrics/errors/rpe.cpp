@@ -12,14 +12,14 @@
 namespace loopbench {
 namespace {
 
-/// Four poses at a time, over all pairs.
+/// Visits the four poses of every pair.
 struct Motions {
   const Trajectory& reference;
   const Trajectory& estimate;
   const std::vector<FromTo>& pairs;
   const Protocol& protocol;
-  std::string why_no_attitude;  ///< set for positions without attitude: what uses it means nothing
-  std::optional<PrintedPoses> printed{};  ///< beside both, where their digits count
+  std::string why_no_attitude;  ///< set for position-only files: scores with rotation are undefined
+  std::optional<PrintedPoses> printed{};  ///< printed matrices of both files, where they are used
 
   Pose error(std::size_t i, std::size_t j) const {
     if (printed) {
@@ -33,7 +33,7 @@ struct Motions {
                         estimate[j].world_from_body);
   }
 
-  /// visit(k, E, Q_i, Q_j, P_i, P_j), in blocks on several threads: it may write to slot k only.
+  /// visit(k, E, Q_i, Q_j, P_i, P_j), multi-threaded: it may write only to slot k.
   template <class Visit>
   void each(Visit visit) const {
     in_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
@@ -48,7 +48,7 @@ struct Motions {
     });
   }
 
-  /// The statistics of errors, or why there are none.
+  /// The statistics of errors, or the reason why they are undefined.
   Score score(const char* relation,
               const char* axis,
               const char* unit,
@@ -79,7 +79,7 @@ std::vector<Score> usual(const Motions& motions, RpeFrame frame) {
             : Vector3((P_j.translation - Q_j.translation) - (P_i.translation - Q_i.translation));
     for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)][k] = std::abs(change[a]);
   });
-  // |trans(E)| and the body frame turn motions by the attitudes; only the world's axes do not.
+  // |trans(E)| and the body frame depend on orientations; only the world axes do not.
   const bool in_body = frame == RpeFrame::body;
   return {motions.score("translation", "3d", "m", std::move(metres), true),
           motions.score("translation", "x", "m", std::move(axes[0]), in_body),
@@ -100,7 +100,7 @@ std::vector<Score> rpy(const Motions& motions, RpeFrame frame) {
 }
 
 std::vector<double> distances(const Motions& motions, Relation relation) {
-  constexpr double kLeftOut = -1.0;  // no distance is negative
+  constexpr double kLeftOut = -1.0;  // marks skipped pairs; distances are not negative
   std::vector<double> out(motions.pairs.size(), kLeftOut);
   motions.each([&](std::size_t k,
                    const Pose&,
@@ -117,11 +117,11 @@ std::vector<double> distances(const Motions& motions, Relation relation) {
     }
   });
   std::erase(out, kLeftOut);
-  if (out.empty()) throw Undefined("rpe: the reference stands still in every pair");
+  if (out.empty()) throw Undefined("rpe: the reference does not move within any pair");
   return out;
 }
 
-/// Who is to blame when too few poses are that far apart.
+/// The trajectory on which pairs were selected, the cause if there are too few.
 enum class Measured { reference, estimate };
 
 void require_pairs(std::size_t pairs,
@@ -185,8 +185,8 @@ TumMotions random_motions(const Paired& whole,
                           std::size_t max_pairs,
                           const RpeOptions& options) {
   if (options.delta != RpeOptions{}.delta || options.unit != RpeOptions{}.unit) {
-    throw Undefined("rpe: pairs tum_random have no stretch of " + to_text(options.delta) + " " +
-                    to_text(options.unit) + "; ask for rpe without delta and unit");
+    throw Undefined("rpe: pairs tum_random ignore delta = " + to_text(options.delta) + " " +
+                    to_text(options.unit) + "; use rpe without delta and unit");
   }
   return tum_random_motions(whole, offset, alignment, max_pairs);
 }
@@ -199,7 +199,7 @@ void check_combination(const RpeOptions& options) {
 
 void check_protocol(const RpeOptions& options, const Protocol& protocol) {
   if (options.pairs != RpePairs::tum || is_of_whole_files(protocol.pairs)) return;
-  throw OptionError("pairs", "pairs = tum: looks at whole files; only a protocol can ask for it");
+  throw OptionError("pairs", "pairs = tum: needs a protocol with pairs = tum");
 }
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {

@@ -1,4 +1,4 @@
-/// Roll, pitch and yaw errors, collected.
+/// Roll, pitch and yaw errors of many rotations.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class Rpy {
     degrees_[2][i] = kDegrees * std::abs(yaw);
   }
 
-  /// rotation roll, pitch, yaw [deg]. Uses up the collection.
+  /// rotation roll, pitch, yaw [deg]. Moves the values out; call once.
   std::vector<Score> scores(int ddof) {
     return {{"rotation", "roll", "deg", statistics(std::move(degrees_[0]), ddof)},
             {"rotation", "pitch", "deg", statistics(std::move(degrees_[1]), ddof)},

@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-/// The matrices of the files, while they are what the protocol judges; otherwise null.
+/// The printed matrices if the protocol evaluates them unchanged, otherwise null.
 const PrintedPoses* printed(const Evaluation& evaluation) {
   const Protocol& p = evaluation.protocol;
   const bool is_unmoved =

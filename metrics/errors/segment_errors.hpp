@@ -1,4 +1,4 @@
-/// The errors of sub-trajectories of one length, before they are summed up.
+/// Errors of the sub-trajectories of one length.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace loopbench {
 
-/// Equally long, or empty: `start` in float64, the last four when only rates are wanted and in
-/// float32.
+/// Lists of equal length or empty. `start` is empty in float64. The last four are empty if only
+/// rates are requested, and in float32.
 struct SegmentErrors {
   std::vector<std::size_t> start;
   std::vector<double> translation_share;  ///< [m/m]
@@ -20,23 +20,23 @@ struct SegmentErrors {
   std::vector<double> gravity;            ///< [rad]
 };
 
-/// By the protocol, on all cores. Poses that both stand in KITTI files and that nothing has moved
-/// since count with the digits of the files and general inverses, as in the devkit: making
-/// rotations of them first shifts the mean angle by 2e-9 of it.
+/// Errors by the protocol, multi-threaded. Poses from KITTI files that were not moved since are
+/// used with the printed digits and general matrix inverses, as in the devkit: converting them to
+/// rotations first changes the mean angle by a relative 2e-9.
 SegmentErrors segment_errors(const Evaluation& evaluation,
                              const std::vector<double>& distances,
                              const std::vector<FromTo>& pairs,
                              double length,
                              bool only_rates);
 
-/// The devkit's, with matrices as above: distances, angles and lengths of translations in float,
-/// transforms in double.
+/// The devkit's float variant, with matrices as above: distances, angles and translation lengths in
+/// float, transforms in double.
 std::vector<float> float_distances(const Trajectory& trajectory);
 SegmentErrors float_segment_errors(const Evaluation& evaluation,
                                    const std::vector<FromTo>& pairs,
                                    float length);
 
-/// Sum in float, term by term, over the count.
+/// Mean with a sequential sum in float.
 double float_mean(const std::vector<double>& values);
 
 }  // namespace loopbench

@@ -14,21 +14,21 @@ namespace loopbench {
 namespace {
 
 template <class T>
-void put_behind(std::vector<T>& list, const std::vector<T>& more) {
+void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The rates of several lengths, one after the other.
+/// The rates of several lengths, concatenated.
 struct Together {
   SegmentErrors errors;
 
   void add(const SegmentErrors& more) {
-    put_behind(errors.start, more.start);
-    put_behind(errors.translation_share, more.translation_share);
-    put_behind(errors.rotation_rate, more.rotation_rate);
+    append(errors.start, more.start);
+    append(errors.translation_share, more.translation_share);
+    append(errors.rotation_rate, more.rotation_rate);
   }
 
-  /// By their starts, in which order the devkit sums its floats.
+  /// Ordered by start, the order in which the devkit sums floats.
   void sort() {
     std::vector<std::size_t> order(errors.start.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -42,7 +42,7 @@ struct Together {
   }
 };
 
-/// Adds scores of values times `factor`.
+/// Adds scores of the values times `factor`.
 struct Scores {
   const Protocol& protocol;
   std::vector<Score> out;
@@ -77,7 +77,7 @@ class Finder {
     }
   }
 
-  /// Only rates where no length is shown apart.
+  /// Computes only rates if single lengths are not reported.
   SegmentErrors errors(double length, bool only_rates) const {
     const auto step = static_cast<std::size_t>(rule_.step);
     if (rule_.precision == Precision::float32) {
@@ -130,7 +130,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
     each.add("gravity", length.text, "deg", kDegrees, std::move(errors.gravity));
   }
   if (all.errors.rotation_rate.empty()) {
-    throw Undefined("segments: no stretch of the reference (" +
+    throw Undefined("segments: no segment of the reference (" +
                     to_text(evaluation.reference_length) + " m) has a length of " +
                     (is_own ? options.lengths : rule.lengths));
   }

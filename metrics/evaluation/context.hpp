@@ -1,4 +1,4 @@
-/// What lies behind the pairs of an evaluation, for metrics that look further.
+/// Data behind the pairs of an evaluation, for metrics that need more than the pairs.
 #pragma once
 
 #include <string>
@@ -12,30 +12,31 @@
 
 namespace loopbench {
 
-/// Both lists with the digits of their files, in the files' order; set when both hold matrices.
+/// Poses of both files with the digits as printed, in file order; set if both files hold matrices.
 struct PrintedPoses {
   std::vector<PoseMatrix> reference;
   std::vector<PoseMatrix> estimate;
 };
 
-/// Null where there is none: two files have neither problem nor curve. Nothing is owned.
+/// Non-owning pointers, null where the data do not exist: two files have neither problem nor curve.
 struct Context {
-  const Trajectory* reference = nullptr;  ///< whole, before pairing
-  const Trajectory* estimate = nullptr;   ///< whole, before pairing and alignment; of a curve its
-                                          ///< poses at the keyframes
-  const Problem* problem = nullptr;       ///< what the method was given
-  const Curve* curve = nullptr;           ///< the estimate in time, before alignment
-  Times times = Times::keyframes;         ///< how the pairs were made, with `protocol`
+  const Trajectory* reference = nullptr;  ///< complete, before pairing
+  const Trajectory* estimate = nullptr;   ///< complete, before pairing and alignment; for a curve
+                                          ///< its poses at the keyframes
+  const Problem* problem = nullptr;       ///< input of the method
+  const Curve* curve = nullptr;           ///< continuous-time estimate, before alignment
+  Times times = Times::keyframes;         ///< evaluation times of the pairs
   Protocol protocol;
-  const PrintedPoses* printed = nullptr;  ///< what rounded text became `reference` and `estimate`
-  /// What the place recogniser thought, accepted or not; empty where none ran.
+  const PrintedPoses* printed =
+      nullptr;  ///< the printed matrices behind `reference` and `estimate`
+  /// Candidates of the place recognition, accepted or not; empty without place recognition.
   const std::vector<LoopCandidate>* loop_candidates = nullptr;
 };
 
-/// The view, or Undefined "METRIC: needs WHAT; files have none".
+/// Dereferences the view. Throws Undefined "METRIC: needs WHAT, which files do not have" if null.
 template <class View>
 const View& needed(const View* view, const std::string& metric, const std::string& what) {
-  if (view == nullptr) throw Undefined(metric + ": needs " + what + "; files have none");
+  if (view == nullptr) throw Undefined(metric + ": needs " + what + ", which files do not have");
   return *view;
 }
 

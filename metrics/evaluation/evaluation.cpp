@@ -15,7 +15,7 @@ std::string span_text(double first, double last) {
   return to_text(first) + " .. " + to_text(last) + " s";
 }
 
-constexpr double kPause = 2.0;  // [s], that of DiagnosticsOptions
+constexpr double kPause = 2.0;  // [s], as in DiagnosticsOptions
 
 double seconds_in(const std::vector<Loss>& gaps) {
   double sum = 0.0;
@@ -23,7 +23,7 @@ double seconds_in(const std::vector<Loss>& gaps) {
   return sum;
 }
 
-/// Goes through ascending stamps: is this one inside a gap?
+/// For ascending stamps: whether the stamp lies inside a gap.
 class InsideGap {
  public:
   explicit InsideGap(const std::vector<Loss>& gaps) : gaps_(gaps) {}
@@ -44,8 +44,8 @@ void require_attitudes(const Paired& paired, Align align) {
   if (is_reference == is_position_only(paired.estimate)) return;
   throw std::runtime_error(
       "alignment " + to_text(align) + ": the " + (is_reference ? "reference" : "estimate") +
-      " keeps one attitude while its path turns: it holds positions only, so its first pose aligns "
-      "nothing; align by se3, sim3 or none");
+      " has a constant orientation although its path is curved: it holds only positions, so its "
+      "first pose does not define a rotation; align by se3, sim3 or none");
 }
 
 Evaluation judge(Paired paired,
@@ -75,9 +75,9 @@ Evaluation judge(Paired paired,
 
 std::string limits(const Protocol& protocol) {
   if (protocol.association == Association::interpolate) {
-    return "a reference gap of at most " + to_text(protocol.max_gap) + " s";
+    return "reference gaps of at most " + to_text(protocol.max_gap) + " s";
   }
-  return "at most " + to_text(protocol.max_diff) + " s apart";
+  return "differences of at most " + to_text(protocol.max_diff) + " s";
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Evaluation evaluate(const Trajectory& reference,
         "no pose of the estimate (" + span_text(estimate.front().stamp, estimate.back().stamp) +
         ", offset " + to_text(protocol.offset) + " s) matches the reference (" +
         span_text(reference.front().stamp, reference.back().stamp) + "): association " +
-        to_text(protocol.association) + " wants " + limits(protocol));
+        to_text(protocol.association) + " accepts " + limits(protocol));
   }
   Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
   if (is_of_whole_files(protocol.pairs)) out.whole = {reference, estimate};
@@ -118,7 +118,7 @@ Evaluation evaluate(const Trajectory& reference,
   InsideGap is_bridged(gaps);
   std::size_t possible = 0;
   Paired paired;
-  std::vector<double> wanted;  // the reference's stamps on the estimate's clock
+  std::vector<double> wanted;  // the reference's stamps in the estimate's time
   for (const StampedPose& pose : reference) {
     const double stamp = pose.stamp - protocol.offset;
     if (stamp < estimate.start() || stamp > estimate.end()) continue;
@@ -144,8 +144,9 @@ Evaluation evaluate(const Trajectory& reference,
 std::string why_no_attitude(const Evaluation& evaluation) {
   const auto text = [](const std::string& whose) {
     return "the " + whose +
-           " keeps one attitude while its path turns: it holds positions only, so rotation is not "
-           "judged";
+           " has a constant orientation although its path is curved: it holds only positions, so "
+           "rotation is not "
+           "evaluated";
   };
   if (is_position_only(evaluation.reference)) return text("reference");
   if (is_position_only(evaluation.estimate)) return text("estimate");

@@ -1,4 +1,4 @@
-/// An estimate laid beside its reference: paired, aligned, with what was lost on the way.
+/// Pairing and alignment of an estimate with its reference, with coverage.
 #pragma once
 
 #include <algorithm>
@@ -12,52 +12,54 @@
 
 namespace loopbench {
 
-/// Pair counts that stand beside every number.
+/// Pair counts that are reported with every score.
 struct Coverage {
-  std::size_t pairs = 0;     ///< pose pairs that were judged
+  std::size_t pairs = 0;     ///< evaluated pose pairs
   std::size_t possible = 0;  ///< estimate poses (keyframes) or reference stamps in the span (dense)
-  /// First to last judged reference stamp, less the losses in between (pauses above 2 s and ten
-  /// times the usual step while the reference went on), over the reference's duration, 0..1.
+  /// Time from the first to the last evaluated reference stamp, without the tracking gaps in
+  /// between (pauses above 2 s and above ten times the median interval while the reference moved),
+  /// over the reference's duration, 0..1.
   double span = 0.0;
-  /// Dense: time in tracking gaps (losses.hpp) that the curve bridges without a measurement [s]. It
-  /// is judged only where the protocol's max_estimate_gap is 0.
+  /// Dense: duration of the tracking gaps (losses.hpp) that the curve bridges without a measurement
+  /// [s]. Evaluated only if the protocol's max_estimate_gap is 0.
   double bridged = 0.0;
 
   double share() const {
     return possible == 0 ? 0.0 : static_cast<double>(pairs) / static_cast<double>(possible);
   }
 
-  /// The smaller of both shares, by which coverage is judged.
+  /// The smaller of share and span, which the coverage checks use.
   double least() const { return std::min(share(), span); }
 };
 
-/// reference[i] and estimate[i] belong together and share reference[i].stamp as their time; the
-/// estimate keeps its own stamps. With association `evo` a pose may serve twice, so stamps may
-/// repeat; around bursts `tum` may pair across each other, and then the estimate's go back.
+/// reference[i] and estimate[i] are paired, and reference[i].stamp is their time; the estimate
+/// keeps its own stamps. With association `evo` a pose can be used twice, so stamps can repeat.
+/// With `tum` pairs can cross around bursts, so the estimate's stamps can decrease.
 struct Evaluation {
   Trajectory reference;
-  Trajectory estimate;  ///< already moved onto the reference by `alignment`, both then flattened
+  Trajectory estimate;  ///< after alignment; both lists are projected by the protocol
   Alignment alignment;
   Coverage coverage;
   Protocol protocol;
-  double reference_length = 0.0;  ///< path of the whole reference, matched or not [m]
-  /// The whole lists as given, before pairing and alignment, when the protocol's pairs are of
-  /// whole files. Empty otherwise.
+  double reference_length = 0.0;  ///< path length of the complete reference [m]
+  /// The complete lists before pairing and alignment, if the protocol's pair rule needs complete
+  /// files. Empty otherwise.
   Paired whole;
-  Context context;  ///< empty from evaluate(): whoever holds the problem and the curve fills it
+  Context context;  ///< evaluate() leaves it empty; the caller that has problem and curve fills it
 };
 
-/// Pairs two pose lists, aligns, counts. Throws std::runtime_error when nothing matches, the
-/// alignment is degenerate, or wants attitudes of a file that holds positions only. Complexity O((n
-/// + m) log(n + m)) or better.
+/// Pairs two pose lists, aligns them and counts the pairs. Throws std::runtime_error if nothing
+/// matches, the alignment is degenerate, or the alignment needs orientations and a file holds only
+/// positions. O((n + m) log(n + m)) or better.
 Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
                     const Protocol& protocol);
 
-/// The same for a curve, at its keyframes or densely at the reference's times: there association
-/// is not used, the curve is asked at every reference stamp (minus offset) inside its span, except
-/// in tracking gaps longer than max_estimate_gap: between `tracked` stamps (empty: the keyframes')
-/// while the reference moved. Such stamps count as possible, not as pairs.
+/// The same for a curve, evaluated at its keyframes or densely at the reference's stamps. Dense
+/// evaluation does not use the association: the curve is evaluated at every reference stamp (minus
+/// offset) inside its span, except in tracking gaps longer than max_estimate_gap: pauses between
+/// `tracked` stamps (if empty, the keyframe stamps) while the reference moved. The skipped stamps
+/// count as possible, not as pairs.
 Evaluation evaluate(const Trajectory& reference,
                     const Curve& estimate,
                     const std::vector<double>& keyframe_stamps,
@@ -65,7 +67,7 @@ Evaluation evaluate(const Trajectory& reference,
                     const Protocol& protocol,
                     const std::vector<double>& tracked = {});
 
-/// Why numbers that use attitudes mean nothing here (position_only.hpp), or empty when they do.
+/// Why scores that use orientations are undefined (position_only.hpp); empty if they are defined.
 /// O(n).
 std::string why_no_attitude(const Evaluation& evaluation);
 

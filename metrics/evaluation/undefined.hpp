@@ -1,12 +1,12 @@
-/// A metric that means nothing here.
+/// Exception for metrics that are undefined for a sequence.
 #pragma once
 
 #include <stdexcept>
 
 namespace loopbench {
 
-/// What a metric throws when the sequence, not the method, leaves it without meaning: no closures,
-/// no curve, a reference that stands still. A row `declined` with this reason, not a failure.
+/// Thrown by a metric if the sequence, not the method, makes it undefined: no closures, no curve, a
+/// reference that does not move. Recorded as a `declined` row with this reason, not as a failure.
 class Undefined final : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

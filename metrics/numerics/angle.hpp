@@ -1,4 +1,4 @@
-/// Radians to the degrees that tables show.
+/// Conversion from radians to degrees.
 #pragma once
 
 #include <numbers>

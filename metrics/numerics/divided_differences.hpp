@@ -1,4 +1,4 @@
-/// The cubic through four points of a path, for derivatives that do not care about even spacing.
+/// Cubic through four points of a path, for derivatives at unevenly spaced times.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 namespace loopbench {
 
 /// Newton's coefficients of the cubic with p(offsets[k]) = points[k]; c[3] is a sixth of its third
-/// derivative. Offsets [s] must differ. They are what the clock really said: stamps of 1e9 s
-/// come in steps of 2.4e-7 s, and differences of neighbours are exact.
+/// derivative. Offsets [s] must differ. Use the offsets of the rounded stamps: stamps near 1e9 s
+/// have a resolution of 2.4e-7 s, and differences of neighbouring stamps are exact.
 inline std::array<Vector3, 4> divided_differences(const std::array<double, 4>& offsets,
                                                   std::array<Vector3, 4> points) {
   for (std::size_t order = 1; order < 4; ++order) {

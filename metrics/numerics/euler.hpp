@@ -11,7 +11,7 @@ namespace loopbench {
 struct Euler {
   double roll = 0.0;   ///< about x [rad], -pi..pi
   double pitch = 0.0;  ///< about y [rad], -pi/2..pi/2
-  double yaw = 0.0;    ///< about z [rad], -pi..pi; 0 where roll and yaw cannot be told apart
+  double yaw = 0.0;    ///< about z [rad], -pi..pi; 0 at gimbal lock
 };
 
 inline Euler euler(const Rotation& rotation) {

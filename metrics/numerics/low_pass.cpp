@@ -9,8 +9,8 @@
 namespace loopbench {
 namespace {
 
-/// Centred means of values[begin..end), which has no hole, as differences of running sums: both
-/// ends of the window only move forward, even where it shrinks.
+/// Centred means of values[begin..end), which has no gap, as differences of running sums: both ends
+/// of the window only move forward, even where it shrinks.
 void average(const Series& series,
              std::size_t begin,
              std::size_t end,
@@ -54,7 +54,7 @@ std::vector<Vector3> without_fast(const Series& even, double window) {
   const std::size_t n = even.values.size();
   const double span = (even.times.back() - even.times.front()) * static_cast<double>(n) /
                       static_cast<double>(n - 1);
-  // Wave k of the mirrored series has period 2 span / k.
+  // Basis function k of the mirrored series has period 2 span / k.
   const double fastest = 2.0 * span / window;
   std::vector<Vector3> out(n);
   Eigen::FFT<double> fft;

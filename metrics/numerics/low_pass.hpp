@@ -1,4 +1,4 @@
-/// A vector series in time without what is faster than a given period.
+/// Low-pass filters for vector-valued time series.
 #pragma once
 
 #include <vector>
@@ -13,18 +13,18 @@ struct Series {
   std::vector<Vector3> values;
 };
 
-/// Joined by straight lines and read at the middles of `cells` equal parts of its span. At least
-/// two times. O(n + cells).
+/// Interpolates linearly and samples at the midpoints of `cells` equal intervals of the time span.
+/// Needs at least two times. O(n + cells).
 Series resampled(const Series& series, std::size_t cells);
 
-/// Sharp: everything of a period below `window` is gone, everything else stays, orthogonal to it.
-/// Mirrored at both ends (a cosine transform), so a drift does not tear there. Evenly spaced, a
-/// power of two of them. O(n log n).
+/// Ideal low-pass: removes all periods below `window` and keeps the rest, as an orthogonal
+/// projection. The series is mirrored at both ends (cosine transform), so a drift causes no
+/// discontinuity there. The samples are evenly spaced; their number is a power of two. O(n log n).
 std::vector<Vector3> without_fast(const Series& even, double window);
 
-/// Centred moving average over `window`; at the ends and beside holes longer than the window it
-/// shrinks to stay centred. Of an oscillation of period T it leaves sin(pi window / T) /
-/// (pi window / T): nothing at T = window, but only 64 % at 2 windows and 90 % at 4. O(n).
+/// Centred moving average over `window`; it shrinks symmetrically at the ends and beside gaps
+/// longer than the window. An oscillation of period T is multiplied by sin(pi window / T) /
+/// (pi window / T): 0 at T = window, 64 % at 2 windows and 90 % at 4. O(n).
 std::vector<Vector3> moving_average(const Series& series, double window);
 
 }  // namespace loopbench

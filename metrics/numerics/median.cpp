@@ -11,23 +11,23 @@ namespace {
 
 constexpr std::size_t kMedianSample = 4096;
 
-/// Two values that the middle very likely lies between: those 5 sigma of the sample's own rank
-/// beside its middle.
+/// Two values that very likely enclose the median: those 5 sigma of the sample's rank around its
+/// median.
 std::pair<double, double> middle_bracket(std::span<const double> values) {
-  constexpr std::size_t kAside = 160;
+  constexpr std::size_t kMargin = 160;
   std::vector<double> sample(kMedianSample);
   for (std::size_t k = 0; k < kMedianSample; ++k)
     sample[k] = values[values.size() * k / kMedianSample];
   const auto at = [&](std::size_t rank) {
     return sample.begin() + static_cast<std::ptrdiff_t>(rank);
   };
-  std::nth_element(sample.begin(), at(kMedianSample / 2 - kAside), sample.end());
-  const double low = *at(kMedianSample / 2 - kAside);
-  std::nth_element(at(kMedianSample / 2 - kAside), at(kMedianSample / 2 + kAside), sample.end());
-  return {low, *at(kMedianSample / 2 + kAside)};
+  std::nth_element(sample.begin(), at(kMedianSample / 2 - kMargin), sample.end());
+  const double low = *at(kMedianSample / 2 - kMargin);
+  std::nth_element(at(kMedianSample / 2 - kMargin), at(kMedianSample / 2 + kMargin), sample.end());
+  return {low, *at(kMedianSample / 2 + kMargin)};
 }
 
-/// The values from low to high, and how many are below.
+/// The values from low to high, and the number of values below.
 struct NearMiddle {
   std::size_t below = 0;
   std::vector<double> values;
@@ -40,7 +40,7 @@ NearMiddle near_middle(std::span<const double> values, double low, double high) 
   for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
     std::size_t below = 0;
     std::size_t count = 0;
-    // Written always and kept or not: nobody could predict the branch.
+    // Branch-free: always writes and advances only if kept, since the branch is unpredictable.
     for (const double value : values.subspan(begin, std::min(kBlock, values.size() - begin))) {
       below += value < low ? 1 : 0;
       kept[count] = value;
@@ -53,7 +53,7 @@ NearMiddle near_middle(std::span<const double> values, double low, double high) 
   return out;
 }
 
-/// The same on all cores.
+/// Multi-threaded variant.
 NearMiddle near_middle_in_parts(std::span<const double> values, double low, double high) {
   const std::size_t count = values.size() < 2 * kWorthAThread ? 1 : cores();
   std::vector<NearMiddle> parts(count);
@@ -81,7 +81,7 @@ double median(std::span<const double> values) {
     middle = near_middle_in_parts(values, low, high);
   }
   if (lower < middle.below || upper >= middle.below + middle.values.size()) {
-    middle = {0, {values.begin(), values.end()}};  // few values, or a sample unlike the rest
+    middle = {0, {values.begin(), values.end()}};  // few values, or an unrepresentative sample
   }
   const auto at = middle.values.begin() + static_cast<std::ptrdiff_t>(lower - middle.below);
   std::nth_element(middle.values.begin(), at, middle.values.end());

@@ -1,13 +1,13 @@
-/// The middle of a list, without sorting it.
+/// Median without sorting.
 #pragma once
 
 #include <span>
 
 namespace loopbench {
 
-/// The mean of the middle two for an even count. Not empty, no NaN. O(n): one pass that
-/// keeps what lies about the middle of a sample, then a selection among those; where the sample is
-/// unlike the rest, a selection among all.
+/// Mean of the middle two for an even count. The list is not empty and holds no NaN. O(n): one pass
+/// keeps the values near the median of a sample, then selects among them; if the sample is not
+/// representative, selects among all values.
 double median(std::span<const double> values);
 
 }  // namespace loopbench

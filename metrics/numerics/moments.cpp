@@ -8,14 +8,14 @@
 namespace loopbench {
 namespace {
 
-// 256 pairs are 32 kB: read twice, fetched once.
+// 256 pairs are 32 kB: read twice, loaded into the cache once.
 constexpr std::size_t kBlock = 256;
 
 Moments block_moments(const Trajectory& reference,
                       const Trajectory& estimate,
                       std::size_t begin,
                       std::size_t end) {
-  // About the block's first point, so that equal points give exactly zero spread.
+  // Relative to the block's first point, so that equal points give exactly zero variance.
   const Vector3 p0 = reference[begin].world_from_body.translation;
   const Vector3 q0 = estimate[begin].world_from_body.translation;
   Moments out;
@@ -61,7 +61,7 @@ Moments moments(const Trajectory& reference, const Trajectory& estimate) {
   if (reference.empty()) return {};
   std::vector<Moments> blocks((reference.size() + kBlock - 1) / kBlock);
   in_blocks(reference.size(), [&](std::size_t first, std::size_t last) {
-    // A block belongs to the thread that has its first pair.
+    // A block is processed by the thread that has its first pair.
     for (std::size_t k = (first + kBlock - 1) / kBlock; k * kBlock < last; ++k) {
       const std::size_t end = std::min((k + 1) * kBlock, reference.size());
       blocks[k] = block_moments(reference, estimate, k * kBlock, end);

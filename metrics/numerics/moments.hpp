@@ -1,4 +1,4 @@
-/// Means, spreads and cross covariance of two paired point lists, safe far from the origin.
+/// Means, variances and cross covariance of two paired point lists, accurate far from the origin.
 ///
 /// Source: T. Chan, G. Golub, R. LeVeque, Updating formulae and a pairwise algorithm for computing
 /// sample variances, 1979.
@@ -14,13 +14,13 @@ struct Moments {
   double count = 0.0;
   Vector3 reference_mean = Vector3::Zero();
   Vector3 estimate_mean = Vector3::Zero();
-  /// Sums about the means, not yet divided by count [m^2].
+  /// Sums of squared distances from the means, not divided by count [m^2].
   double reference_spread = 0.0;
   double estimate_spread = 0.0;
   Matrix3 cross = Matrix3::Zero();  ///< sum of (reference - mean) * (estimate - mean)^T
 };
 
-/// Of paired lists of one size. O(n), reads memory once: blocks small enough for the cache are
+/// Moments of paired lists of equal size. O(n), one pass: blocks that fit into the cache are
 /// centred on their own mean, then merged.
 Moments moments(const Trajectory& reference, const Trajectory& estimate);
 

@@ -10,7 +10,7 @@ NaturalCubic::NaturalCubic(std::vector<double> stamps, std::vector<Vector3> poin
     : stamps_(std::move(stamps)), points_(std::move(points)) {
   const std::size_t n = stamps_.size();
   if (n < 2 || points_.size() != n) {
-    throw std::invalid_argument("natural cubic: needs two stamps and as many points");
+    throw std::invalid_argument("natural cubic: needs at least two stamps and as many points");
   }
   std::vector<TridiagonalRow<double, Vector3>> rows(n, {0.0, 1.0, 0.0, Vector3::Zero()});
   for (std::size_t i = 1; i + 1 < n; ++i) {

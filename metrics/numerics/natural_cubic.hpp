@@ -1,4 +1,4 @@
-/// The natural cubic spline through points in time: what smoothness alone can make of keyframes.
+/// Natural cubic spline through points in time.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace loopbench {
 /// Source: de Boor, A Practical Guide to Splines, ch. IV (second derivatives as unknowns).
 class NaturalCubic {
  public:
-  /// At least two strictly increasing stamps, as many points. O(n).
+  /// Needs at least two strictly increasing stamps and as many points. O(n).
   NaturalCubic(std::vector<double> stamps, std::vector<Vector3> points);
 
-  /// `interval` i means stamps[i] .. stamps[i + 1], which hold `time`. O(1).
+  /// Position at `time` [s], which lies in stamps[interval] .. stamps[interval + 1]. O(1).
   Vector3 at(std::size_t interval, double time) const;
 
  private:

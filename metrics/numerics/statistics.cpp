@@ -11,8 +11,8 @@
 namespace loopbench {
 namespace {
 
-/// Pairwise: rounding grows with log(n) instead of n, at the price of plain summation. The halves
-/// are the same whoever adds them up, so threads do not change a bit.
+/// Pairwise summation: rounding grows with log(n) instead of n at the cost of a plain sum. The
+/// blocks do not depend on the number of threads, so the result is reproducible.
 template <class Total, class Block>
 Total pairwise(std::span<const double> values, const Block& block, std::size_t threads = cores()) {
   if (values.size() <= 128) return block(values);

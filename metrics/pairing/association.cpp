@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-/// For each of `wanted`, the nearest of `stamps`, visited as (index in wanted, index in stamps).
+/// Visits (index in wanted, index in stamps) of each wanted stamp and its nearest stamp.
 template <class Visit>
 void for_each_nearest(const std::vector<double>& wanted,
                       const std::vector<double>& stamps,
@@ -123,9 +123,9 @@ Paired associate(const Trajectory& reference,
     case Association::index:
       if (reference.empty() || estimate.empty()) return {};
       if (reference.size() == estimate.size()) return {reference, estimate};
-      throw std::runtime_error("association index: " + std::to_string(reference.size()) +
-                               " reference poses and " + std::to_string(estimate.size()) +
-                               " of the estimate, expected equally many");
+      throw std::runtime_error("association index: the reference has " +
+                               std::to_string(reference.size()) + " poses and the estimate " +
+                               std::to_string(estimate.size()) + ", expected equal numbers");
     case Association::tum:
     case Association::nearest:
       break;

@@ -1,4 +1,4 @@
-/// Which reference pose and which estimate pose belong together in time.
+/// Association of reference poses and estimate poses in time.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,29 @@ struct IndexPair {
   friend bool operator==(const IndexPair&, const IndexPair&) = default;
 };
 
-/// evo (core/sync.py, commit 26d0953): for each stamp of the shorter list (the estimate when both
-/// are equally long) the nearest of the longer, the first of two equally near, kept when the
-/// difference is <= max_diff. One stamp of the longer list may serve twice. Rounding as there: the
-/// offset is added to the estimate when that is longer, else taken off the reference.
-/// In the order of the shorter list. Strictly increasing stamps. O(n + m).
+/// evo (core/sync.py, commit 26d0953): for each stamp of the shorter list (the estimate if both
+/// are equally long) the nearest stamp of the longer list, the first of two equally near ones, kept
+/// if the difference is <= max_diff. A stamp of the longer list can be paired twice. Rounding as in
+/// evo: the offset is added to the estimate if that list is longer, otherwise subtracted from the
+/// reference. Result in the order of the shorter list. Stamps must strictly increase. O(n + m).
 std::vector<IndexPair> match_evo(std::vector<double> reference,
                                  std::vector<double> estimate,
                                  double max_diff,
                                  double offset);
 
-/// Is a difference of exactly max_diff still a pair?
+/// Whether a difference of exactly max_diff is accepted.
 enum class Limit { strict, inclusive };
 
-/// May an earlier reference pose go with a later estimate pose than the next one does?
+/// Whether pairs may cross: an earlier reference pose paired with a later estimate pose.
 enum class Crossing { allowed, refused };
 
-/// TUM's associate.py (strict, crossing allowed), and `nearest` (inclusive, crossing refused):
-/// one-to-one; of all pairs within max_diff the one first by (difference, reference, estimate) is
-/// taken, both poses leave, and so on, passing over pairs that cross a taken one when those are
-/// refused. Around a burst associate.py pairs what a taken pair left over across it, and the
-/// estimate runs backwards there. In the order of the reference. Strictly increasing stamps, also
-/// after the offset was added to the estimate. O((n + m) log(n + m)) whatever max_diff is, in
-/// practice near O(n + m).
+/// TUM's associate.py (strict, crossing allowed) and `nearest` (inclusive, crossing refused).
+/// One-to-one and greedy: repeatedly takes the pair that is first by (difference, reference,
+/// estimate) among all pairs within max_diff, and removes both poses. If crossing is refused, pairs
+/// that cross a taken pair are skipped. Around a burst of stamps, associate.py pairs the remaining
+/// poses across a taken pair, so the estimate's stamps decrease there. Result in the order of the
+/// reference. Stamps must strictly increase, also after the offset is added to the estimate.
+/// O((n + m) log(n + m)) for any max_diff, in practice near O(n + m).
 std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         std::vector<double> estimate,
                                         double max_diff,
@@ -45,31 +45,32 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         Crossing crossing,
                                         double offset);
 
-/// ov_eval (AlignUtils.cpp, commit 6948812): estimate poses in order, a pointer into the reference
-/// that only moves on, so each reference pose serves once; strict |dt| < max_diff. Not always the
-/// nearest pairs: an early estimate pose may take what a later one is nearer to. O(n + m).
+/// ov_eval (AlignUtils.cpp, commit 6948812): visits estimate poses in order with a reference index
+/// that only increases, so each reference pose is used once; strict |dt| < max_diff. The pairs are
+/// not always the nearest: an early estimate pose can take a reference pose that is nearer to a
+/// later one. O(n + m).
 std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
                                      const std::vector<double>& estimate,
                                      double max_diff,
                                      double offset);
 
-/// Equally long; element i of one belongs to element i of the other. The estimate keeps its stamps.
+/// Paired trajectories of equal length: element i of one is paired with element i of the other. The
+/// estimate keeps its own stamps.
 struct Paired {
   Trajectory reference;
   Trajectory estimate;
 };
 
-/// `interpolate`: the reference on its straight lines and great arcs at estimate stamp + offset,
-/// unless that lies outside the reference or between two poses more than max_gap (and a microsecond
-/// for the rounding of stamps) apart; a stamp
-/// the reference holds needs no neighbour. O(n + m).
+/// Association `interpolate`: interpolates the reference (linear and slerp) at estimate stamp +
+/// offset. Skips stamps outside the reference, and stamps between two reference poses more than
+/// max_gap + kStampRounding apart, unless a reference pose has exactly that stamp. O(n + m).
 Paired interpolate_reference(const Trajectory& reference,
                              const Trajectory& estimate,
                              double max_gap,
                              double offset);
 
-/// Pairs by the protocol's rule; empty when nothing matches. Throws std::runtime_error when
-/// association `index` meets lists of different size.
+/// Pairs by the protocol's association; empty if nothing matches. Throws std::runtime_error if
+/// association `index` is used with lists of different size.
 Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// The relative error of two motions, and its angle.
+/// Relative pose, relative error of two motions, and its angle.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,15 @@
 
 namespace loopbench {
 
-/// a^-1 b. Half the work of inverse and product, and the difference of far points is taken first.
+/// a^-1 b. Half the cost of inverse and product, and subtracts the positions first, which is
+/// accurate far from the origin.
 inline Pose way(const Pose& world_from_a, const Pose& world_from_b) {
   const Rotation a_from_world = world_from_a.rotation.conjugate();
   return {a_from_world * world_from_b.rotation,
           a_from_world * (world_from_b.translation - world_from_a.translation)};
 }
 
-/// Reference poses Q and estimate poses P at both ends; forms as written at ErrorForm.
+/// Relative error for reference poses Q and estimate poses P at both ends, in the given ErrorForm.
 inline Pose motion_error(
     ErrorForm form, const Pose& Q_i, const Pose& Q_j, const Pose& P_i, const Pose& P_j) {
   switch (form) {
@@ -32,20 +33,20 @@ inline Pose motion_error(
   return way(way(Q_i, Q_j), way(P_i, P_j));
 }
 
-/// Of a rotation with this trace [rad], 0..pi.
+/// Rotation angle for a trace [rad], 0..pi.
 inline double trace_angle(double trace) {
   return std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
 }
 
-/// Length of the logarithm of a unit quaternion [rad], 0..pi. The arcsine takes a fifth of atan2's
-/// time and is as exact where it is not steep.
+/// Length of the logarithm of a unit quaternion [rad], 0..pi. asin takes a fifth of the time of
+/// atan2 and is as accurate for small sines.
 inline double log_angle(const Rotation& rotation) {
   const double sine = rotation.vec().norm();
   if (sine <= 0.5) return 2.0 * std::asin(sine);
   return 2.0 * std::atan2(sine, std::abs(rotation.w()));
 }
 
-/// [rad], 0..pi.
+/// Rotation angle [rad], 0..pi.
 inline double rotation_angle(AngleFormula formula, const Rotation& rotation) {
   if (formula == AngleFormula::rotation_vector) return log_angle(rotation);
   return trace_angle(rotation.toRotationMatrix().trace());

@@ -14,19 +14,19 @@ struct Node {
   double time;
   std::uint32_t index;
   bool is_reference;
-  bool is_past_a_pair = false;  ///< between it and the node before stood a pair
+  bool is_past_a_pair = false;  ///< a pair was removed between this node and the previous one
 };
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Both lists in order of time; the reference first where times are equal.
+/// Both lists sorted by time; the reference first if times are equal.
 class Merge {
  public:
   Merge(const std::vector<double>& reference, const std::vector<double>& estimate)
       : reference_(reference), estimate_(estimate) {}
 
-  /// After the last one, a node that is infinitely late.
+  /// Sentinel after the last node, infinitely late.
   Node next() {
     if (r_ == reference_.size() && e_ == estimate_.size()) return {kNever, kNone, true};
     if (e_ == estimate_.size() || (r_ < reference_.size() && reference_[r_] <= estimate_[e_])) {
@@ -46,8 +46,8 @@ IndexPair pair_of(const Node& a, const Node& b) {
   return a.is_reference ? IndexPair{a.index, b.index} : IndexPair{b.index, a.index};
 }
 
-/// Pairs nearer to each other than to anything else are in the greedy answer whatever else is;
-/// this takes most of them in one scan and returns the rest, which remembers where they stood.
+/// Mutual nearest neighbours are always part of the greedy result. Takes most pairs in one scan and
+/// returns the remaining nodes, which record where pairs were removed.
 template <class IsWithin>
 std::vector<Node> take_mutually_nearest(Merge merge,
                                         IsWithin is_within,
@@ -79,9 +79,9 @@ std::vector<Node> take_mutually_nearest(Merge merge,
   return kept;
 }
 
-/// The greedy rule on a linked list in time: the closest remaining pair is always made of
-/// neighbours, for anything between them would be closer to one of the two. Two nodes between which
-/// stood a pair would cross it, whichever list they are of.
+/// The greedy rule on a linked list in time: the closest remaining pair always consists of
+/// neighbours, because a pose between them would be closer to one of the two. Two nodes with a
+/// removed pair between them would cross that pair.
 template <class IsWithin>
 void take_closest_first(const std::vector<Node>& nodes,
                         IsWithin is_within,
@@ -102,7 +102,7 @@ void take_closest_first(const std::vector<Node>& nodes,
   std::vector<std::uint32_t> previous(n);
   std::vector<std::uint32_t> next(n);
   std::vector<bool> is_taken(n, false);
-  const auto offer = [&](std::uint32_t left, std::uint32_t right) {
+  const auto add_candidate = [&](std::uint32_t left, std::uint32_t right) {
     if (left == kNone || right == kNone) return;
     if (crossing == Crossing::refused && nodes[right].is_past_a_pair) return;
     const double gap = nodes[right].time - nodes[left].time;
@@ -112,7 +112,7 @@ void take_closest_first(const std::vector<Node>& nodes,
   for (std::uint32_t k = 0; k < n; ++k) {
     previous[k] = k == 0 ? kNone : k - 1;
     next[k] = k + 1 == n ? kNone : k + 1;
-    offer(previous[k], k);
+    add_candidate(previous[k], k);
   }
   while (!queue.empty()) {
     const Candidate best = queue.top();
@@ -125,7 +125,7 @@ void take_closest_first(const std::vector<Node>& nodes,
     if (crossing == Crossing::refused) continue;
     if (before != kNone) next[before] = after;
     if (after != kNone) previous[after] = before;
-    offer(before, after);
+    add_candidate(before, after);
   }
 }
 
@@ -144,7 +144,7 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
   std::vector<IndexPair> out;
   out.reserve(std::min(reference.size(), estimate.size()));
   const std::vector<Node> rest = take_mutually_nearest(Merge(reference, estimate), is_within, out);
-  const auto found = static_cast<std::ptrdiff_t>(out.size());  // in order already
+  const auto found = static_cast<std::ptrdiff_t>(out.size());  // already sorted
   take_closest_first(rest, is_within, crossing, out);
   const auto by_reference = [](const IndexPair& a, const IndexPair& b) {
     return a.reference < b.reference;

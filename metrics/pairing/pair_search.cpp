@@ -28,7 +28,7 @@ std::vector<FromTo> pairs_by_measure(const std::vector<double>& measure,
     if (beyond > i + 1) {
       const double short_of = measure[beyond - 1] - here;
       if (beyond == measure.size() || delta - short_of <= (measure[beyond] - here) - delta) {
-        // Standing still repeats a measure: the first of the run, by bisection.
+        // At rest the measure repeats: find the first of the equal values by bisection.
         const auto first = std::partition_point(
             at(i + 1), at(beyond), [&](double value) { return value - here < short_of; });
         nearest = static_cast<std::size_t>(first - measure.begin());

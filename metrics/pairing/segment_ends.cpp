@@ -11,7 +11,7 @@ namespace {
 
 using DistanceAt = std::vector<double>::const_iterator;
 
-/// The first, not before `from`, of the equal distances that end at `last`.
+/// The first index, not before `from`, with the same distance as `last`.
 DistanceAt first_of_run(DistanceAt from, DistanceAt last) {
   if (last == from || *std::prev(last) < *last) return last;
   return std::lower_bound(from, last, *last);
@@ -28,7 +28,7 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
     const auto at = [&](std::size_t i) {
       return distances.begin() + static_cast<std::ptrdiff_t>(i * step);
     };
-    // Where the first is searched for, the next ones are walked to: the distance never decreases.
+    // Bisection for the first start, a linear walk for the others: the distance never decreases.
     DistanceAt beyond = std::lower_bound(at(k), distances.end(), *at(k) + length);
     for (; k < last; ++k) {
       const DistanceAt from = at(k);
@@ -39,7 +39,7 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
       const bool is_before =
           best != from &&
           (best == distances.end() || wanted - *std::prev(best) <= std::abs(*best - wanted));
-      // Standing still repeats a distance: the first of the run, as a scan with `<` would find.
+      // At rest the distance repeats: take the first of the equal values, as a scan with `<` would.
       if (is_before) best = first_of_run(from, std::prev(best));
       if (best == distances.end() || !(std::abs(*best - wanted) < tolerance)) continue;
       ends[k] = static_cast<std::size_t>(best - distances.begin());
@@ -53,9 +53,9 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
   return out;
 }
 
-/// The end walks on while the next pose is nearer than the end was when this start came: it runs
-/// past the first length and only fits again once the starts have caught up, and when it reaches
-/// the last pose all later starts are dropped.
+/// The end advances while the next pose is nearer than the end was at the beginning of this start.
+/// It overshoots the first length and fits again only after the starts have caught up. Once it
+/// reaches the last pose, all later starts are dropped.
 std::vector<FromTo> eth3d(const std::vector<double>& distances, double length, double tolerance) {
   std::vector<FromTo> out;
   std::size_t end = 0;

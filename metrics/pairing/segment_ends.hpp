@@ -1,4 +1,4 @@
-/// Where sub-trajectories of a given length end.
+/// Ends of sub-trajectories of a given length.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace loopbench {
 
-/// Pairs of start and end on `distances` (accumulated, never decreasing), as SegmentEnd says, for
+/// Pairs of start and end on `distances` (accumulated, never decreasing) by the rule `end`, for
 /// starts `step` apart. rpg: trajectory_utils.py:25-37 (8c8ceec), ov_eval: ResultTrajectory
-/// (6948812), ETH3D: main.cc (30edfa0), KITTI: evaluate_odometry.cpp (2afdb93). All walk, O(n);
-/// `nearest` takes O(log n) for a start whose end stands still.
+/// (6948812), ETH3D: main.cc (30edfa0), KITTI: evaluate_odometry.cpp (2afdb93). O(n) for all rules;
+/// `nearest` takes O(log n) for a start whose end does not move.
 std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
                                   double length,
                                   double tolerance,
                                   SegmentEnd end,
                                   std::size_t step);
 
-/// SegmentEnd::beyond in the arithmetic of Real.
+/// SegmentEnd::beyond computed with the type Real.
 template <class Real>
 std::vector<FromTo> segments_beyond(const std::vector<Real>& distances,
                                     Real length,

@@ -17,7 +17,7 @@ Length read(const std::string& option, const std::string& word) {
   const bool is_known = unit.empty() || unit == "%" || unit == "m";
   if (error != std::errc{} || !is_known || !std::isfinite(out.value) || out.value < 0.0) {
     throw OptionError(option,
-                      option + ": '" + word + "': expected metres or a share, like 100 or 20%");
+                      option + ": '" + word + "': expected a length in metres or %, as 100 or 20%");
   }
   out.is_share = unit == "%";
   const std::string number(word.data(), rest);
@@ -34,9 +34,9 @@ std::vector<Length> lengths(const std::string& option, const std::string& text) 
   for (std::string word; words >> word;) {
     out.push_back(read(option, word));
     if (out.back().value > 0.0) continue;
-    throw OptionError(option, option + ": '" + word + "': expected more than zero");
+    throw OptionError(option, option + ": '" + word + "': expected a positive number");
   }
-  if (out.empty()) throw OptionError(option, option + ": is empty, expected lengths like 100 20%");
+  if (out.empty()) throw OptionError(option, option + ": is empty, expected lengths as 100 20%");
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// Lengths as people write them: "100", "0.5" in metres, "20%" as part of something.
+/// Lengths as text: "100" or "0.5" in metres, "20%" relative to a whole.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@ namespace loopbench {
 struct Length {
   std::string text;  ///< "100 m" or "20%", for labels
   double value = 0.0;
-  bool is_share = false;  ///< value is a part: 0.2 for 20%
+  bool is_share = false;  ///< value is a fraction: 0.2 for 20%
 
   double of(double whole) const { return is_share ? value * whole : value; }
 };
 
-/// Positive numbers between blanks, each with or without `%`, metres may end in `m`. Throws
-/// OptionError naming `option` for an empty list and for what is not a positive number.
+/// Positive numbers separated by blanks, each optionally with `%` or `m`. Throws OptionError naming
+/// `option` for an empty list or anything but positive numbers.
 std::vector<Length> lengths(const std::string& option, const std::string& text);
 
-/// One length, which may be zero.
+/// One length, which can be zero.
 Length tolerance(const std::string& option, const std::string& text);
 
 }  // namespace loopbench

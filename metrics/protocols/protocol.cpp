@@ -16,11 +16,11 @@ void check_alignment(const Protocol& p) {
   const std::string first = std::to_string(p.align_first);
   const bool is_first_pose = p.align == Align::origin || p.align == Align::posyaw_origin;
   if (p.align == Align::none || is_first_pose) {
-    refuse("align_first", first, "only least squares look at several pairs, not origin or none");
+    refuse("align_first", first, "applies only to least-squares alignments, not to origin or none");
   }
   const int needed = p.align == Align::posyaw ? 2 : 3;
   if (p.align_first < needed) {
-    refuse("align_first", first, "too few for least squares; one pose is align: origin");
+    refuse("align_first", first, "too few pairs for least squares; for one pose use align: origin");
   }
 }
 
@@ -28,30 +28,30 @@ void check_segments(const SegmentRule& rule) {
   const std::vector<Length> wanted = lengths("segments.lengths", rule.lengths);
   const Length miss = tolerance("segments.tolerance", rule.tolerance);
   if (rule.end != SegmentEnd::beyond && miss.value == 0.0) {
-    refuse("segments.tolerance", rule.tolerance, "no end would be near enough");
+    refuse("segments.tolerance", rule.tolerance, "expected more than zero");
   }
   for (const Length& length : wanted) {
-    const bool is_share_of_it = miss.is_share && miss.value >= 1.0;
+    const bool exceeds_share = miss.is_share && miss.value >= 1.0;
     const bool is_longer = !miss.is_share && !length.is_share && miss.value >= length.value;
-    if (is_share_of_it || is_longer) {
-      refuse("segments.tolerance", rule.tolerance, "as wide as a length, so a start would end it");
+    if (exceeds_share || is_longer) {
+      refuse("segments.tolerance", rule.tolerance, "expected less than every length");
     }
   }
   if (rule.end == SegmentEnd::rpg && rule.step != 1) {
-    refuse("segments.step", std::to_string(rule.step), "end rpg starts at every pose");
+    refuse("segments.step", std::to_string(rule.step), "segments.end = rpg requires step 1");
   }
   if (rule.end == SegmentEnd::eth3d && rule.step != 1) {
-    refuse("segments.step", std::to_string(rule.step), "end eth3d starts at every pose");
+    refuse("segments.step", std::to_string(rule.step), "segments.end = eth3d requires step 1");
   }
 }
 
 void check_max_pairs(const Protocol& p) {
   const std::string count = std::to_string(p.max_pairs);
   if (!is_of_whole_files(p.pairs) && p.max_pairs != Protocol{}.max_pairs) {
-    refuse("max_pairs", count, "only pairs tum and tum_random are drawn");
+    refuse("max_pairs", count, "applies only to pairs tum and tum_random");
   }
   if (p.pairs == PairRule::tum_random && p.max_pairs == 0) {
-    refuse("max_pairs", count, "pairs tum_random would be every pose with every other; use tum");
+    refuse("max_pairs", count, "pairs tum_random needs a limit above 0; for all pairs use tum");
   }
 }
 
@@ -61,15 +61,15 @@ void check(const Protocol& p) {
   check_alignment(p);
   check_segments(p.segments);
   if (p.association == Association::index && p.offset != 0.0) {
-    refuse("offset", to_text(p.offset), "association index does not look at stamps");
+    refuse("offset", to_text(p.offset), "association index ignores stamps");
   }
   if (is_of_whole_files(p.pairs)) {
     const std::string rule = "pairs " + to_text(p.pairs);
     if (p.pairs_from != PairsFrom::estimate) {
-      refuse("pairs_from", to_text(p.pairs_from), rule + " are those of the estimate");
+      refuse("pairs_from", to_text(p.pairs_from), rule + " always use the estimate");
     }
     if (p.project != Plane::none) {
-      refuse("project", to_text(p.project), rule + " are taken from the files, not flattened");
+      refuse("project", to_text(p.project), rule + " use the unprojected files");
     }
   }
   check_max_pairs(p);
@@ -79,7 +79,7 @@ void check(const Protocol& p) {
     if (!is_devkit) {
       refuse("segments.precision",
              "float32",
-             "is the KITTI devkit's: end beyond, form kitti, angle trace");
+             "requires end beyond, form kitti, angle trace (KITTI devkit)");
     }
   }
 }

@@ -1,4 +1,4 @@
-/// How numbers are made, as a value that is printed beside them.
+/// Evaluation protocol: association, alignment and error definitions, reported with every score.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace loopbench {
 
 /// How reference and estimate are paired in time.
 enum class Association {
-  nearest,      ///< one-to-one in order, closest differences first, |dt| <= max_diff
-  evo,          ///< evo 1.x: nearest for each pose of the shorter list; one may serve twice
+  nearest,      ///< one-to-one in order, smallest differences first, |dt| <= max_diff
+  evo,          ///< evo 1.x: nearest for each pose of the shorter list; a pose can be paired twice
   tum,          ///< TUM associate.py: one-to-one, greedy by difference, strict |dt| < max_diff
   ov_eval,      ///< one pass in time, each reference pose used once, strict |dt| < max_diff
   interpolate,  ///< reference interpolated at the estimate's stamps, gaps up to max_gap
-  index,        ///< first with first, second with second: equally long lists, stamps unused
+  index,        ///< pairs equal indices of equally long lists; ignores stamps
 };
 inline auto choices(Association) {
   return std::array{std::pair{"nearest", Association::nearest},
@@ -25,7 +25,7 @@ inline auto choices(Association) {
                     std::pair{"index", Association::index}};
 }
 
-/// What moves the estimate onto the reference before errors are taken.
+/// Alignment of the estimate to the reference before errors are computed.
 enum class Align {
   se3,            ///< least squares, rigid
   sim3,           ///< least squares, rigid and scale
@@ -45,16 +45,16 @@ inline auto choices(Align) {
                     std::pair{"none", Align::none}};
 }
 
-/// When the estimate is judged.
+/// Times at which the estimate is evaluated.
 enum class Times {
   keyframes,  ///< at its own keyframes
-  dense,      ///< at every reference stamp inside its span, the curve asked between keyframes
+  dense,      ///< at every reference stamp inside its span; the curve interpolates
 };
 inline auto choices(Times) {
   return std::array{std::pair{"keyframes", Times::keyframes}, std::pair{"dense", Times::dense}};
 }
 
-/// Both trajectories flattened after alignment, as evo does.
+/// Plane onto which both trajectories are projected after alignment, as in evo.
 enum class Plane { none, xy, xz, yz };
 inline auto choices(Plane) {
   return std::array{std::pair{"none", Plane::none},
@@ -63,14 +63,14 @@ inline auto choices(Plane) {
                     std::pair{"yz", Plane::yz}};
 }
 
-/// Which pairs a relative error takes, given a stretch.
+/// Selection of the pose pairs of a relative error for a given delta.
 enum class PairRule {
   all,          ///< every start, with the end nearest to `delta` within the tolerance
-  consecutive,  ///< evo's: one stretch after the other
-  /// evaluate_rpe.py --fixed_delta: every estimate pose of the file, probing bisection, last left
-  /// out; of more than max_pairs that many, as Python draws them
+  consecutive,  ///< evo's: each pair starts where the previous one ends
+  /// evaluate_rpe.py --fixed_delta: every estimate pose of the file except the last, end found by
+  /// bisection; at most max_pairs, drawn as Python does
   tum,
-  tum_random,  ///< evaluate_rpe.py alone: max_pairs as Python draws them, whatever delta is
+  tum_random,  ///< evaluate_rpe.py alone: max_pairs drawn as Python does, ignores delta
 };
 inline auto choices(PairRule) {
   return std::array{std::pair{"all", PairRule::all},
@@ -78,20 +78,20 @@ inline auto choices(PairRule) {
                     std::pair{"tum", PairRule::tum},
                     std::pair{"tum_random", PairRule::tum_random}};
 }
-/// These look at all poses of the files, matched or not.
+/// Whether the rule uses all poses of the files, matched or not.
 inline bool is_of_whole_files(PairRule rule) {
   return rule == PairRule::tum || rule == PairRule::tum_random;
 }
 
-/// Whose path or turning measures a stretch.
+/// Trajectory on which path length and rotation of a pair are measured.
 enum class PairsFrom { reference, estimate };
 inline auto choices(PairsFrom) {
   return std::array{std::pair{"reference", PairsFrom::reference},
                     std::pair{"estimate", PairsFrom::estimate}};
 }
 
-/// The relative error E of reference poses Q and estimate poses P. Angles agree in all four, as do
-/// the lengths of evo's and kitti's translations; tum's and left's are other numbers.
+/// The relative error E of reference poses Q and estimate poses P. Angles agree in all four forms,
+/// as do the translation lengths of evo and kitti; those of tum and left differ.
 enum class ErrorForm {
   evo,    ///< (Q_i^-1 Q_j)^-1 (P_i^-1 P_j)
   kitti,  ///< (P_i^-1 P_j)^-1 (Q_i^-1 Q_j)
@@ -105,7 +105,7 @@ inline auto choices(ErrorForm) {
                     std::pair{"left", ErrorForm::left}};
 }
 
-/// How the angle of a relative error is taken; they differ by about 1e-8 rad near zero.
+/// Formula for the rotation angle of a relative error; they differ by about 1e-8 rad near zero.
 enum class AngleFormula {
   rotation_vector,  ///< length of the logarithm
   trace,            ///< arccos of the clamped (trace - 1) / 2
@@ -115,12 +115,13 @@ inline auto choices(AngleFormula) {
                     std::pair{"trace", AngleFormula::trace}};
 }
 
-/// Where a sub-trajectory that starts at i ends; d is the reference's accumulated distance.
+/// Rule for the end of a sub-trajectory that starts at i; d is the reference's accumulated
+/// distance.
 enum class SegmentEnd {
   nearest,  ///< j >= i with the smallest |d_j - (d_i + length)|, below the tolerance
-  rpg,      ///< the same ends, but the k-th end found goes with the k-th pose: rpg as shipped
+  rpg,      ///< the same ends, but the k-th end found is paired with the k-th pose: rpg as released
   beyond,   ///< first j with d_j > d_i + length, no tolerance: KITTI
-  eth3d,    ///< ETH3D's walking end as shipped: many early starts are lost; per metre gone
+  eth3d,    ///< ETH3D's search as released: skips many early starts; errors per metre travelled
 };
 inline auto choices(SegmentEnd) {
   return std::array{std::pair{"nearest", SegmentEnd::nearest},
@@ -129,14 +130,14 @@ inline auto choices(SegmentEnd) {
                     std::pair{"eth3d", SegmentEnd::eth3d}};
 }
 
-/// In what numbers segment errors are computed and summed.
+/// Floating-point precision of segment errors and their sums.
 enum class Precision { float64, float32 };
 inline auto choices(Precision) {
   return std::array{std::pair{"float64", Precision::float64},
                     std::pair{"float32", Precision::float32}};
 }
 
-/// The one number of a distribution that the original quotes.
+/// Statistic of an error distribution that the original tool reports.
 enum class Statistic { rmse, mean, median };
 inline auto choices(Statistic) {
   return std::array{std::pair{"rmse", Statistic::rmse},
@@ -156,7 +157,7 @@ struct SegmentRule {
   friend bool operator==(const SegmentRule&, const SegmentRule&) = default;
 };
 
-/// The defaults are the protocol `loopbench`; the others stand in protocols.hpp.
+/// The defaults are the protocol `loopbench`; protocols.hpp lists the others.
 struct Protocol {
   Association association = Association::nearest;
   double max_diff = 0.02;
@@ -180,37 +181,59 @@ struct Protocol {
 
 template <class Visit>
 void fields(Protocol& o, Visit visit) {
-  visit("association", o.association, "how keyframes and reference are paired in time");
-  visit("max_diff", o.max_diff, "largest time difference of a pair [s]", Between{0.0});
-  visit("max_gap", o.max_gap, "largest reference gap to interpolate over [s]", Above{0.0});
+  visit("association", o.association, "rule that pairs estimate and reference in time");
+  visit("max_diff", o.max_diff, "maximum time difference between paired poses [s]", Between{0.0});
+  visit("max_gap", o.max_gap, "longest reference gap to interpolate across [s]", Above{0.0});
   visit("max_estimate_gap",
         o.max_estimate_gap,
-        "longest tracking gap that is judged densely, 0 for any [s]",
+        "longest tracking gap evaluated densely, 0 for no limit [s]",
         Between{0.0});
-  visit("offset", o.offset, "added to the estimate's stamps [s]");
-  visit("align", o.align, "what moves the estimate onto the reference");
-  visit("align_first", o.align_first, "pairs the alignment sees, 0 for all", Between{0.0});
-  visit("project", o.project, "plane to flatten onto, after alignment");
-  visit("pairs", o.pairs, "which pairs a relative error takes");
-  visit("max_pairs", o.max_pairs, "of tum's pairs, more are drawn from; 0 for all", Between{0.0});
-  visit("pairs_from", o.pairs_from, "whose path or turning measures a stretch");
-  visit("tolerance", o.tolerance, "how far a stretch may miss, as part of it [-]", Between{0.0});
-  visit("min_pairs", o.min_pairs, "fewest pairs that give a relative error", Between{1.0});
-  visit("form", o.form, "the relative error of two motions");
-  visit("angle", o.angle, "how the angle of a relative error is taken");
-  visit("segments.lengths", o.segments.lengths, "of sub-trajectories: metres, or % of the path");
-  visit("segments.tolerance", o.segments.tolerance, "their miss: metres, or % of the length");
-  visit("segments.end", o.segments.end, "where a sub-trajectory ends");
-  visit("segments.step", o.segments.step, "starts are so many poses apart", Between{1.0});
-  visit("segments.fewest", o.segments.fewest, "lengths with fewer are left out", Between{1.0});
-  visit("segments.precision", o.segments.precision, "their arithmetic");
-  visit("segments.up", o.segments.up, "whose z is up for their yaw and gravity angles");
-  visit("ddof", o.ddof, "std divides by count - ddof", Between{0.0, 1.0});
-  visit("statistic", o.statistic, "the one number the original quotes");
+  visit("offset", o.offset, "time offset added to the estimate's stamps [s]");
+  visit("align", o.align, "alignment of the estimate to the reference");
+  visit("align_first",
+        o.align_first,
+        "number of first pairs used for the alignment, 0 for all",
+        Between{0.0});
+  visit("project", o.project, "plane to project onto after alignment");
+  visit("pairs", o.pairs, "rule that selects the pose pairs of relative errors");
+  visit("max_pairs",
+        o.max_pairs,
+        "maximum number of tum pairs (random subset), 0 for no limit",
+        Between{0.0});
+  visit("pairs_from",
+        o.pairs_from,
+        "trajectory that defines path length and rotation angle of a pair");
+  visit("tolerance",
+        o.tolerance,
+        "relative tolerance of the distance between paired poses [-]",
+        Between{0.0});
+  visit("min_pairs", o.min_pairs, "minimum number of pairs for a relative error", Between{1.0});
+  visit("form", o.form, "definition of the relative error of two motions");
+  visit("angle", o.angle, "formula for the rotation angle of a relative error");
+  visit("segments.lengths",
+        o.segments.lengths,
+        "lengths of the sub-trajectories, in metres or % of the path length");
+  visit("segments.tolerance",
+        o.segments.tolerance,
+        "tolerance of these lengths, in metres or % of the length");
+  visit("segments.end", o.segments.end, "rule for the end of a sub-trajectory");
+  visit("segments.step",
+        o.segments.step,
+        "poses between the starts of sub-trajectories",
+        Between{1.0});
+  visit("segments.fewest",
+        o.segments.fewest,
+        "minimum number of sub-trajectories for a length",
+        Between{1.0});
+  visit(
+      "segments.precision", o.segments.precision, "floating-point precision of the segment errors");
+  visit("segments.up", o.segments.up, "trajectory whose z axis is up for yaw and gravity angles");
+  visit("ddof", o.ddof, "delta degrees of freedom: std divides by count - ddof", Between{0.0, 1.0});
+  visit("statistic", o.statistic, "statistic that the original tool reports");
 }
 
-/// Throws OptionError, naming the field, when settings contradict each other or a length cannot be
-/// read. Single fields were checked by `with`.
+/// Throws OptionError, naming the field, if fields contradict each other or a length cannot be
+/// parsed. `with` checks single fields.
 void check(const Protocol& protocol);
 
 }  // namespace loopbench

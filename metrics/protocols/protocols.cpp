@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// What the other tools share: any number of pairs gives a relative error.
+/// Common to the other tools: any number of pairs gives a relative error.
 Protocol tool() {
   Protocol p;
   p.min_pairs = 1;
@@ -90,7 +90,7 @@ Protocol eth3d() {
   return p;
 }
 
-/// What is asked for by name has to matter.
+/// Rejects fields that the chosen association ignores.
 void check_used(const Protocol& rules, const Params& changes) {
   const Association how = rules.association;
   const bool has_gap = how == Association::interpolate;
@@ -101,7 +101,7 @@ void check_used(const Protocol& rules, const Params& changes) {
     if (given == changes.end() || is_used) continue;
     throw OptionError(field,
                       std::string(field) + " = " + to_text(given->second) + ": association " +
-                          to_text(how) + " does not look at it");
+                          to_text(how) + " does not use it");
   }
 }
 
@@ -111,36 +111,39 @@ std::vector<ProtocolEntry> protocols() {
   return {
       {"loopbench",
        "3",
-       "ours, for new work: one-to-one nearest stamps in order, SE(3), pairs of the reference",
+       "our default: one-to-one nearest stamps in order, SE(3), pairs selected on the reference",
        Protocol{}},
       {"evo",
        "26d0953",
-       "evo_ape, evo_rpe: 10 ms, a pose may serve twice; papers mostly add align: se3 or sim3",
+       "evo_ape, evo_rpe: 10 ms, a pose can be paired twice; papers mostly add align: se3 or sim3",
        evo()},
       {"tum",
        "evo 26d0953, test/tum_benchmark_tools",
-       "TUM RGB-D: evaluate_ate.py, evaluate_rpe.py --fixed_delta (without: pairs: tum_random)",
+       "TUM RGB-D: evaluate_ate.py, evaluate_rpe.py --fixed_delta (without it: pairs: tum_random)",
        tum()},
       {"rpg",
        "8c8ceec",
-       "rpg_trajectory_evaluation as shipped (VIO): Sim(3), sub-trajectories with shifted ends",
+       "rpg_trajectory_evaluation as released (VIO): Sim(3), sub-trajectories with shifted ends",
        rpg()},
-      {"rpg-fixed", "8c8ceec", "rpg with every sub-trajectory's end at its own start", rpg_fixed()},
+      {"rpg-fixed",
+       "8c8ceec",
+       "rpg with the end of each sub-trajectory at its own start",
+       rpg_fixed()},
       {"kitti",
        "2afdb93",
-       "KITTI odometry leaderboard and devkit: pose by pose, 100..800 m, % and deg/m, float32",
+       "KITTI odometry leaderboard and devkit: all poses, 100..800 m, % and deg/m, float32",
        kitti()},
       {"kitti-double",
        "2afdb93",
-       "the devkit's rules in double precision: reimplementations in Python",
+       "the devkit's rules in double precision, as in Python reimplementations",
        kitti_double()},
       {"ov_eval",
        "6948812",
-       "OpenVINS (VIO): one pass over stamps, yaw and position, segments of 8..48 m",
+       "OpenVINS (VIO): single-pass association, yaw and position alignment, 8..48 m segments",
        ov_eval()},
       {"eth3d",
        "30edfa0",
-       "ETH3D SLAM leaderboard at the estimate's stamps: interpolated, SE(3), 0.5..2 m",
+       "ETH3D SLAM leaderboard: interpolated at the estimate's stamps, SE(3), 0.5..2 m segments",
        eth3d()},
   };
 }

@@ -1,4 +1,4 @@
-/// The tools whose numbers papers quote, each as a protocol with a name and a version.
+/// Evaluation protocols of published tools, by name and version.
 #pragma once
 
 #include <vector>
@@ -9,27 +9,27 @@ namespace loopbench {
 
 struct ProtocolEntry {
   std::string name;
-  std::string version;  ///< commit of the original that was read or run; our own count for ours
+  std::string version;  ///< commit of the original tool; a counter for our own protocol
   std::string summary;
   Protocol protocol;
 };
 
-/// Every built-in, the default first.
+/// All built-in protocols, the default first.
 std::vector<ProtocolEntry> protocols();
 
-/// A protocol as it is used: where it comes from and what was changed.
+/// A protocol with its name, version and changes.
 struct NamedProtocol {
   std::string name = "loopbench";
   std::string version = "3";
-  Params changes;  ///< those that differ from the named one
+  Params changes;  ///< fields that differ from the named protocol
   Protocol rules;
 
-  /// "evo (align=se3)".
+  /// For example "evo (align=se3)".
   std::string label() const;
 };
 
-/// The entry called `name` with the given fields replaced. Throws InputError with a suggestion of
-/// names for an unknown one, OptionError for an unknown, wrong or incoherent field.
+/// The entry called `name` with the given fields replaced. Throws InputError with suggestions for
+/// an unknown name, OptionError for an unknown, invalid or inconsistent field.
 NamedProtocol named_protocol(const std::string& name, const Params& changes = {});
 
 }  // namespace loopbench

@@ -20,14 +20,14 @@ std::vector<Loss> losses(const Trajectory& reference,
     if (!(duration > longest_pause)) continue;
     while (first < reference.size() && reference[first].stamp < pause.begin) ++first;
     double farthest = 0.0;
-    bool is_seen = false;
+    bool has_reference = false;
     for (std::size_t k = first; k < reference.size() && reference[k].stamp <= pause.end; ++k) {
-      is_seen |= reference[k].stamp > pause.begin && reference[k].stamp < pause.end;
+      has_reference |= reference[k].stamp > pause.begin && reference[k].stamp < pause.end;
       const Vector3 way =
           reference[k].world_from_body.translation - reference[first].world_from_body.translation;
       farthest = std::max(farthest, way.norm());
     }
-    if (is_seen && farthest > standing * duration) out.push_back(pause);
+    if (has_reference && farthest > standing * duration) out.push_back(pause);
   }
   return out;
 }
@@ -36,14 +36,14 @@ std::vector<Loss> tracking_gaps(const Trajectory& reference,
                                 const std::vector<double>& estimate,
                                 double offset,
                                 double longest_pause) {
-  constexpr double kStanding = 0.05;  // [m/s], that of DiagnosticsOptions
-  constexpr double kRhythms = 10.0;
+  constexpr double kStanding = 0.05;  // [m/s], as in DiagnosticsOptions
+  constexpr double kMedianIntervals = 10.0;
   std::vector<Loss> out = losses(reference, estimate, offset, longest_pause, kStanding);
   if (out.empty()) return out;
   std::vector<double> steps;
   steps.reserve(estimate.size());
   for (std::size_t i = 1; i < estimate.size(); ++i) steps.push_back(estimate[i] - estimate[i - 1]);
-  const double longest = kRhythms * median(steps);
+  const double longest = kMedianIntervals * median(steps);
   std::erase_if(out, [&](const Loss& loss) { return loss.end - loss.begin <= longest; });
   return out;
 }

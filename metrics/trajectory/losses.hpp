@@ -1,4 +1,4 @@
-/// When an estimate was silent although there was something to see.
+/// Tracking gaps: pauses of the estimate while the reference moved.
 #pragma once
 
 #include <vector>
@@ -7,24 +7,24 @@
 
 namespace loopbench {
 
-/// A pause of the estimate, on the reference's clock [s].
+/// A pause of the estimate, in reference time [s].
 struct Loss {
   double begin = 0.0;
   double end = 0.0;
 };
 
-/// Pauses between the estimate's stamps longer than `longest_pause` [s] during which the reference,
-/// which has poses there, moved away from where it was faster than `standing` [m/s] on average.
-/// Standing still makes no keyframes, and a hole in the reference is no fault of the estimate. O(n
-/// + m).
+/// Pauses between the estimate's stamps longer than `longest_pause` [s] during which the reference
+/// has poses and moved from its position with an average speed above `standing` [m/s]. Keyframe
+/// selection creates no keyframes at rest, and a reference gap is not an error of the estimate.
+/// O(n + m).
 std::vector<Loss> losses(const Trajectory& reference,
                          const std::vector<double>& estimate,
                          double offset,
                          double longest_pause,
                          double standing);
 
-/// Those of the losses longer than `longest_pause` [s] that are also ten times the median interval
-/// between the stamps: keyframes may lie seconds apart throughout. O(n + m).
+/// The pauses of losses() longer than `longest_pause` [s] that are also longer than ten times the
+/// median interval between the stamps, since keyframes can be seconds apart everywhere. O(n + m).
 std::vector<Loss> tracking_gaps(const Trajectory& reference,
                                 const std::vector<double>& estimate,
                                 double offset,

@@ -5,11 +5,11 @@
 namespace loopbench {
 namespace {
 
-constexpr double kSameAttitude = 1e-9;  // [rad]; interpolation of equal attitudes rounds to 1e-16
+constexpr double kSameAttitude = 1e-9;  // [rad]; interpolating equal orientations rounds to 1e-16
 constexpr std::size_t kEvidence = 10;   // poses
-constexpr double kStraight = 1e-6;      // width over length of what still counts as one line
+constexpr double kStraight = 1e-6;      // largest ratio of width to length of a straight line
 
-bool keeps_one_line(const Trajectory& trajectory) {
+bool is_on_one_line(const Trajectory& trajectory) {
   const Vector3 first = trajectory.front().world_from_body.translation;
   Vector3 farthest = Vector3::Zero();
   for (const auto& [stamp, pose] : trajectory) {
@@ -33,7 +33,7 @@ bool is_position_only(const Trajectory& trajectory) {
   for (const auto& [stamp, pose] : trajectory) {
     if (angle_between(first, pose.rotation) > kSameAttitude) return false;
   }
-  return !keeps_one_line(trajectory);
+  return !is_on_one_line(trajectory);
 }
 
 }  // namespace loopbench

@@ -1,13 +1,13 @@
-/// Trajectories that hold positions and a made-up attitude: then nothing is said about rotation.
+/// Detection of trajectories that hold only positions and a constant placeholder orientation.
 #pragma once
 
 #include "datasets/core/trajectory.hpp"
 
 namespace loopbench {
 
-/// All attitudes are the same (to 1e-9 rad) although the path turns. A body that really keeps its
-/// attitude on a straight path is left in peace; one that slides round a bend without turning
-/// would be mistaken, and none is known. Fewer than ten poses are no evidence. O(n).
+/// True if all orientations are equal (to 1e-9 rad) although the path is curved. A body that really
+/// keeps its orientation on a straight path is not affected; one that moves along a curve without
+/// rotating would be misclassified. False for fewer than ten poses. O(n).
 bool is_position_only(const Trajectory& trajectory);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Flattening a trajectory onto a coordinate plane, as evo's --project_to_plane.
+/// Projection of a trajectory onto a coordinate plane, as evo's --project_to_plane.
 #pragma once
 
 #include "datasets/core/trajectory.hpp"
@@ -6,9 +6,9 @@
 
 namespace loopbench {
 
-/// Positions lose the coordinate across the plane; attitudes keep only their Euler angle about it
-/// (euler.hpp; for xz that is the pitch, which folds beyond 90 degrees). evo
-/// core/trajectory.py:200-230. O(n), nothing for `none`.
+/// Sets the coordinate normal to the plane to zero and keeps of each orientation only its Euler
+/// angle about the normal (euler.hpp; for xz that is the pitch, limited to +-90 degrees). evo
+/// core/trajectory.py:200-230. O(n). No effect for `none`.
 void project(Trajectory& trajectory, Plane plane);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Where a trajectory is heading, safe against the jitter of a dense reference.
+/// Direction of travel, robust to the jitter of a dense reference.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace loopbench {
 
-/// The straight way around each pose.
+/// Chord of the path around a pose.
 struct Chord {
   Vector3 way = Vector3::Zero();  ///< last minus first position of the window [m]
   double seconds = 0.0;           ///< last minus first stamp of the window
@@ -18,7 +18,7 @@ struct Chord {
 };
 
 /// From the first pose at most window / 2 before to the last at most window / 2 after each pose;
-/// where poses are sparser, from neighbour to neighbour. Stamps must not decrease. O(n).
+/// if poses are sparser, between the neighbours. Stamps must not decrease. O(n).
 std::vector<Chord> chords(const Trajectory& trajectory, double window);
 
 }  // namespace loopbench

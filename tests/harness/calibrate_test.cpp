@@ -13,7 +13,7 @@
 namespace loopbench {
 namespace {
 
-/// Edges of uneven duration, length and turn, with errors drawn from a known model.
+/// Edges of different duration, length and rotation, with errors drawn from a known model.
 Residuals drawn(std::uint64_t seed,
                 std::size_t edges,
                 double noise_t_metre,
@@ -54,13 +54,13 @@ const Rung& rung(const std::vector<Rung>& rungs, const std::string& method) {
 }
 
 TEST(Calibrate, FindsOneVarianceInClosedForm) {
-  // Errors 1, 2 on edges of 1 and 4 m, one variance a metre: mean of 1/1 and 4/4, by hand 1.
+  // Errors 1, 2 on edges of 1 and 4 m, one variance per metre: mean of 1/1 and 4/4, by hand 1.
   Residuals two{"two", true, {}};
   two.edges.push_back({{1, 1, 1, 1, 1}, twist({1, 1, 0}, {0, 0, 1})});
   two.edges.push_back({{1, 1, 4, 1, 1}, twist({2, 2, 0}, {0, 0, 1})});
   const Rates rates = fit_rates(Half::translation, {Growth::distance}, {}, {two});
   EXPECT_NEAR(rates.noise_variance[0], 1.0, 1e-9);
-  // Four errors of variances 1, 1, 4, 4, each one deviation off.
+  // Four errors with variances 1, 1, 4, 4, each of one standard deviation.
   EXPECT_NEAR(log_likelihood(rates, {two}),
               -0.5 * (4.0 + 2.0 * std::log(4.0) + 4.0 * std::log(2.0 * std::numbers::pi)),
               1e-9);
@@ -95,14 +95,14 @@ TEST(Calibrate, RecoversTheModelItsEdgesWereDrawnFrom) {
   }
   const std::vector<Rung> rungs = climb(sequences);
   const Rung& best = rung(rungs, "motion_drift");
-  // 1800 errors: a variance is known to some 3 %, split among three terms to some 15 %.
+  // 1800 errors: a variance is estimated to about 3 %, split among three terms to about 15 %.
   EXPECT_NEAR(value_of(best, "noise.t.per_metre"), 4e-4, 0.6e-4);
   EXPECT_NEAR(value_of(best, "noise.r.per_radian"), 1e-4, 0.15e-4);
   EXPECT_LT(value_of(best, "noise.t.per_second"), 1e-4);
-  // 12 draws of a rate: its deviation is known to some 20 %, and the terms share it.
+  // 12 draws of a rate: its standard deviation is estimated to about 20 %, split among the terms.
   EXPECT_NEAR(value_of(best, "drift.r.per_metre"), 2e-3, 0.8e-3);
   EXPECT_LT(value_of(best, "drift.t.per_metre"), 5e-4);
-  // The ladder climbs where there is something to climb for.
+  // The likelihood increases only for terms that the data contain.
   const auto held_out = [&](const char* method, int half) {
     return rung(rungs, method).held_out[half].value();
   };
@@ -166,7 +166,7 @@ TEST(Calibrate, WritesWhatAConfigTakesOver) {
   const Sweep sweep =
       parse("{method: motion_drift + polyline, calibration: learnt.yaml, noise.t.per_metre: 0.5}");
   const Params& options = sweep.methods[0].stages[0].options;
-  EXPECT_EQ(options.at("noise.t.per_metre"), Param(0.5));  // the entry goes before the file
+  EXPECT_EQ(options.at("noise.t.per_metre"), Param(0.5));  // the entry overrides the file
   EXPECT_EQ(options.size(), options_of(calibration.rungs.back()).size());
   EXPECT_TRUE(sweep.methods[0].stages[1].options.empty());
   EXPECT_EQ(sweep.methods[0].label, "motion_drift + polyline (noise.t.per_metre=0.5)");

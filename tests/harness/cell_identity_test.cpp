@@ -1,4 +1,4 @@
-/// Which cell is which: labels, files and machines.
+/// Identity of cells: labels, files and machines.
 #include <gtest/gtest.h>
 
 #include "harness/catalogue/libraries.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config
 
-/// Two files, one of which may be named by the end of the other's path.
+/// Two files, one of whose paths is a suffix of the other's.
 struct PairOptions {
   std::string estimate;
   std::string reference;

@@ -1,4 +1,4 @@
-/// The binary from outside: help, exit codes, messages, files it leaves.
+/// The program as a process: help, exit codes, messages, output files.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -63,7 +63,7 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
   EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // told to close none
+  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // excluded by the config
   EXPECT_NE(result.out.find("gain"), std::string::npos);
   for (const char* name : {"results.sqlite", "table.md", "table.csv", "rows.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "results/c" / name)) << name;
@@ -78,7 +78,7 @@ TEST_F(Cli, AnUndefinedScoreIsTellingAndFails) {
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: line}]\nmethods: [raw]\nmetrics: [ate]\n");
   const CommandResult result = run("run c.yaml");
-  EXPECT_EQ(result.exit_code, 1);  // no unique alignment of a straight line
+  EXPECT_EQ(result.exit_code, 1);  // a straight line has no unique alignment
   EXPECT_NE(result.out.find("- raw: ate failed: alignment se3: "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("1 of 1 cells done, 1 failed"), std::string::npos) << result.out;
 }
@@ -164,11 +164,11 @@ TEST_F(Cli, AFolderThatCannotBeWrittenIsOneClearError) {
 }
 
 TEST_F(Cli, AKilledSweepLeavesReadableCells) {
-  // Many slow cells, killed without warning as soon as a few are in the store.
+  // Many slow cells, killed as soon as a few are in the store.
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
                "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  // exec: the process killed must be the sweep itself, not a shell around it.
+  // exec: the killed process must be the sweep itself, not a shell around it.
   const std::string in = "'" + folder_.path().string();
   const std::string script = "(cd " + in +
                              "' && exec '" LOOPBENCH_BINARY

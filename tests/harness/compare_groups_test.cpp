@@ -1,4 +1,4 @@
-/// What one observation is: failures, groups, copies.
+/// Observations: failures, groups, copies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(Failures, AreLossesAndTheSentenceCountsThem) {
 }
 
 TEST(Failures, AreNoGainOfTheMethodThatFails) {
-  std::vector<Record> records;  // `same` is raw, but fails on 12 of 16
+  std::vector<Record> records;  // `same` equals raw, but fails on 12 of 16
   for (int i = 0; i < 16; ++i) {
     const std::string sequence = std::to_string(i);
     records.push_back(score(sequence, 0, "raw", 1.0 + i));
@@ -104,8 +104,8 @@ TEST(Failures, OfAMetricAreNotTheMethods) {
   EXPECT_EQ(fails(), (std::pair{std::size_t{8}, std::size_t{1}}));
 }
 
-/// Five odometers on each of `routes` routes, whose effects are the route's: dual is better on
-/// `won` of them.
+/// Five odometers on each of `routes` routes, with an effect per route: dual is better on `won` of
+/// them.
 std::vector<Record> routes(int routes, int won) {
   std::vector<Record> out;
   for (int route = 0; route < routes; ++route) {
@@ -128,7 +128,7 @@ TEST(Groups, AreTheObservations) {
   EXPECT_EQ(c.methods[0].wins, 5u);
   EXPECT_FALSE(c.is_best_proven);
   EXPECT_TRUE(has(verdict(c), "; over 6 groups (30 runs)")) << verdict(c);
-  // Taken as independent, the same runs prove a difference; the remark states the assumption.
+  // Assumed independent, the same runs prove a difference; the remark states the assumption.
   const Comparison runs = compared(routes(6, 5), {.baseline = "raw", .over = Over::runs});
   EXPECT_EQ(runs.groups, 30u);
   EXPECT_TRUE(runs.is_best_proven);

@@ -1,4 +1,4 @@
-/// Verdicts worked by hand.
+/// Verdicts computed by hand.
 #include "harness/compare/compare.hpp"
 
 #include <gtest/gtest.h>
@@ -43,12 +43,12 @@ TEST(Compare, GivesTheNumbersOfAHandWorkedSweep) {
   EXPECT_GT(dual.ratio->low, 0.83);
   EXPECT_LT(dual.ratio->high, 0.90);
   EXPECT_EQ(dual.wins, 8u);
-  EXPECT_NEAR(*dual.p, 5.0 * 2.0 / 256.0, 1e-15);  // least p, Holm over 5 pairs
+  EXPECT_NEAR(*dual.p, 5.0 * 2.0 / 256.0, 1e-15);  // smallest p, Holm over 5 pairs
   EXPECT_EQ(dual.rank_biserial, 1.0);
   EXPECT_TRUE(c.is_best_proven);
   EXPECT_EQ(dual.lowest_rank, 1u);
   EXPECT_EQ(dual.highest_rank, 1u);
-  // uniform and copy leave ranks 2 and 3 open; ties are no wins.
+  // uniform and copy can have ranks 2 and 3; ties are not wins.
   EXPECT_EQ(c.methods[1].method, "uniform");
   EXPECT_EQ(c.methods[2].ties, 8u);
   EXPECT_EQ(*c.methods[2].p, 1.0);
@@ -115,7 +115,7 @@ TEST(Relevance, MakesSmallDifferencesTies) {
   const Comparison equal = compared(records);
   EXPECT_EQ(equal.methods[0].ties, 12u);
   EXPECT_EQ(verdict(equal), "all methods are equal; over 12 runs");
-  // Asked for, it is a difference, and no verdict prints 0.0 %.
+  // With relevant = 0 it counts as a difference, and no verdict prints 0.0 %.
   const std::string text = verdict(compared(records, {.baseline = "uniform", .relevant = 1e-9}));
   EXPECT_EQ(text.find("dual is best: 1e-05 % below uniform"), 0u) << text;
 }
@@ -164,7 +164,7 @@ TEST(Compare, LeavesOutMethodsThatWereShownTheReference) {
 TEST(Compare, FlagsOracleClosuresAndOracleData) {
   std::vector<Record> records = sweep();
   for (Record& r : records) r.oracle_closures = r.oracle = r.sequence == "room";
-  const Comparison c = compared(records);  // every method was shown as much
+  const Comparison c = compared(records);  // every method has the same access to the reference
   EXPECT_EQ(c.methods.size(), 4u);
   EXPECT_TRUE(has_note(c, "closures measured in the reference (oracle): room"));
   EXPECT_TRUE(has(json({c}), "\"oracle_closures\": [\n      \"room\"")) << json({c});
@@ -203,7 +203,7 @@ TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
   const Comparison c = compared(records);
   const auto dual = std::ranges::find(c.methods, "dual", &MethodVerdict::method);
   EXPECT_EQ(dual->ratio, std::nullopt);
-  EXPECT_EQ(dual->losses, 4u);  // a perfect result wins, by no ratio
+  EXPECT_EQ(dual->losses, 4u);  // an error of zero wins without a ratio
   EXPECT_TRUE(
       has_note(
           c, "no ratio to uniform where an error is zero (or no run is common): copy, dual, raw") ||

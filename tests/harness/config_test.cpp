@@ -1,4 +1,4 @@
-/// Every shipped config: always checked, really run where its data is.
+/// Every shipped config: always checked, and run if its data is available.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ TEST_P(ShippedConfig, Checks) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
-// With one repeat: the others differ in their seed, and take minutes under a sanitizer.
+// With one repeat: the others differ only in their seed, and take minutes under a sanitizer.
 TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   const std::filesystem::path configs = folder_.path() / "configs";
   std::filesystem::copy(LOOPBENCH_CONFIGS, configs, std::filesystem::copy_options::recursive);

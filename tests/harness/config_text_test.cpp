@@ -1,5 +1,4 @@
-/// What a scalar means depends on the option it is given to; and what has the wrong shape is
-/// rejected.
+/// Interpretation of scalars depends on the option's type; values of the wrong type are rejected.
 #include <gtest/gtest.h>
 
 #include "harness/catalogue/catalogue.hpp"
@@ -77,7 +76,7 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
             "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
   EXPECT_EQ(refusal("exclude: raw\n"),
             "c.yaml:5: exclude: expected a list of {dataset, method} patterns");
-  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a word");
+  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a string");
   EXPECT_EQ(why(config("{dataset: simulated, keyframes: {}}")),
             "c.yaml:2: keyframes: has no value");
   EXPECT_EQ(
@@ -90,14 +89,15 @@ TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
     return why(config("{dataset: simulated}", metric, rest));
   };
   EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: frames}"),
-            "c.yaml:4: rpe: delta = 1.5: frames come whole");
+            "c.yaml:4: rpe: delta = 1.5: expected a whole number of frames");
   EXPECT_EQ(refusal("{metric: rpe, delta: 200, unit: deg}"),
-            "c.yaml:4: rpe: delta = 200.0: no turn is beyond half a circle");
+            "c.yaml:4: rpe: delta = 200.0: expected at most 180 degrees");
   EXPECT_EQ(refusal("{metric: ape, relation: point_distance_error_ratio}"),
-            "c.yaml:4: ape: relation = point_distance_error_ratio: is of motions: use rpe");
+            "c.yaml:4: ape: relation = point_distance_error_ratio: is defined only for relative "
+            "errors; use rpe");
   EXPECT_NE(refusal("{metric: segments, lengths: 8 apples}"), "");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}"),
-            "c.yaml:4: rpe: pairs = tum: looks at whole files; only a protocol can ask for it");
+            "c.yaml:4: rpe: pairs = tum: needs a protocol with pairs = tum");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}", "protocol: tum\n"), "");
   EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: s}"), "");
 }

@@ -1,4 +1,4 @@
-/// Stores in which bytes have changed: an error or the undisturbed answer, never another number.
+/// Stores with changed bytes: an error or the original result, never another number.
 #include "harness/store/damage.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class Damage : public TinyStore {
     std::ofstream(file_, std::ios::binary) << bytes;
   }
 
-  /// A place in use: most of the pages of so small a store is empty.
+  /// A byte on a used page, since most pages of such a small store are empty.
   static std::size_t place(const std::string& bytes, std::mt19937_64& random) {
     std::size_t at = random() % bytes.size();
     while (bytes[at] == 0) at = random() % bytes.size();
@@ -36,7 +36,7 @@ class Damage : public TinyStore {
 
   void change(const std::string& sql) const { Database(file_, Database::Mode::read).execute(sql); }
 
-  /// Every answer that commands are made of, times and memory included.
+  /// All outputs of the commands, including times and memory.
   static std::string answers(const std::filesystem::path& file) {
     std::string out = store_text(file);
     for (const CellRecord& c : read_cells(file)) {
@@ -68,7 +68,7 @@ class Damage : public TinyStore {
   }
 };
 
-/// One method fails, so that reasons and states are there to be damaged too.
+/// One method fails, so that reasons and states can be damaged, too.
 const std::string kConfigWithFailures = config(
     "straight, {method: shift, by: 1, label: shifted}, {method: shift, fail: true, label: "
     "fails}");
@@ -113,7 +113,7 @@ TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
       const Ran again = run(kConfigWithFailures, Retry::damaged);
       if (!again.cells.empty()) ++mended;
     } catch (const InputError&) {
-      continue;  // beyond mending, and it said so
+      continue;  // cannot be repaired, which the message states
     }
     ASSERT_EQ(store_text(file_), expected) << "byte " << at;
     ASSERT_EQ(run(kConfigWithFailures).cells, Labels{}) << "byte " << at;
@@ -127,10 +127,10 @@ TEST_F(Damage, NamesTheCellAndWhatToDo) {
   change(
       "UPDATE score SET rmse = rmse * 0.999 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
   const std::string said = refusal(file_);
-  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not what was written"),
+  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not as written"),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("makes it again"), std::string::npos) << said;
+  EXPECT_NE(said.find("to recompute it"), std::string::npos) << said;
   const Ran again = run(kUsual);
   EXPECT_EQ(again.cells, Labels{"b / shifted"});
   EXPECT_EQ(again.resumed.damaged, Labels{"b / shifted"});
@@ -176,7 +176,7 @@ TEST_F(Damage, ADamagedStoreIsNotMerged) {
 
 TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
   run(kUsual, Retry::none, "a / ");
-  change("PRAGMA journal_mode = WAL");  // as it is while a sweep writes
+  change("PRAGMA journal_mode = WAL");  // as during a running sweep
   Database reader = open_store(file_);
   CellRows rows = read_cell_rows(reader);
   EXPECT_EQ(run(kUsual).cells.size(), 2u);

@@ -1,4 +1,4 @@
-/// `run --dry-run` finds input files that are missing or broken.
+/// `run --dry-run` detects missing and invalid input files.
 #include <gtest/gtest.h>
 
 #include "tests/support/command.hpp"

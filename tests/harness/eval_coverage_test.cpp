@@ -1,4 +1,4 @@
-// How much of a trajectory `eval` judged, and what it says when that is little.
+// Coverage of a trajectory in `eval`, and messages about low coverage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using namespace test;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A spiral at `speed`, poses every `step` from `begin` to `end`, with an error that waves.
+/// A spiral at `speed`, poses every `step` from `begin` to `end`, with a sinusoidal error.
 std::string spiral(double begin, double end, double step, double speed, double error) {
   std::string out;
   for (int i = 0; begin + i * step <= end; ++i) {
@@ -48,17 +48,18 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   EXPECT_EQ(judged[1]["status"], "incomplete");
   EXPECT_EQ(judged[1]["coverage"], 1.0);  // all of its own five poses
   EXPECT_LT(judged[1]["span"], 0.01);
-  EXPECT_EQ(judged[1]["why"],
-            "judged 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
-            "% that another estimate covers");
+  EXPECT_EQ(
+      judged[1]["why"],
+      "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
+      "% of another estimate");
   const std::string table = eval(both, kExitSomeCellsFailed);
   EXPECT_THAT(table, HasSubstr("| poses [%] | time [%] |"));
-  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: judged 5 of 5 poses over 0.4 %"));
+  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: evaluated 5 of 5 poses over 0.4 %"));
 
   std::vector<std::string> accepted = both;
   accepted.push_back("--min-coverage=0");
   EXPECT_EQ(eval_json(accepted)[1]["status"], "ok");
-  eval({reference_, short_});  // alone there is nothing to compare with
+  eval({reference_, short_});  // without a second estimate there is no comparison
 }
 
 TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {

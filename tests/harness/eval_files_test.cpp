@@ -1,4 +1,4 @@
-// Which files `eval` takes for what: folders of other tools, clocks, positions alone.
+// Input files of `eval`: folders of other tools, stamps, files with positions only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,9 +54,9 @@ TEST(Eval, ReadsOvEvalsFolders) {
   const auto other = folder.path() / "algorithms/mine/nine";
   std::filesystem::create_directories(other);
   std::filesystem::copy_file(golden("est_drift.txt"), other / "00.txt");
-  EXPECT_EQ(refusal<InputError>({truths.string(), algorithms}),
-            other.string() + ": holds runs, but " + truths.string() +
-                " has no nine.txt to judge them by");
+  EXPECT_EQ(
+      refusal<InputError>({truths.string(), algorithms}),
+      other.string() + ": has runs, but there is no reference nine.txt in " + truths.string());
 }
 
 // Values of golden.json: rpg with sim3, se3, posyaw, se3 and posyaw of the first frame.
@@ -92,7 +92,7 @@ TEST(Eval, DoesAsRpgsFolderAsks) {
   const auto cut = folder.path() / "start_end_time.yaml";
   written(cut, "start: 1\n");
   EXPECT_EQ(refusal<InputError>({folder.path().string()}),
-            cut.string() + ": is not read; cut the files to those times and move it away");
+            cut.string() + ": is not supported; cut the files to these times and remove it");
 }
 
 TEST(Eval, TellsWhatReadingMended) {
@@ -109,7 +109,7 @@ TEST(Eval, TellsWhatReadingMended) {
   EXPECT_NEAR(find(judged, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
 }
 
-/// A bent way of 100 poses, followed at `aside` of the body.
+/// A curved path of 100 poses, tracked at the lever arm `aside`.
 std::string bent_way(const std::filesystem::path& file, const Pose& aside) {
   Trajectory poses;
   Pose pose;
@@ -128,8 +128,9 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
       bent_way(folder.path() / "marker.txt", {Rotation(0.5, 0.5, 0.5, 0.5), {0.1, -0.2, 0.3}});
   const std::string estimate = bent_way(folder.path() / "camera.txt", {});
   const std::string place = "0.1,-0.2,0.3,0.5,0.5,0.5,0.5";
-  EXPECT_THAT(eval({reference, estimate}),
-              HasSubstr("other body the reference seems to follow another body, at " + place));
+  EXPECT_THAT(
+      eval({reference, estimate}),
+      HasSubstr("other body the reference seems to track another body, with the offset " + place));
   const Json plain = eval_json({reference, estimate});
   EXPECT_TRUE(plain.contains("other_body"));
   EXPECT_GT(find(plain, "ate", "translation")["rmse"].get<double>(), 0.1);
@@ -140,15 +141,16 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
   EXPECT_LT(find(told, "ate", "translation")["rmse"].get<double>(), 1e-9);
   EXPECT_LT(find(told, "rpe", "rotation")["rmse"].get<double>(), 1e-6);
   EXPECT_THAT(eval({reference, estimate, "--ref-body=" + place}),
-              HasSubstr("(100 poses), its body at " + place));
+              HasSubstr("(100 poses), body offset " + place));
   for (const char* wrong :
        {"1,2", "1,2,3,", "1,2,x", "1,2,3,4", "1,2,3,0,0,0,1,1", "nan,0,0", ","}) {
     EXPECT_THAT(refusal<InputError>({reference, estimate, std::string("--ref-body=") + wrong}),
                 HasSubstr("is not x,y,z [m] or x,y,z,qx,qy,qz,qw"))
         << wrong;
   }
-  EXPECT_THAT(refusal<InputError>({reference, estimate, "--ref-body=0,0,0,0,0,0,2"}),
-              HasSubstr("--ref-body: '0,0,0,0,0,0,2' has no unit quaternion behind the place"));
+  EXPECT_THAT(
+      refusal<InputError>({reference, estimate, "--ref-body=0,0,0,0,0,0,2"}),
+      HasSubstr("--ref-body: '0,0,0,0,0,0,2': expected a unit quaternion after the position"));
 }
 
 TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {

@@ -1,4 +1,4 @@
-/// eval under other tools' protocols, habits and folders.
+/// eval with other tools' protocols, options and folders.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -104,11 +104,11 @@ TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
   const std::vector<std::string> asked{
       golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
   const std::string why =
-      "judged 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
+      "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
   const Json judged = eval_json(asked, kExitSomeCellsFailed);
   EXPECT_EQ(judged["status"], "incomplete");
   EXPECT_EQ(judged["why"], why);
-  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // kept all the same
+  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
   EXPECT_NE(eval(asked, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
             std::string::npos);
   const Json enough = eval_json({asked[0], asked[1], "--min-coverage=0.96"});
@@ -138,16 +138,16 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
   EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evoo"}),
             "no protocol is named 'evoo'; did you mean 'evo'?");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--set=ddof"}),
-            "--set: 'ddof' is not FIELD=VALUE, for example ddof=1");
+            "--set: 'ddof': expected FIELD=VALUE, for example ddof=1");
   EXPECT_THROW(eval({tum, tum, "--set=dof=1"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-r", "fulll"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-u", "feet"}), OptionError);
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=origin", "-s"}),
-            "align = origin: has no form with scale; use se3 or none");
+            "align = origin: has no variant with scale; use se3 or none");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--protocol=evo", "--n_to_align=9"}),
-            "align_first = 9: only least squares look at several pairs, not origin or none");
+            "align_first = 9: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--protocol=kitti", "--t_max_diff=0.001"}),
-            "max_diff = 0.001: association index does not look at it");
+            "max_diff = 0.001: association index does not use it");
 }
 
 }  // namespace

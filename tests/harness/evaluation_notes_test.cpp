@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// 100 s round a circle at 10 Hz, estimated at `stamps`.
+/// 100 s on a circle at 10 Hz, estimated at `stamps`.
 Sequence estimated_at(const std::vector<double>& stamps) {
   const auto at = [](double stamp) {
     const double angle = 0.05 * stamp;
@@ -42,7 +42,7 @@ TEST(EvaluationNotes, OfASequenceNameTheTimeThatIsBridged) {
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
             "tracking gaps: 30.1 s between keyframes are bridged without a measurement, and not "
-            "judged (max_estimate_gap)");
+            "evaluated (max_estimate_gap)");
 }
 
 TEST(EvaluationNotes, OfASequenceNameLittleCoverageAndFewPairs) {

@@ -48,7 +48,7 @@ TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
 TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
   const std::vector<Record> g = gains({ate("raw", 1e-16), ate("uniform", 0.15)}, "raw");
   EXPECT_EQ(g[1].status, "declined");
-  EXPECT_EQ(g[1].why, "the baseline raw has no error here that could be reduced");
+  EXPECT_EQ(g[1].why, "the error of the baseline raw is zero");
 }
 
 TEST(RunTimes, AreOnePerCellAndTimes) {
@@ -73,7 +73,7 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
             "| bad    |  failed |\n"
             "\n"
             "- bad: failed: no such luck\n"
-            "- no best is marked: 1 independent run a cell cannot prove a difference at 0.05\n");
+            "- no best is marked: 1 independent run per cell cannot prove a difference at 0.05\n");
 }
 
 TEST(Notes, SayAReasonOnce) {
@@ -107,16 +107,16 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   records[3].axis = "x";
   for (const std::size_t i : {1u, 2u, 3u}) {
     records[i].status = "incomplete";
-    records[i].why = "judged 1 of 9 poses";
+    records[i].why = "evaluated 1 of 9 poses";
   }
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // the second repeat does not enter
+  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // without the second repeat
   EXPECT_EQ(tables[0].cells[0][0].records, 1u);
   EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
   EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
   EXPECT_EQ(tables[0].notes,
-            (std::vector<std::string>{"raw, worse: incomplete: judged 1 of 9 poses"}));
+            (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
   EXPECT_TRUE(gains(records, "worse").empty());
 }
@@ -126,7 +126,7 @@ TEST(Pivot, RefusesToAverageDifferentScores) {
   records[1].relation = "rotation";
   records[1].unit = "deg";
   EXPECT_EQ(pivot(records, TableSpec{})[0].columns,
-            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // the unit keeps them apart
+            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // distinguished by the unit
   records[1].unit = "m";
   EXPECT_THROW(pivot(records, TableSpec{}), InputError);
 }

@@ -1,4 +1,4 @@
-/// `check` on real stores: what a config calls by the same label must be the same.
+/// `check` on real stores: equal labels must have equal definitions.
 #include <gtest/gtest.h>
 
 #include <regex>

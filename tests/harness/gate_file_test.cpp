@@ -1,4 +1,4 @@
-/// Baselines as files, reports of the gate as text.
+/// Baseline files, and reports of the gate as text.
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
@@ -41,10 +41,9 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
   EXPECT_EQ(refusal("").find("b.json:1: is not JSON: "), 0u);
   EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
   EXPECT_EQ(refusal("{}"), "b.json: loopbench_baseline: is missing");
-  EXPECT_EQ(
-      refusal("{\"loopbench_baseline\": 9}"),
-      "b.json: loopbench_baseline: found format 9, expected 3: it does not hold what format 3 "
-      "compares; look at the results, then write it anew with --update (limits are kept)");
+  EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"),
+            "b.json: loopbench_baseline: found format 9, expected 3: it lacks data that format 3 "
+            "compares; check the results, then write it again with --update (limits are kept)");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const std::size_t at = text.find(from);
@@ -60,7 +59,7 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
             "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
   EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
-            "b.json: limits[0].relative: expected a number, not negative, found -1");
+            "b.json: limits[0].relative: expected a non-negative number, found -1");
   EXPECT_EQ(changed("\"sequence\":\"room\"", "\"sequence\":3"),
             "b.json: cells[0].sequence: expected text, found 3");
 }
@@ -71,7 +70,7 @@ TEST(GateText, IsMarkdownAndJUnit) {
     now.cells[0].method = "ra<w>&\"";
   });
   const std::string text = markdown(report, "quick");
-  EXPECT_EQ(text.find("### quick: FAILS\n\n| cell "), 0u) << text;
+  EXPECT_EQ(text.find("### quick: FAILED\n\n| cell "), 0u) << text;
   EXPECT_NE(text.find("| room / raw                |"), std::string::npos) << text;
   EXPECT_NE(text.find("- 2 regressions, 0 improvements, 1 new cell in 16 cells and 15 scores\n"),
             std::string::npos)
@@ -90,7 +89,7 @@ TEST(GateText, IsMarkdownAndJUnit) {
   EXPECT_NE(junit(check(odd, sweep()), "q").find("name=\"room / ra&lt;w&gt;&amp;&quot;\""),
             std::string::npos);
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
-            "### quick: passes\n\n"
+            "### quick: passed\n\n"
             "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n");
 }
 

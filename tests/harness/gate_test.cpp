@@ -1,4 +1,4 @@
-/// What passes the gate, and what does not.
+/// Pass and fail conditions of the gate.
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
@@ -25,7 +25,7 @@ TEST(Gate, NamesTheCellWhoseNumberMovedBeyondItsLimit) {
   EXPECT_FALSE(report.passes());
   EXPECT_EQ(report.findings[0].cell, "room (repeat 1) / uniform");
   EXPECT_EQ(report.findings[0].score, "ate translation 3d, dense, loopbench");
-  EXPECT_EQ(report.findings[0].what, "rmse 0.550605 m, was 0.55 (+0.11 %, may move 0.000551)");
+  EXPECT_EQ(report.findings[0].what, "rmse 0.550605 m, was 0.55 (+0.11 %, limit 0.000551)");
   EXPECT_TRUE(after([](Snapshot& now) { rmse(now, 3) *= 1.0009; }).findings.empty());
 }
 
@@ -49,7 +49,7 @@ TEST(Gate, FailsOnWhatVanishedOrFailsNewly) {
   const GateReport score = after([](Snapshot& now) { now.cells[0].scores[0].status = "failed"; });
   EXPECT_EQ(score.findings.at(0).score, "ate translation 3d, dense, loopbench");
   const GateReport pairs = after([](Snapshot& now) { now.cells[0].scores[0].pairs = 399; });
-  EXPECT_EQ(pairs.findings.at(0).what, "judged 399 pose pairs, was 400");
+  EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
 }
 
 TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
@@ -77,10 +77,10 @@ TEST(Gate, FindsALossTooSmallForAnyOneNumber) {
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_FALSE(report.passes());
   EXPECT_EQ(report.findings[0].cell, "uniform");
-  // One-sided 2^-8, however many methods and scores are tested.
+  // One-sided 2^-8 for any number of tested methods and scores.
   EXPECT_EQ(report.findings[0].what, "rmse worse over 8 runs, by 0.05 % on average: p = 0.0039");
   EXPECT_TRUE(creep(-5e-4).findings.empty());
-  EXPECT_TRUE(creep(5e-7).findings.empty());  // another compiler's last digits
+  EXPECT_TRUE(creep(5e-7).findings.empty());  // rounding of another compiler
 }
 
 TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
@@ -100,7 +100,7 @@ TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
     ASSERT_EQ(few.notes.size(), 1u);
     EXPECT_EQ(few.notes[0],
               "no test for small consistent losses of 2 methods: 2 independent runs or groups "
-              "reach p = 0.25 at best, level 0.01 needs 7");
+              "reach at best p = 0.25, level 0.01 needs 7");
   }
 }
 
@@ -149,12 +149,12 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   };
   add_times(timed.snapshot, 10.0);
   Snapshot now = sweep();
-  add_times(now, 10.9);  // within the limit, and less than the tenth that a test takes for a move
+  add_times(now, 10.9);  // within the limit, and below the tie threshold of a tenth
   EXPECT_TRUE(check(timed, now).findings.empty());
   now.cells[1].scores.back().values["rmse"] = 16.1;
   const GateReport slow = check(timed, now);
   ASSERT_EQ(slow.findings.size(), 1u);
-  EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, may move 6)");
+  EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, limit 6)");
   now = sweep();
   add_times(now, 12.0);  // a fifth on all runs
   EXPECT_FALSE(check(timed, now).passes());
@@ -171,16 +171,16 @@ TEST(Gate, TellsTheOptionsThatDiffer) {
     });
   };
   EXPECT_EQ(with("simulated: laps=2, path=room; a.txt 3 beef"),
-            "the baseline is of another sequence 'room': it has 'simulated: laps=1', these "
+            "the baseline has another sequence 'room': it has 'simulated: laps=1', these "
             "results have 'simulated: laps=2'");
   EXPECT_EQ(with("simulated: laps=1, path=room; a.txt 3 cafe"),
-            "the baseline is of another sequence 'room': it has 'a.txt 3 beef', these results "
+            "the baseline has another sequence 'room': it has 'a.txt 3 beef', these results "
             "have 'a.txt 3 cafe'");
 }
 
 TEST(Gate, RefusesOtherInputsAndProtocols) {
   EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences["room"] = "path=city"; }); }),
-            "the baseline is of another sequence 'room': it has 'path=room', these results have "
+            "the baseline has another sequence 'room': it has 'path=room', these results have "
             "'path=city'");
   EXPECT_NE(refusal_of([] { after([](Snapshot& now) { now.protocols.clear(); }); }), "");
   EXPECT_NE(refusal_of([] { after([](Snapshot& n) { n.protocols["loopbench [1]"] = ""; }); }), "");
@@ -193,7 +193,7 @@ TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
   for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
   for (const GateExtent extent : {GateExtent::whole, GateExtent::part}) {
     EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
-              "the baseline is of another sweep: no cell of 'outliers' is among these results");
+              "the baseline belongs to another sweep: the results contain no cell of 'outliers'");
   }
 }
 

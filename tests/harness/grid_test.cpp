@@ -75,12 +75,13 @@ TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {
   EXPECT_EQ(texts("{from: 0, to: 0.7, steps: 8}"),
             "a=0.0 a=0.1 a=0.2 a=0.3 a=0.4 a=0.5 a=0.6 a=0.7 ");
   EXPECT_EQ(texts("{from: 0.001, to: 1, steps: 4, log: true}"), "a=0.001 a=0.01 a=0.1 a=1.0 ");
-  // What was written stays to its last digit.
+  // Written values keep all digits.
   EXPECT_EQ(texts("{from: 0.30000000000000004, to: 1, steps: 2}"), "a=0.30000000000000004 a=1.0 ");
 }
 
 TEST(Grid, RefusesWithFileAndLine) {
-  EXPECT_EQ(why("method: m\na: [1, 2]\n"), "c.yaml:2: a: a list belongs under 'sweep' or 'zip'");
+  EXPECT_EQ(why("method: m\na: [1, 2]\n"),
+            "c.yaml:2: a: lists are accepted only under 'sweep' or 'zip'");
   EXPECT_EQ(why("method: m\na:\n"), "c.yaml:2: a: has no value");
   EXPECT_EQ(why("method: m\nsweep: {a: 3}\n"), "c.yaml:2: a: expected a list or {from, to, steps}");
   EXPECT_EQ(why("method: m\nsweep: {a: []}\n"),
@@ -96,7 +97,7 @@ TEST(Grid, RefusesWithFileAndLine) {
   EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 0}}\n"),
             "c.yaml:2: steps: expected a whole number, 1 to 100000");
   EXPECT_EQ(why("method: m\nsweep: {a: {from: -1e308, to: 1e308, steps: 3}}\n"),
-            "c.yaml:2: a range from, to must not be wider than a double is");
+            "c.yaml:2: the range from .. to is too wide for double precision");
   EXPECT_EQ(why("method: m\nsweep:\n  a: {from: 1, to: 101, steps: 101}\n"
                 "  b: {from: 1, to: 100, steps: 100}\n"),
             "c.yaml:1: sweeps over more than 10000 combinations");

@@ -1,4 +1,4 @@
-/// Tests against published examples and the values of R and scipy.
+/// Statistical tests compared with published examples and with R and scipy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,9 +39,7 @@ TEST(Average, IsWhatItsNameSays) {
   EXPECT_THROW(sample_deviation(Numbers{1.0}), std::invalid_argument);
 }
 
-TEST(Normal, AgreesWithItsTables) {
-  EXPECT_NEAR(normal_cdf(1.959963984540054), 0.975, 1e-15);
-}
+TEST(Normal, AgreesWithItsTables) { EXPECT_NEAR(normal_cdf(1.959963984540054), 0.975, 1e-15); }
 
 TEST(Ranks, AreSharedByEquals) {
   EXPECT_EQ(midranks(Numbers{3.0, 1.0, 3.0, 2.0}), (Numbers{3.5, 1.0, 3.5, 2.0}));
@@ -87,7 +85,7 @@ TEST(SignedRank, GivesTheNormalValuesOfR) {
   EXPECT_NEAR(wilcoxon.p, 0.00641346115861, 1e-13);
 }
 
-/// By going through every pattern of signs: the definition.
+/// By enumerating all sign patterns: the definition.
 double enumerated(const Numbers& ranks, double t) {
   double lower = 0.0;
   double upper = 0.0;

@@ -1,4 +1,4 @@
-/// Worker processes: what ends one costs its cell and nothing else.
+/// Worker processes: a crash affects only its own cell.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -129,7 +129,7 @@ TEST_F(Isolated, GivesTheSameBitsAsThreads) {
 }
 
 TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
-  // The flood is of 2 GB; a worker begins as a copy of this program, whatever ran in it before.
+  // The allocation is 2 GB; a worker starts as a copy of this program with its current size.
   const std::vector<CellResult> results = run(
       "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2]}}]\n"
       "methods: [straight, {method: mis, sweep: {deed: [abort, kill, exit, hang, flood]}}, shift]\n"
@@ -146,7 +146,7 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto& [status, signal] = wanted[i % 7];
     EXPECT_EQ(to_text(results[i].status), to_text(status)) << i << ": " << results[i].why;
-    // A flood that ended between two looks at it is told by its peak, without a signal.
+    // An allocation between two checks is detected by the peak, without a signal.
     if (status != Status::out_of_memory) {
       EXPECT_EQ(results[i].signal, signal) << i;
     }

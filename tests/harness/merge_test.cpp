@@ -1,4 +1,4 @@
-/// Stores put together, and which are not.
+/// Merging of stores, and stores that cannot be merged.
 #include "harness/store/merge.hpp"
 
 #include "harness/catalogue/load_sequence.hpp"

@@ -27,7 +27,7 @@ TEST(OracleMethod, IsOneTrainedOnTheJudgedReference) {
   };
   EXPECT_EQ(why("another name", "reference:07"),
             "c.yaml was trained on the reference of this sequence");
-  EXPECT_EQ(why("kitti 06", "reference:00"), "");  // the name alone says nothing
+  EXPECT_EQ(why("kitti 06", "reference:00"), "");  // the label alone is no evidence
   method.trained_on.sources.clear();               // a file of an older version
   EXPECT_EQ(why("kitti 06", "reference:00"), "c.yaml was trained on a dataset with this label");
   EXPECT_EQ(why("another name", "reference:06"), "");

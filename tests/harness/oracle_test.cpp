@@ -11,7 +11,7 @@
 namespace loopbench {
 namespace {
 
-/// Along y = 0.1 x^2, a step forward every second but unevenly: on time at whole seconds only.
+/// Along y = 0.1 x^2, one step per second at uneven speed: on the nominal path at integer seconds.
 Pose on_parabola(double t) {
   const double x = t + 0.2 * std::sin(2.0 * std::numbers::pi * t) / std::numbers::pi;
   return {Rotation::Identity(), Vector3(x, 0.1 * x * x, 0.3)};
@@ -48,7 +48,7 @@ double dense_ate(const CellResult& result) {
 
 TEST(Oracle, AskedAtTheReferencesAbscissaMakesUpForWhatTheKeyframesNeverKnew) {
   const Sequence sequence = parabola();
-  // Between keyframes the true x leads and lags by up to 0.06 m; no keyframe tells.
+  // Between keyframes the true x deviates by up to 0.06 m, which is not visible at the keyframes.
   EXPECT_GT(dense_ate(run({{"dm", kWorldAxes}}, sequence)), 0.04);
   EXPECT_LT(dense_ate(run({{"paper_oracle", kWorldAxes}}, sequence)), 1e-9);
 }
@@ -63,7 +63,7 @@ TEST(Oracle, WithoutTheReferencesAbscissaIsTheMethodItself) {
 
 TEST(Oracle, ChoosesNoWorseThanAnyOneFamily) {
   Sequence sequence = parabola();
-  for (std::size_t k = 1; k < 8; ++k) {  // a wave of its own, other in every window
+  for (std::size_t k = 1; k < 8; ++k) {  // a different wave in every window
     Vector3& p = sequence.problem.keyframes[k].world_from_body.translation;
     p.y() += 0.05 * std::sin(2.0 * static_cast<double>(k * k));
   }

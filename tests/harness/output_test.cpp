@@ -1,4 +1,4 @@
-/// What is written and printed arrives, or is told; and nothing is destroyed on the way.
+/// Output is written completely or an error is reported; existing files are not destroyed.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -38,7 +38,7 @@ TEST(WriteFile, MakesFoldersAndKeepsTheMode) {
   write_file(mine, "new");
   EXPECT_EQ(read_all(mine), "new");
   EXPECT_EQ(fs::status(mine).permissions(), fs::perms::owner_read | fs::perms::owner_write);
-  EXPECT_EQ(files_in(folder), 2u);  // nothing is left beside
+  EXPECT_EQ(files_in(folder), 2u);  // no temporary files remain
 }
 
 TEST(WriteFile, FollowsLinks) {
@@ -97,15 +97,15 @@ TEST(Printable, LeavesNothingThatSteersATerminal) {
   EXPECT_EQ(printable("\x1b[31m\t\r\x7f"), "\\x1b[31m\\x09\\x0d\\x7f");
   EXPECT_EQ(printable(std::string(1, '\0')), "\\x00");
   EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                    // C1: also starts a sequence
-  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");                    // no UTF-8; cut off
-  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // longer than it need be
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");                    // not UTF-8; truncated
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // overlong encoding
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // surrogate
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond Unicode
 }
 
 class Output : public testing::Test {
  protected:
-  /// With standard output where `shell` sends it; what it prints on standard error.
+  /// With standard output redirected by `shell`; returns standard error.
   CommandResult run(const std::string& arguments, const std::string& shell) {
     const std::string line = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY "' " +
                              arguments + " 2>err " + shell;
@@ -118,7 +118,7 @@ class Output : public testing::Test {
 };
 
 TEST_F(Output, AFullDiskBehindStandardOutputIsTold) {
-  // Less and more than a buffer; printed by us and by CLI11.
+  // Smaller and larger than the buffer; printed by our code and by CLI11.
   for (const char* arguments : {"eval a.txt a.txt",
                                 "eval a.txt a.txt --json",
                                 "list",
@@ -134,7 +134,7 @@ TEST_F(Output, AFullDiskBehindStandardOutputIsTold) {
 
 TEST_F(Output, AReaderThatHasHeardEnoughIsNoError) {
   EXPECT_EQ(run("list --json", "| head -1 >out").err, "");
-  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // as some callers leave it to us
+  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // inherited from some callers
   EXPECT_EQ(run("list --json", "| head -1 >out").err, "");
   std::signal(SIGPIPE, usual);
   EXPECT_EQ(read_all(folder_.path() / "out"), "{\n");

@@ -32,13 +32,13 @@ TEST(Pattern, BracketsOfTheTextAreTextWhenEscaped) {
 
 TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
   EXPECT_EQ(refusal("("), "'(' is not a regular expression (missing ): ()");
-  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // no repetition: literal braces
+  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // not a repetition: literal braces
   EXPECT_EQ(refusal("a{1001}"),
             "'a{1001}' is not a regular expression (invalid repetition size: {1001})");
   EXPECT_EQ(refusal("\\99999999999"),
             "'\\99999999999' is not a regular expression (invalid escape sequence: \\9)");
   EXPECT_EQ(refusal("(?!a)"), "'(?!a)' is not a regular expression (invalid perl operator: (?!)");
-  EXPECT_EQ(refusal(std::string(1'001, 'a')), "a pattern of more than 1000 characters");
+  EXPECT_EQ(refusal(std::string(1'001, 'a')), "the pattern is longer than 1000 characters");
   EXPECT_EQ(refusal("\xff"), "'\xff' is not a regular expression (invalid UTF-8)");
   try {
     Pattern::of_option("--only", "[");

@@ -1,4 +1,4 @@
-/// Regressions planted into a sweep that its baseline must not let pass, each caught and named.
+/// Regressions planted into a sweep: the gate must detect and name each of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 
 using namespace gate_sweep;
 
-/// The report as text, or the reason why the baseline does not apply; empty: passes.
+/// The report as text, or the reason why the baseline does not apply; empty if it passes.
 std::string caught(const Snapshot& now, const Baseline& before = baseline()) {
   std::string out;
   try {
-    // By way of its file: what is not written is not held.
+    // Through a file: values that are not written cannot be checked.
     const GateReport report = check(parse_baseline(json(before), "b.json"), now);
     if (!report.passes()) out = markdown(report, "quick");
   } catch (const InputError& error) {
@@ -78,9 +78,8 @@ TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
 TEST(PlantedRegression, AnHonestMethodReplacedByAnOracleUnderItsLabel) {
   expect_named(caught_definition([](Snapshot& now) { now.methods["uniform"] = "paper_oracle"; }),
                {"another method 'uniform'", "'paper_oracle'"});
-  expect_named(
-      caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
-      {"room / uniform", "oracle: the method or its data is shown the reference, was not"});
+  expect_named(caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
+               {"room / uniform", "oracle: the method or its data uses the reference, was not"});
 }
 
 TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
@@ -173,7 +172,7 @@ TEST(PlantedRegression, OtherContentOfTheDataset) {
   Snapshot other = snapshot_of(now);
   other.contents = {{"room", "cafe"}};
   expect_named(caught(other, hashed), {"other content of the sequence 'room'", "beef", "cafe"});
-  other.machine = "another CPU";  // where last digits may differ
+  other.machine = "another CPU";  // last digits can differ
   EXPECT_EQ(caught(other, hashed), "");
   expect_named(markdown(check(hashed, other), "quick"), {"contents of sequences are not compared"});
 }
@@ -187,11 +186,11 @@ TEST(PlantedRegression, LessOfTheTrajectoryJudged) {
   expect_named(caught_records([](Record& r) {
                  if (r.cell == 1) r.pairs = 399;
                }),
-               {"room / uniform", "judged 399 pose pairs, was 400"});
+               {"room / uniform", "evaluated 399 pose pairs, was 400"});
   expect_named(caught_records([](Record& r) {
                  if (r.cell == 1) r.possible = 4000;
                }),
-               {"room / uniform", "judged 400 of 4000 possible pose pairs, was 400 of 400"});
+               {"room / uniform", "evaluated 400 of 4000 possible pose pairs, was 400 of 400"});
 }
 
 TEST(PlantedRegression, AnotherUnitOrDirection) {

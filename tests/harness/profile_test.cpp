@@ -1,4 +1,4 @@
-/// What methods cost: worked by hand.
+/// Cost tables, computed by hand.
 #include "harness/profile/profile.hpp"
 
 #include <gtest/gtest.h>
@@ -112,7 +112,7 @@ TEST(Pareto, OverSequencesThatAllHave) {
 }
 
 TEST(ParetoFront, TakesTinyDifferencesForNone) {
-  // Two methods that find the same by other arithmetic: only the faster one is on the front.
+  // Two methods with equal results up to rounding: only the faster one is on the front.
   EXPECT_EQ(pareto_front({1.0, 1.0 - 1e-7}, {1.0, 15.0}), (std::vector<bool>{true, false}));
   EXPECT_EQ(pareto_front({1.0, 1.0 - 1e-5}, {1.0, 15.0}), (std::vector<bool>{true, true}));
 }
@@ -142,7 +142,7 @@ TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
     return std::ranges::any_of(of.notes, [&](const std::string& n) { return n.starts_with(note); });
   };
   for (const Listing& of : {listing, costs(cells), reported(cells), scaling(cells)}) {
-    EXPECT_TRUE(has(of, "oracle: the method or its data was shown the reference")) << of.title;
+    EXPECT_TRUE(has(of, "oracle: the method or its data uses the reference")) << of.title;
     EXPECT_TRUE(has(of, "closures are oracle (measured in the reference): s")) << of.title;
   }
   EXPECT_EQ(costs(cells).rows[1][0], "leaky (oracle)");
@@ -157,7 +157,7 @@ TEST(Listing, ReadsAsMarkdownAndAsCsv) {
 TEST(Allocations, CountCallsOfEveryKindOnEveryThread) {
   const std::optional<std::int64_t> before = allocations();
   if (!before) GTEST_SKIP() << "not counted under sanitizers";
-  // Volatile, or the compiler sees that nobody looks and asks for nothing.
+  // Volatile, because the compiler would remove the unused allocation.
   void* volatile block = std::malloc(10);
   block = std::realloc(block, 1000);
   std::free(block);

@@ -19,7 +19,7 @@ std::string why(const std::string& text) {
   return "";
 }
 
-/// A valid config with `line` put in place of one of its parts.
+/// A valid config in which `line` replaces one of its parts.
 std::string config(const std::string& datasets = "- line",
                    const std::string& methods = "- shift",
                    const std::string& metrics = "- ate",
@@ -68,14 +68,14 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
   EXPECT_EQ(why(config("- dataset: line\n    bais: 0.5")),
             "c.yaml:3: line: bais: unknown option (has: bias, seed); did you mean 'bias'?");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, by: 1}")),
-            "c.yaml:4: by: both stages have it; say shift.by or straight.by");
+            "c.yaml:4: by: both stages have this option; use shift.by or straight.by");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, fial: true}")),
             "c.yaml:4: no option of either stage is named 'fial'; did you mean 'fail'?");
   EXPECT_EQ(why(config("- line", "- straight + shift")),
             "c.yaml:4: straight + shift: is smoother + corrector; stages compose as corrector + "
             "smoother");
   EXPECT_EQ(why(config("- line", "- shift\n  - shift")),
-            "c.yaml:5: two entries of methods are called 'shift'; give one a label");
+            "c.yaml:5: two entries of methods have the label 'shift'; set label in one");
   EXPECT_EQ(why(config("- line", "- shift", "- {metric: ate, power: 7}")),
             "c.yaml:6: ate: power = 7: expected 1 <= power <= 2");
 }
@@ -99,7 +99,7 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
                        "- shift",
                        "- ate",
                        "exclude: [{method: '" + std::string(50'000, '(') + "'}]\n")),
-            "c.yaml:7: method: a pattern of more than 1000 characters");
+            "c.yaml:7: method: the pattern is longer than 1000 characters");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
             "c.yaml:7: min_coverage = 80.0: expected 0 <= min_coverage <= 1");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: most\n")),
@@ -136,15 +136,15 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
   };
   EXPECT_EQ(refusal("evoo"),
             "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
-  EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is there twice");
+  EXPECT_EQ(refusal("[evo, {base: evo}]"), "c.yaml:7: protocol: 'evo' is listed twice");
   EXPECT_EQ(refusal("[]"), "c.yaml:7: protocol: is empty, expected a name");
   EXPECT_EQ(refusal("{sweep: {align: [se3, sim3]}}"),
-            "c.yaml:7: protocol: is not swept; give a list of protocols");
+            "c.yaml:7: protocol: cannot be swept; use a list of protocols");
   EXPECT_EQ(refusal("\n  base: kitti\n  offset: 1"),
-            "c.yaml:9: protocol: offset = 1.0: association index does not look at stamps");
+            "c.yaml:9: protocol: offset = 1.0: association index ignores stamps");
 }
 
-// What no option can refuse alone is found before anything runs, with its place.
+// Contradictions between options are found before the sweep starts, with their line.
 TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
   const auto refusal = [](const std::string& dataset) {
     const std::string text = "datasets:\n  - {" + dataset + "}\nmethods: [raw]\nmetrics: [ate]\n";

@@ -1,4 +1,4 @@
-// What the report's page is made of: escaped text, packed numbers.
+// Building blocks of the report page: escaped text, packed numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(Html, TablesEscapeAndMark) {
 }
 
 TEST(Packed, IsSixteenBitsOfTheRange) {
-  // 0, half of 65534 and 65534 as little endian words; then what is no number.
+  // 0, half of 65534 and 65534 as little-endian words; then NaN.
   const auto json = nlohmann::json::parse(packed({-1.0, 0.0, 1.0, std::nan("")}));
   EXPECT_EQ(json["lo"], -1.0);
   EXPECT_NEAR(json["step"].get<double>(), 2.0 / 65534.0, 1e-11);

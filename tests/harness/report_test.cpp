@@ -1,4 +1,4 @@
-/// Reports: what is in them, how large they grow, how a browser takes them.
+/// Reports: contents, size, and rendering in a browser.
 #include "harness/report/report.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(Report, DrawsFewerPointsWhereThereAreManyCells) {
   EXPECT_EQ(points_of_a_cell(0, 5'000'000), 400u);
 }
 
-/// A sweep with awkward names, a failure and a decline, made once.
+/// A sweep with awkward names, a failure and a decline, computed once.
 class OfASweep : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -101,7 +101,7 @@ TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
                            "told to fail",
                            "told to decline",
-                           "scores without a number",
+                           "undefined scores",
                            "told to be undefined",
                            "verdict for every score",
                            "Protocol of every number",
@@ -202,7 +202,7 @@ TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
   }
 }
 
-/// Asks the page itself what it shows, then works its controls; answers in its title.
+/// Reads the state of the page, operates its controls, and returns results in its title.
 const char* const kProbe = R"(<script>
   const said = [];
   for (const id of ["controls", "map", "space", "before", "after", "along-x", "along-a", "boxes",

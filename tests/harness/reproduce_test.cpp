@@ -84,7 +84,7 @@ TEST(Claims, AreDecidedByOurNumbers) {
   EXPECT_NE(claim_table(claims).find("*cannot be judged* | no such run |"), std::string::npos);
 }
 
-/// fr3_office, closed, on a circle: 0.3 m/s, 0.045 rad a keyframe.
+/// fr3_office, closed, on a circle: 0.3 m/s, 0.045 rad per keyframe.
 PaperCell circling() {
   PaperCell out;
   out.sequence = "fr3_office";
@@ -109,7 +109,7 @@ TEST(SegmentClaims, AreJudgedWhereSpeedAndCurvatureAreAsQuoted) {
   EXPECT_TRUE(
       parabola.because.starts_with("in both ranges 26 windows, parabola 0.00 mm, cubic 0.00 mm"))
       << parabola.because;
-  // Its speeds, but turning more: the speeds alone decide.
+  // The same speeds with larger rotations: only the speeds are used.
   const Claim& faster = claim(claims, "Figure 8 left: a parabola at 0.1998 to 0.3035 m/s");
   EXPECT_EQ(faster.verdict, Verdict::holds) << faster.because;
   EXPECT_TRUE(faster.because.starts_with("in both ranges 0 windows; by speed alone 26 windows"))

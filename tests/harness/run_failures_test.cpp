@@ -1,4 +1,4 @@
-/// A failure belongs to the cell or the score that it is of.
+/// Failures are assigned to the affected cell or score.
 #include <cmath>
 #include <limits>
 
@@ -50,7 +50,7 @@ class RunFailures : public TinyStore {
       return out;
     };
   }
-  /// What the method leaves beside `straight` on one sequence.
+  /// Records of the method beside `straight` on one sequence.
   std::vector<Record> records_of(const std::string& method, const std::string& more = "") {
     run("datasets: [line]\nprotocol: {base: loopbench, align: none}\nmethods: [straight, " +
         method + "]\n" + (more.empty() ? "metrics: [ate]\n" : more));

@@ -83,7 +83,7 @@ TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
   EXPECT_EQ(records[6].repeat, 1);
 }
 
-/// The reference goes on for 9 s, the keyframes end after 3 s: dense and keyframes see a third.
+/// The reference lasts 9 s, the keyframes end after 3 s: coverage is a third at either times.
 TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
     Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
@@ -97,13 +97,13 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
     const bool is_short = r.sequence.find("0.3") != std::string::npos;
     if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, is_short ? "incomplete" : "ok") << r.sequence;
-    EXPECT_GT(r.statistics.rmse, 0.0);  // kept all the same
+    EXPECT_GT(r.statistics.rmse, 0.0);  // stored nevertheless
     if (!is_short) continue;
     ++incomplete;
-    EXPECT_EQ(r.why, "judged 4 of 4 poses over 33.3 % of the reference's time, below 50.0 %");
+    EXPECT_EQ(r.why, "evaluated 4 of 4 poses over 33.3 % of the reference's time, below 50.0 %");
   }
   EXPECT_EQ(incomplete, 3);
-  for (const Record& r : records) {  // what the metric could not do at all stays failed
+  for (const Record& r : records) {  // a failed metric remains failed
     if (r.label == "undefined") {
       EXPECT_EQ(r.status, "failed");
     }
@@ -114,7 +114,7 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
     Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
     out.reference.erase(out.reference.begin() + 1, out.reference.begin() + 3);
-    return out;  // two of four keyframes have a partner; dense asks at both reference stamps
+    return out;  // two of four keyframes are paired; dense evaluates both reference stamps
   };
   sweep_.protocols.front().rules.align = Align::none;
   sweep_.min_coverage = 0.9;

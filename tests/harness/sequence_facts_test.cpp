@@ -35,13 +35,14 @@ TEST(SequenceFacts, TellOfAReferenceThatFollowsAnotherBody) {
         pose * exp_se3(twist({1.0, 0.3 * (i % 5), 0.0}, {0.1 * (i % 2), 0.1 * (i % 3), 0.2})));
   }
   const std::string found =
-      "the reference seems to follow another body, at 0.0,0.5,0.0 of the estimate's (+- "
+      "the reference seems to track another body, with the offset 0.0,0.5,0.0 in the estimate's "
+      "body frame (+- "
       "0.0,0.0,0.0 "
-      "m): in turns, the place explains 100 % of how they differ";
+      "m): over rotations, the lever arm explains 100 % of the squared differences";
   const auto notes = [&] { return sequence_facts(sequence, false).notes; };
   EXPECT_EQ(notes(), std::vector{found});
-  sequence.provenance.body_from_reference = Pose{};  // the dataset could have been told
-  EXPECT_EQ(notes(), std::vector{found + "; reference_body of the dataset takes it in"});
+  sequence.provenance.body_from_reference = Pose{};  // the dataset supports the option
+  EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
   sequence.reference = sequence.problem.keyframes;
   EXPECT_TRUE(notes().empty());
 }

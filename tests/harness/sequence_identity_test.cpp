@@ -132,9 +132,9 @@ TEST(Group, IsTheNoiseOfSimulatedData) {
     return facts_in(sweep, folder, dataset, repeat).group;
   };
   EXPECT_THAT(group(0), StartsWith("noise:"));
-  EXPECT_NE(group(0), group(0, 1));  // every seed is an observation of its own
+  EXPECT_NE(group(0), group(0, 1));  // every seed is a separate observation
   EXPECT_NE(group(0), group(1));
-  EXPECT_EQ(group(2, 1), group(3, 1));  // common random numbers: a pair, not two
+  EXPECT_EQ(group(2, 1), group(3, 1));  // common random numbers: one paired observation
   EXPECT_NE(group(2, 0), group(2, 1));
   EXPECT_EQ(group(4, 0), group(4, 1));
 }
@@ -179,7 +179,7 @@ TEST(Group, IsAWordInTheConfig) {
     sweep_of("  - {dataset: simulated, group: [a, b]}\n", folder);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a word"));
+    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a string"));
   }
 }
 

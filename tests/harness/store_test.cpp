@@ -1,4 +1,4 @@
-/// Keys, resuming, what is refused, traces.
+/// Store: keys, resuming, rejected files, traces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST_F(StoreTest, AnotherBuildRunsEverything) {
 
 TEST_F(StoreTest, ProvenanceTellsAllThatMadeIt) {
   run(kUsual, Retry::none, "a / ");
-  commit_ = "decaf";  // a commit that leaves the code as it is
+  commit_ = "decaf";  // a commit that does not change the code
   EXPECT_EQ(run(kUsual).cells.size(), 2u);
   run(kUsual, Retry::failed);
   EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee\ndecaf");
@@ -154,12 +154,12 @@ TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
   EXPECT_EQ(run(text).cells.size(), 2u);
   EXPECT_EQ(run(text).cells, Labels{});
   const auto time = std::filesystem::last_write_time(folder_.path() / "x/bias");
-  folder_.file("x/bias", "0.2");  // as long as before, and as old
+  folder_.file("x/bias", "0.2");  // same size and date as before
   std::filesystem::last_write_time(folder_.path() / "x/bias", time);
   EXPECT_EQ(run(text).cells, Labels{"f / straight"});
   EXPECT_EQ(read_inputs(file_).at("f").at(0).bytes, 3u);
 
-  // The same bytes elsewhere are the same input; other bytes found first are not.
+  // Equal bytes at another path are the same input; other bytes found first are not.
   std::filesystem::create_directories(folder_.path() / "moved");
   std::filesystem::rename(folder_.path() / "x", folder_.path() / "moved" / "x");
   root_.folders = {folder_.path(), folder_.path() / "moved"};
@@ -196,7 +196,8 @@ TEST_F(StoreTest, ADamagedStoreIsRefused) {
 }
 
 TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
-  std::ofstream(file_, std::ios::binary).flush();  // a kill between making it and its tables
+  std::ofstream(file_, std::ios::binary)
+      .flush();  // killed between creating the file and its tables
   EXPECT_EQ(run(kUsual).cells.size(), 4u);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "previous.sqlite"));
 }
@@ -208,7 +209,7 @@ TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {
-  // Unaligned, the last keyframe of a is off by 0.1 + 1e-6 (its seed) in y alone.
+  // Not aligned: the last keyframe of a has an error of 0.1 + 1e-6 (its seed) in y only.
   run(config("straight", "protocol: {base: loopbench, align: none}\ntimes: keyframes\n"));
   Traces traces(file_);
   const auto cell = traces.cell(0);
@@ -249,7 +250,7 @@ TEST_F(StoreTest, TracesAreThinnedEvenlyAndCountFromTheFirstReferencePose) {
   EXPECT_EQ(trace.origin.x, 4e6);
   ASSERT_EQ(trace.closures.size(), 1u);
   EXPECT_EQ(trace.closures[0].to_stamp, 5000.0f);
-  EXPECT_EQ(trace.closures[0].to_x, 4005000.0f);  // keyframes stay in their own world
+  EXPECT_EQ(trace.closures[0].to_x, 4005000.0f);  // keyframes are not relative to the origin
 }
 
 }  // namespace

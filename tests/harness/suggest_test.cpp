@@ -9,7 +9,7 @@ const std::vector<std::string> kKnown{"uniform", "polyline", "cubic_spline", "dm
 
 TEST(Suggest, FindsASlipOfTheHand) {
   EXPECT_EQ(closest("unifrom", kKnown), "uniform");   // swapped
-  EXPECT_EQ(closest("polylne", kKnown), "polyline");  // left out
+  EXPECT_EQ(closest("polylne", kKnown), "polyline");  // missing letter
   EXPECT_EQ(closest("dm_n5", kKnown), "dm_n4");
 }
 

@@ -1,4 +1,4 @@
-/// Which rows a table keeps, who is marked in it, and how it is written.
+/// Row filters, marks and output formats of tables.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST(Where, KeepsWhatEveryRuleKeeps) {
     r.label = "error";
     return where({rule})(r);
   };
-  EXPECT_TRUE(keeps_labelled("metric=ate"));  // name and label alike
+  EXPECT_TRUE(keeps_labelled("metric=ate"));  // name and label
   EXPECT_TRUE(keeps_labelled("metric=error"));
   EXPECT_TRUE(keeps_labelled("metric~^err"));
   EXPECT_FALSE(keeps_labelled("metric!=ate"));
@@ -67,16 +67,17 @@ TEST(Where, KeepsTheReasonsOfCellsWithoutScores) {
 TEST(Where, RefusesByName) {
   EXPECT_EQ(refusal_of([] { where({"metrc=ate"}); }),
             "where: 'metrc=ate': no column is named 'metrc'; did you mean 'metric'?");
-  EXPECT_EQ(refusal_of([] { where({"ate"}); }),
-            "where: 'ate' is not FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
-            "method=\"a, b\"");
+  EXPECT_EQ(
+      refusal_of([] { where({"ate"}); }),
+      "where: 'ate': expected FIELD=TEXT, FIELD!=TEXT or FIELD~REGEX, for example metric=ate or "
+      "method=\"a, b\"");
   EXPECT_EQ(refusal_of([] { where({"method~("}); }),
             "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
 }
 
-/// Each run's error is its number times the factor.
+/// The error of each run is its number times the factor.
 ByRun runs(double factor, int count = 8) {
   ByRun out;
   for (int i = 1; i <= count; ++i) out[std::to_string(i)] = factor * i;
@@ -96,7 +97,7 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
             (std::vector<Mark>{Mark::second, Mark::none, Mark::best}));
   // 2^-7 twice is p = 0.0078 for each of three pairs: 0.023 after Holm.
   EXPECT_EQ(marks(three, Better::lower, 0.02).marks, (std::vector<Mark>(3, Mark::none)));
-  // The two best cannot be told apart: no mark at all.
+  // The two best do not differ significantly: no mark.
   ByRun alike = runs(1.0);
   alike["1"] = 1.01;
   EXPECT_EQ(marks({runs(1.0), alike, runs(3.0)}).marks, (std::vector<Mark>(3, Mark::none)));
@@ -104,8 +105,8 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
 
 TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
   EXPECT_EQ(marks({runs(1.0, 5), runs(2.0, 5)}).why_none,
-            "5 independent runs a cell cannot prove a difference at 0.05");
-  EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // no contest
+            "5 independent runs per cell cannot prove a difference at 0.05");
+  EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // a single competitor
 }
 
 TEST(MarkBest, NeverMarksACompetitorThatLacksARun) {
@@ -124,7 +125,7 @@ TEST(MarkBest, CountsFailuresAsLosses) {
 }
 
 TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
-  ByRun loser;  // by a little on nineteen runs, and the one that it wins makes its mean the lowest
+  ByRun loser;  // slightly worse on nineteen runs; the one that it wins makes its mean the lowest
   for (int i = 1; i <= 20; ++i) loser[std::to_string(i)] = i == 20 ? 0.01 : 1.01 * i;
   EXPECT_NE(marks({loser, runs(1.0, 20)}).marks[0], Mark::best);
 }
@@ -206,7 +207,7 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
   const std::vector<Table> sequences =
       pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
-  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
+  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences are not competitors
   EXPECT_EQ(sequences[0].notes.size(), 1u);
 }
 

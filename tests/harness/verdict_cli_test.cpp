@@ -1,4 +1,4 @@
-/// compare, table and check from outside: formats, exit codes, messages.
+/// compare, table and check as processes: formats, exit codes, messages.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -17,7 +17,7 @@ const char* const kConfig =
     "times: keyframes\n"
     "repeats: 4\n";
 
-/// One sweep of eight runs, made once; every test reads it.
+/// One sweep of eight runs, computed once and used by every test.
 class VerdictCli : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -49,7 +49,7 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(
       has(result.out, "\n- over 8 runs\n- claims hold for other instances of these 2 sequences"))
       << result.out;
-  EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // the same bits twice
+  EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // reproducible
   const CommandResult few = run("compare r --where unit=m,sequence=room,repeat=0");
   EXPECT_TRUE(has(few.out, "nothing is proven: ")) << few.out;
 }
@@ -164,7 +164,7 @@ TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
   const std::string apart = run(table + " --split sequence").out;
   EXPECT_FALSE(has(apart, "**")) << apart;
   EXPECT_TRUE(has(apart,
-                  "- no best is marked: 4 independent runs a cell cannot prove a difference at "
+                  "- no best is marked: 4 independent runs per cell cannot prove a difference at "
                   "0.05"));
 }
 
@@ -172,14 +172,14 @@ TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
   const CommandResult result = run("check r --baseline b.json --junit j.xml --markdown m.md");
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_EQ(result.out,
-            "### c: passes\n\n- 0 regressions, 0 improvements, 0 new cells in 24 cells and 48 "
+            "### c: passed\n\n- 0 regressions, 0 improvements, 0 new cells in 24 cells and 48 "
             "scores\n");
   EXPECT_EQ(read("m.md"), result.out);
   EXPECT_TRUE(has(read("j.xml"), "tests=\"24\" failures=\"0\""));
 }
 
 TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
-  // The baseline's first error of uniform on the room, a hundredth lower than it was.
+  // The baseline's first error of uniform on the room, reduced by 1 %.
   std::string text = read("b.json");
   const std::string cell = "{\"sequence\":\"room\",\"repeat\":0,\"method\":\"uniform\"";
   const std::size_t begin = text.find("\"rmse\":[", text.find(cell)) + 8;
@@ -190,7 +190,7 @@ TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
   folder_->file("moved.json", text);
   const CommandResult result = run("check r --baseline moved.json --junit moved.xml");
   EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_TRUE(has(result.out, "### c: FAILS\n")) << result.out;
+  EXPECT_TRUE(has(result.out, "### c: FAILED\n")) << result.out;
   EXPECT_TRUE(has(result.out, "| room / uniform | ate translation 3d, keyframes, loopbench |"))
       << result.out;
   EXPECT_TRUE(has(read("moved.xml"), "name=\"room / uniform\">\n    <failure "));
@@ -206,7 +206,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
                 "datasets: [{dataset: simulated, path: room, keyframes: 50, label: room}]\n"
                 "methods: [raw]\nmetrics: [ate]\ntimes: keyframes\n");
   EXPECT_EQ(run("run other.yaml --out o").exit_code, 0);
-  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline is of another sequence"));
+  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline has another sequence"));
   folder_->file("evo.yaml", std::string(kConfig) + "protocol: evo\n");
   EXPECT_EQ(run("run evo.yaml --out e --only 'room / raw'").exit_code, 0);
   EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench ["));
@@ -249,7 +249,7 @@ TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {
                                 "calibrate c.yaml --out c.yaml"}) {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
-    EXPECT_TRUE(has(result.err, ": is read by this command, so it is not written over\n"))
+    EXPECT_TRUE(has(result.err, ": is an input of this command and is not overwritten\n"))
         << arguments << result.err;
   }
   EXPECT_EQ(read("r/results.sqlite"), store);

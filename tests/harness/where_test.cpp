@@ -1,4 +1,4 @@
-/// Rules and lists that people type, with labels that hold commas.
+/// Filter rules and lists, with labels that contain commas.
 #include "harness/model/where.hpp"
 
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ TEST(Where, SelectsLabelsWithCommas) {
   EXPECT_FALSE(keeps("method!=\"a, b\",metric=ate", "a, b"));
   EXPECT_TRUE(keeps("method~\"a, b\"", "x a, b y"));
   EXPECT_TRUE(keeps("metric=ate,method=\"a, b\"", "a, b"));
-  EXPECT_TRUE(keeps("method=5\" wheel", "5\" wheel"));  // a quote inside is no quote
+  EXPECT_TRUE(keeps("method=5\" wheel", "5\" wheel"));  // a quote inside a text is literal
   EXPECT_TRUE(keeps("method=dm (x=1, y=2)", "dm (x=1, y=2)"));
 }
 
 TEST(Where, NamesAQuoteThatIsNotClosed) {
-  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': a quote is not closed");
+  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': missing closing quote");
 }
 
 TEST(SplitList, KeepsWhatBracketsAndQuotesHold) {

@@ -30,14 +30,14 @@ TEST(Yaml, KeepsTypesAndLines) {
 }
 
 TEST(Yaml, RefusesWhatWouldBeLostSilently) {
-  EXPECT_EQ(why("a: 1\nb: 2\na: 3\n"), "c.yaml:3: 'a' is given twice");
+  EXPECT_EQ(why("a: 1\nb: 2\na: 3\n"), "c.yaml:3: 'a' is set twice");
   EXPECT_EQ(why(""), "c.yaml: is empty, expected a map of settings");
-  EXPECT_EQ(why("a: 1\n---\nb: 2\n"), "c.yaml: holds more than one YAML document");
-  EXPECT_EQ(why("a: 1\n[x]: 2\n"), "c.yaml:2: a key must be a word");
+  EXPECT_EQ(why("a: 1\n---\nb: 2\n"), "c.yaml: has more than one YAML document");
+  EXPECT_EQ(why("a: 1\n[x]: 2\n"), "c.yaml:2: a key must be a string");
 }
 
 TEST(Yaml, RefusesAliasesThatNeverEnd) {
-  const std::string told = "holds too many values or levels (an alias of itself?)";
+  const std::string told = "has too many values or levels (a recursive alias?)";
   EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: " + told);
   std::string laughs = "a: &a [x, x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c < 'i'; ++c) {
@@ -51,10 +51,10 @@ TEST(Yaml, RefusesAliasesThatNeverEnd) {
 
 TEST(Yaml, RefusesWhatIsFarTooLong) {
   EXPECT_EQ(why("a: " + std::string(1'000'000, 'x')),
-            "c.yaml: has 1000003 bytes, expected a config of at most 1000000");
+            "c.yaml: has 1000003 bytes, expected at most 1000000");
   std::string copies = "a: &a " + std::string(100'000, 'x') + "\nb: [*a";
   for (int i = 0; i < 100; ++i) copies += ", *a";
-  EXPECT_EQ(why(copies + "]\n"), "c.yaml:1: writes out too long by its aliases");
+  EXPECT_EQ(why(copies + "]\n"), "c.yaml:1: is too long after expanding aliases");
 }
 
 TEST(Yaml, TellsTheLineOfBrokenSyntax) {

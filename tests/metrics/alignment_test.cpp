@@ -56,7 +56,7 @@ TEST(Alignment, HoldsFarFromTheOrigin) {
   const Trajectory reference = random_walk(random, 1000);
   const Pose far{exp_so3({0.3, -0.2, 0.9}), {5e6, -4e6, 1e3}};  // UTM
   const Trajectory estimate = moved_by(far, 1.0, reference);
-  // Rounding of 5e6 m itself is 1e-9 m; nothing may be lost beyond that.
+  // Rounding of 5e6 m is 1e-9 m; the alignment must not lose more.
   const Alignment found = align(reference, estimate, Align::se3);
   EXPECT_LT(worst(reference, moved(found, estimate)), 1e-7);
 }
@@ -123,7 +123,7 @@ TEST(Alignment, RefusesAPoint) {
   for (const Align type : {Align::se3, Align::sim3}) {
     const auto refused = [&](const Trajectory& a, const Trajectory& b) {
       const auto text = why<std::runtime_error>([&] { align(a, b, type); });
-      EXPECT_NE(text.find("50 pairs lie in one point"), std::string::npos) << text;
+      EXPECT_NE(text.find("50 pairs coincide in one point"), std::string::npos) << text;
     };
     refused(still, still);
     refused(walk, still);
@@ -154,7 +154,7 @@ TEST(Alignment, RefusesAMirrorImageWithoutAPreferredAxis) {
   Trajectory mirrored = cross;
   for (auto& [stamp, pose] : mirrored) pose.translation.z() *= -1.0;
   const auto text = why<std::runtime_error>([&] { align(cross, mirrored, Align::se3); });
-  EXPECT_NE(text.find("mirror the reference"), std::string::npos) << text;
+  EXPECT_NE(text.find("are mirror images of the reference"), std::string::npos) << text;
 }
 
 TEST(Alignment, OriginPutsTheFirstPosesTogether) {
@@ -173,7 +173,7 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
     const Alignment found = align(reference, estimate, type);
     EXPECT_LT(worst(reference, moved(found, estimate)), 1e-12);
   }
-  // What is turned about x stays so, and the z axis stays up.
+  // A rotation about x is preserved, and the z axis stays vertical.
   const Trajectory tilted =
       moved_by({exp_so3(Vector3(0.3, 0.0, 0.0)), Vector3::Zero()}, 1.0, reference);
   const Alignment found = align(reference, tilted, Align::posyaw);
@@ -183,7 +183,7 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
 TEST(Alignment, PosyawRefusesWhatMovesAlongZOnly) {
   const Trajectory lift = at_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}});
   const auto text = why<std::runtime_error>([&] { align(lift, lift, Align::posyaw); });
-  EXPECT_NE(text.find("do not move across z together"), std::string::npos) << text;
+  EXPECT_NE(text.find("have no common motion normal to z"), std::string::npos) << text;
 }
 
 TEST(Alignment, ScaleAloneLeavesPlaceAndTurn) {
@@ -205,7 +205,7 @@ TEST(Alignment, FirstPairsDecideAloneWhenAsked) {
   EXPECT_LT(
       (there[0].world_from_body.translation - reference[0].world_from_body.translation).norm(),
       1e-12);
-  // More than there are is all there are.
+  // More pairs than exist means all pairs.
   EXPECT_TRUE(is_close(align(reference, estimate, Align::se3, 500).reference_from_estimate,
                        align(reference, estimate, Align::se3).reference_from_estimate,
                        0.0,

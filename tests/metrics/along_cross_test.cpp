@@ -13,7 +13,7 @@ using test::find;
 using test::moved_by;
 using test::why;
 
-/// Two metres along x, two along y, a metre a second.
+/// Two metres along x, then two along y, at 1 m/s.
 Trajectory corner() {
   Trajectory out(5);
   const std::array<Vector3, 5> places{
@@ -45,7 +45,7 @@ TEST(AlongCross, ByHandOnBothArmsOfACorner) {
 
 TEST(AlongCross, KeepsTheDirectionWhileStanding) {
   Trajectory reference = corner();
-  for (int k = 0; k < 20; ++k) {  // a tremble of a millimetre along x
+  for (int k = 0; k < 20; ++k) {  // jitter of a millimetre along x
     reference.push_back(reference.back());
     reference.back().stamp += 0.25;
     reference.back().world_from_body.translation.x() += k % 2 == 0 ? 1e-3 : -1e-3;

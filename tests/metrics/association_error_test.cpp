@@ -9,7 +9,7 @@
 namespace loopbench::test {
 namespace {
 
-/// Round a circle of 50 m at `speed`, `rate` poses a second, the first at `shift`.
+/// A circle of radius 50 m at `speed` with `rate` poses per second, the first at `shift`.
 Trajectory round_trip(double rate, double shift, double speed) {
   constexpr double kRadius = 50.0;
   Trajectory out;
@@ -60,7 +60,7 @@ TEST(AssociationError, IsZeroForEqualStampsAndUsesTheOffset) {
 }
 
 TEST(InterpolateReference, TakesAReferenceOfTenHertz) {
-  // Steps of 0.1 s round to a little more than 0.1 in every second pair of such stamps.
+  // Steps of 0.1 s round to slightly more than 0.1 in every second pair of such stamps.
   Trajectory reference;
   Trajectory estimate;
   for (int i = 0; i <= 1000; ++i) reference.push_back({1.7e9 + 0.1 * i, {}});

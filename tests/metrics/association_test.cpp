@@ -20,7 +20,7 @@ namespace {
 using Pairs = std::vector<IndexPair>;
 using Stamps = std::vector<double>;
 
-/// evo's sync.py, word by word: argmin over the whole longer list.
+/// Literal copy of evo's sync.py: argmin over the whole longer list.
 Pairs literal_evo(Stamps reference, Stamps estimate, double max_diff, double offset) {
   const bool is_estimate_longer = estimate.size() > reference.size();
   Stamps& longer = is_estimate_longer ? estimate : reference;
@@ -42,7 +42,7 @@ bool crosses(const IndexPair& a, const IndexPair& b) {
   return (a.reference < b.reference) != (a.estimate < b.estimate);
 }
 
-/// TUM's associate.py, word by word: all pairs, sorted, taken while both are free.
+/// Literal copy of TUM's associate.py: all pairs, sorted, taken while both are free.
 Pairs literal_one_to_one(const Stamps& reference,
                          const Stamps& estimate,
                          double max_diff,
@@ -165,7 +165,7 @@ TEST(Association, OffsetIsAddedToTheEstimate) {
 }
 
 TEST(Association, OneToOneTakesTheClosestFirst) {
-  // 0.9 is nearer to 1.0 than 1.2 is; 1.2 is left with 2.0.
+  // 0.9 is nearer to 1.0 than 1.2 is; 1.2 remains for 2.0.
   const Pairs wanted{{0, 0}, {1, 1}};
   EXPECT_EQ(match_one_to_one({1.0, 2.0}, {0.9, 1.2}, 1.0, Limit::inclusive, Crossing::refused, 0.0),
             wanted);
@@ -174,7 +174,7 @@ TEST(Association, OneToOneTakesTheClosestFirst) {
 }
 
 TEST(Association, NearestRefusesPairsThatCrossWhereTumTakesThem) {
-  // 2.005 and 2.004 are closest and leave 1.99 before them and 2.02 behind them to each other.
+  // 2.005 and 2.004 are closest; 1.99 before them and 2.02 after them remain for each other.
   const Stamps reference{1.0, 1.99, 2.005, 3.0};
   const Stamps estimate{1.0, 2.004, 2.02, 3.0};
   const auto pairs = [&](Crossing crossing) {
@@ -185,7 +185,8 @@ TEST(Association, NearestRefusesPairsThatCrossWhereTumTakesThem) {
 }
 
 TEST(Association, OneToOneIsFastWhateverTheLimit) {
-  // All pairs would be 1e10. Each estimate lies halfway: the worst case, nothing mutually nearest.
+  // All pairs would be 1e10. Worst case: each estimate lies halfway, so nothing is mutually
+  // nearest.
   Stamps reference;
   Stamps estimate;
   for (int i = 0; i < 100'000; ++i) {
@@ -208,7 +209,7 @@ Trajectory line(const Stamps& stamps) {
 
 TEST(Association, InterpolatesTheReferenceAcrossSmallGapsOnly) {
   const Trajectory reference = line({0.0, 1.0, 2.0, 5.0, 6.0});
-  // Outside, on a pose, between, in the hole, on the hole's far edge, outside.
+  // Outside, on a pose, between poses, in the gap, at the far edge of the gap, outside.
   const Trajectory estimate = line({-0.5, 0.0, 1.25, 3.0, 5.0, 6.5});
   const Paired got = interpolate_reference(reference, estimate, 1.0, 0.0);
   EXPECT_EQ(stamps(got.reference), (Stamps{0.0, 1.25, 5.0}));
@@ -234,13 +235,13 @@ TEST(Association, NothingMatchesNothing) {
     EXPECT_TRUE(associate({}, {}, protocol).reference.empty()) << name;
     EXPECT_TRUE(associate(line({0.0}), {}, protocol).reference.empty()) << name;
     EXPECT_TRUE(associate({}, line({0.0}), protocol).reference.empty()) << name;
-    if (rule == Association::index) continue;  // does not look at stamps
+    if (rule == Association::index) continue;  // ignores stamps
     EXPECT_TRUE(associate(line({0.0}), line({9.0}), protocol).reference.empty()) << name;
   }
 }
 
 TEST(Association, OvEvalGivesAnEarlyPoseWhatALaterOneIsNearerTo) {
-  // 0.010 takes 0.015; then 0.016, though nearer to it, has only 0.030 left.
+  // 0.010 is paired with 0.015; then 0.016, though nearer to it, has only 0.030 left.
   const std::vector<IndexPair> got = match_ov_eval({0.0, 0.015, 0.030}, {0.010, 0.016}, 0.02, 0.0);
   EXPECT_EQ(got, (std::vector<IndexPair>{{1, 0}, {2, 1}}));
 }

@@ -20,7 +20,7 @@ Trajectory hand_held() {
   return test::random_walk(random, 300);
 }
 
-/// Six to fourteen metres a second; straight, a bend to the left, straight, a bend to the right.
+/// 6 to 14 m/s; straight, a left bend, straight, a right bend.
 Trajectory drive() {
   Trajectory out;
   Pose pose;
@@ -33,7 +33,7 @@ Trajectory drive() {
   return out;
 }
 
-/// Eight metres a second, always to the left.
+/// 8 m/s, always turning left.
 Trajectory circle() {
   Trajectory out;
   Pose pose;
@@ -44,7 +44,7 @@ Trajectory circle() {
   return out;
 }
 
-/// Half a minute around a point two metres ahead, which it keeps looking at.
+/// 30 s around a point two metres ahead, always facing it.
 Trajectory around_a_thing() {
   Trajectory out;
   for (int i = 0; i < 900; ++i) {
@@ -56,7 +56,7 @@ Trajectory around_a_thing() {
   return out;
 }
 
-/// Every step errs by the same, and a little by chance.
+/// A constant error per step plus small random errors.
 Trajectory drifting(const Trajectory& truth, const Twist& error, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   Trajectory out{truth.front()};
@@ -83,9 +83,11 @@ TEST(BodyOffset, IsFoundWherePositionsBelongToAnotherPoint) {
   EXPECT_NEAR(found->fit.lever_explained, 1.0, 1e-12);
   EXPECT_EQ(found->fit.turn_explained, 0.0);
   EXPECT_LT(found->fit.deviation.maxCoeff(), 1e-9);
-  EXPECT_EQ(other_body(*found, {}),
-            "the reference seems to follow another body, at 0.3,-0.2,0.1 of the estimate's (+- "
-            "0.0,0.0,0.0 m): in turns, the place explains 100 % of how they differ");
+  EXPECT_EQ(
+      other_body(*found, {}),
+      "the reference seems to track another body, with the offset 0.3,-0.2,0.1 in the estimate's "
+      "body frame (+- "
+      "0.0,0.0,0.0 m): over rotations, the lever arm explains 100 % of the squared differences");
 }
 
 TEST(BodyOffset, IsFoundWhereAxesDiffer) {
@@ -111,7 +113,7 @@ TEST(BodyOffset, SaysNothingOfTheSameBody) {
   EXPECT_EQ(angle_between(found->fit.body_from_reference.rotation, Rotation::Identity()), 0.0);
 }
 
-// Axes alone are no evidence of a place: it stays where nobody measured it.
+// Rotation alone does not determine the lever arm, which stays zero.
 TEST(BodyOffset, DifferentAxesAloneSayNothingOfThePlace) {
   std::mt19937_64 random(4);
   const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), {1.0, 0.0, 0.0}};
@@ -121,7 +123,7 @@ TEST(BodyOffset, DifferentAxesAloneSayNothingOfThePlace) {
   EXPECT_EQ(text.find("place"), std::string::npos) << text;
 }
 
-// Along the only axis a vehicle turns about, no place can be told.
+// The lever arm is unobservable along the only rotation axis of a vehicle.
 TEST(BodyOffset, LeavesUntoldDirectionsZero) {
   std::mt19937_64 random(2);
   const Pose ahead{Rotation::Identity(), {2.24, -0.12, 1.5}};
@@ -136,7 +138,7 @@ TEST(BodyOffset, LeavesUntoldDirectionsZero) {
   EXPECT_GT(found->fit.lever_explained, 0.5);
 }
 
-// Where all turn one way, a constant error a step would do for a place.
+// If all rotations have the same sign, a constant error per step resembles a lever arm.
 TEST(BodyOffset, IsNotSteadyDrift) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Twist error = twist({0.01, 0.005, 0.0}, {0.0, 0.0, 0.001});
@@ -145,8 +147,8 @@ TEST(BodyOffset, IsNotSteadyDrift) {
   }
 }
 
-// Who looks at a thing while going round it moves as a lever would.
-/// Turning in a plane says nothing of the height, which pitch drift once put 10^4 m below it.
+// Motion around a viewed object resembles a lever arm.
+/// Planar motion does not determine the height; pitch drift once put it 10^4 m below.
 TEST(BodyOffset, HasNoHeightInAPlane) {
   const Pose pitch = exp_se3(twist(Vector3::Zero(), {0.0, 5e-4, 0.0}));
   Trajectory truth, estimate;
@@ -173,7 +175,7 @@ TEST(BodyOffset, IsNotTheUnitOfLength) {
   const Pose aside{Rotation::Identity(), {0.3, -0.2, 0.1}};
   const auto found =
       body_offset(followed_at(aside, hand_held()), test::moved_by({}, 0.5, hand_held()), {});
-  ASSERT_TRUE(found);  // in the reference's unit all the same
+  ASSERT_TRUE(found);  // in the reference's scale nevertheless
   EXPECT_TRUE(is_close(found->fit.body_from_reference, aside, 1e-9, 1e-12));
 }
 
@@ -190,7 +192,7 @@ TEST(BodyOffset, IsFoundDespiteAJump) {
   EXPECT_GT(found->fit.lever_explained, 0.5);
 }
 
-// What is said stands in the stead of what was stated, not beside it.
+// The reported offset replaces the stated one.
 TEST(BodyOffset, PlacesAreToldFromTheEstimatesBody) {
   const Pose body_from_reference{Rotation(0.5, -0.5, 0.5, -0.5), {0.27, 0.1, -0.08}};
   const Pose stated{exp_so3({0.0, 0.0, 1.0}), {1.0, 0.0, 0.0}};
@@ -211,7 +213,7 @@ TEST(BodyOffset, NeedsTurnsInTimeAttitudesAndWholePositions) {
   few.resize(20);
   EXPECT_THROW(body_offset_scores(evaluate(few, few, {}), {}), Undefined);
   Trajectory slow = hand_held();
-  for (auto& [stamp, pose] : slow) stamp *= 200.0;  // 20 s from pose to pose
+  for (auto& [stamp, pose] : slow) stamp *= 200.0;  // 20 s between poses
   EXPECT_FALSE(body_offset(slow, slow, {}));
 
   Trajectory positions = hand_held();

@@ -1,4 +1,4 @@
-/// Metrics of what a correction did: gain, closures, local shape.
+/// Metrics of a correction: gain, closures, local shape.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +18,7 @@ using test::why;
 
 const Protocol kAsIs{.align = Align::none};
 
-/// Six poses a metre apart along x; positions get `strays` along y.
+/// Six poses 1 m apart along x; `strays` offsets the positions along y.
 Trajectory line(const std::array<double, 6>& strays) {
   Trajectory out(6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -45,7 +45,7 @@ TEST(GainAlong, ByHand) {
   const JudgedCell cell =
       corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}));
   const auto scores = gain_along(cell.evaluation, {});
-  // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; thirds of the way hold two poses each.
+  // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; each third of the path has two poses.
   EXPECT_NEAR(
       find(scores, "translation", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
   EXPECT_EQ(find(scores, "translation", "3d").count, 6u);
@@ -68,7 +68,8 @@ TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
   const JudgedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
   for (const Score& score : gain_along(cell.evaluation, {})) {
     const bool is_free = score.axis == "x" || score.axis == "z" || score.relation == "angle";
-    EXPECT_EQ(score.why_undefined, is_free ? "there was no error before" : "") << score.axis;
+    EXPECT_EQ(score.why_undefined, is_free ? "the error before correction is zero" : "")
+        << score.axis;
     if (score.unit == "%" && score.axis != "" && !is_free) {
       EXPECT_EQ(score.statistics.rmse, 100.0);
     }
@@ -76,7 +77,7 @@ TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
 }
 
 TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
-  // Errors before 0 0 0 1 0 0: the rmse has a gain, the median and the smallest have none.
+  // Errors before 0 0 0 1 0 0: the rmse has a gain, the median and the minimum have none.
   Problem problem;
   problem.keyframes = line({0, 0, 0, 1, 0, 0});
   const auto gained = [&](Statistic statistic) {
@@ -91,7 +92,7 @@ TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
       EXPECT_NEAR(number, -200.0, 1e-12);
     }
   }
-  EXPECT_EQ(gained(Statistic::median).why_undefined, "there was no error before");
+  EXPECT_EQ(gained(Statistic::median).why_undefined, "the error before correction is zero");
 }
 
 TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreJudged) {
@@ -110,17 +111,17 @@ TEST(ClosureResidual, ByHandIncludingMahalanobis) {
   problem.keyframes = line({0, 0, 0, 0, 0, 0});
   Matrix6 information = Matrix6::Identity();
   information.diagonal() << 4.0, 1.0, 1.0, 1.0, 1.0, 9.0;
-  Pose measured;  // "5 sees 0 at 2 m, straight ahead": the estimate says 5 m
+  Pose measured;  // closure from 5 to 0: 2 m straight ahead; the estimate gives 5 m
   measured.translation.x() = 2.0;
   problem.closures.push_back({0, 5, measured, information});
-  measured.translation.x() = 3.0;  // "3 sees 0 at 3 m, turned by 90 degrees"
+  measured.translation.x() = 3.0;  // closure from 3 to 0: 3 m, rotated by 90 degrees
   measured.rotation = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
   problem.closures.push_back({0, 3, measured, information});
   const JudgedCell cell = corrected(problem, problem.keyframes, problem.keyframes);
   const auto scores = closure_residual(cell.evaluation, {});
   EXPECT_NEAR(find(scores, "translation", "3d").sse, 9.0, 1e-12);
   EXPECT_NEAR(find(scores, "rotation", "3d").max, 90.0, 1e-12);
-  // e = (3, 0, 0, 0, 0, 0) weighs 2, e = (0, 0, 0, 0, 0, -pi / 2) weighs 3.
+  // e = (3, 0, 0, 0, 0, 0) has weight 2, e = (0, 0, 0, 0, 0, -pi / 2) has weight 3.
   EXPECT_NEAR(find(scores, "mahalanobis", "3d").max, 6.0, 1e-12);
   EXPECT_NEAR(find(scores, "mahalanobis", "3d").min, 1.5 * std::numbers::pi, 1e-12);
 }
@@ -164,7 +165,7 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   Problem problem;
   problem.keyframes = poses;
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs), {}); }),
-            "closure_residual: needs loop closures; files have none");
+            "closure_residual: needs loop closures, which files do not have");
   const JudgedCell none = corrected(problem, poses, poses);
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation, {}); }),
             "closure_residual: needs loop closures; the sequence has none");
@@ -193,7 +194,7 @@ TEST(LocalShape, ByHand) {
 TEST(LocalShape, RefusesFiles) {
   const Trajectory poses = line({0, 0, 0, 0, 0, 0});
   EXPECT_EQ(why<std::runtime_error>([&] { local_shape(evaluate(poses, poses, kAsIs), {}); }),
-            "local_shape: needs keyframes before correction; files have none");
+            "local_shape: needs keyframes before correction, which files do not have");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::why;
 
 const Protocol kAsIs{.align = Align::none};
 
-/// Positions by formula, over 0..end past `zero`.
+/// Positions by formula, over 0..end after `zero`.
 class Formula final : public Curve {
  public:
   Formula(double zero, double end, std::function<Vector3(double)> position)
@@ -36,7 +36,7 @@ class Formula final : public Curve {
   std::function<Vector3(double)> position_;
 };
 
-/// A keyframe every half second for four seconds; the reference is the formula at `rate`.
+/// A keyframe every 0.5 s for 4 s; the reference samples the formula with `rate`.
 JudgedCell made(double zero, const std::function<Vector3(double)>& position, double rate = 100.0) {
   const auto sampled = [&](double every) {
     std::vector<double> times;
@@ -70,7 +70,7 @@ TEST_P(JumpsAt, ByHandOnPieces) {
   EXPECT_NEAR(find(scores, "acceleration", "3d").median, 0.0, 1e-9);
 }
 
-// Seconds since 1970 come in steps of 2.4e-7 s; the derivatives must not show it.
+// Stamps since 1970 have a resolution of 2.4e-7 s, which must not affect the derivatives.
 INSTANTIATE_TEST_SUITE_P(Stamps, JumpsAt, testing::Values(0.0, 1305031910.765));
 
 TEST(Jumps, SmoothCurvesHaveNone) {
@@ -102,12 +102,12 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
   poses[1].stamp = 1.0;
   poses[1].world_from_body.translation.x() = 1.0;
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(evaluate(poses, poses, kAsIs), {}); }),
-            "jumps: needs a curve; files have none");
+            "jumps: needs a curve, which files do not have");
   Problem problem;
   problem.keyframes = poses;
   const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(cell.evaluation, {}); }),
-            "jumps: needs three keyframes");
+            "jumps: needs at least three keyframes");
   problem.keyframes.push_back({1.0 + 1e-15, poses[1].world_from_body});
   problem.keyframes[2].stamp = std::nextafter(1.0, 2.0);
   const JudgedCell coarse(poses,
@@ -116,7 +116,7 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
                           Times::keyframes,
                           Protocol{.align = Align::none});
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
-            "jumps: the stamps around 1.0 s are too coarse to look beside a keyframe");
+            "jumps: the stamps around 1.0 s are too coarse for four samples beside a keyframe");
 }
 
 TEST(Jerk, ByHandOnACubic) {
@@ -128,7 +128,7 @@ TEST(Jerk, ByHandOnACubic) {
     EXPECT_GT(find(scores, "estimate", "3d").count, 36u);
     EXPECT_NEAR(find(scores, "estimate", "3d").min, 12.0, 1e-6);
     EXPECT_NEAR(find(scores, "estimate", "3d").max, 12.0, 1e-6);
-    // The reference is read on chords 10 ms long: off by up to jerk-free quarters of them.
+    // The reference is interpolated linearly over 10 ms.
     EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
     EXPECT_NEAR(find(scores, "ratio", "3d").rmse, 1.0, 0.1);
   }
@@ -158,7 +158,7 @@ TEST(Jerk, OfAStraightReferenceHasNoRatio) {
   problem.keyframes = poses;
   const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(jerk(cell.evaluation, {.rate = 1.0, .max_gap = 2.0}).at(2).why_undefined,
-            "the reference has no jerk to compare with");
+            "the reference has zero jerk");
 }
 
 }  // namespace

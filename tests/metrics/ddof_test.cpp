@@ -1,4 +1,4 @@
-/// Every metric that is a distribution divides its standard deviation as the protocol asks.
+/// Every metric with a distribution uses the protocol's ddof for its standard deviation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-/// A pose every 20 ms, so that there are some between keyframes.
+/// A pose every 20 ms, so that some lie between keyframes.
 Trajectory finely(const Trajectory& truth) {
   std::vector<double> times;
   for (double time = truth.front().stamp; time <= truth.back().stamp; time += 0.02) {

@@ -17,7 +17,7 @@ namespace {
 
 using test::find;
 
-/// A metre a second along x, a stop of five seconds after five, then on along y; ten a second.
+/// 1 m/s along x for 5 s, 5 s at rest, then along y; 10 Hz.
 Trajectory with_a_stop() {
   Trajectory out;
   for (int k = 0; k <= 150; ++k) {
@@ -46,9 +46,9 @@ TEST(Diagnostics, OfAHealthyPair) {
   EXPECT_NEAR(d.largest_gap, 0.1, 1e-12);
   EXPECT_EQ(d.repeated + d.crossing + d.losses, 0u);
   EXPECT_LT(d.off_unit, 1e-15);
-  EXPECT_EQ(d.rank, 2);  // it never leaves the plane
+  EXPECT_EQ(d.rank, 2);  // planar motion
   EXPECT_GT(d.condition, 1.0);
-  // Half a second on either side still moves: 5.5 .. 9.5 s, give or take a pose.
+  // The window of 0.5 s on either side includes motion: at rest from 5.5 to 9.5 s.
   EXPECT_NEAR(d.standing, 40.0 / 151.0, 2.0 / 151.0);
   EXPECT_FALSE(d.position_only_reference || d.position_only_estimate);
 }
@@ -63,7 +63,7 @@ TEST(Diagnostics, ALossIsAPauseDuringWhichTheReferenceMoved) {
   const Diagnostics standing = of(reference, without(reference, 6.05, 9.05));
   EXPECT_EQ(standing.losses, 0u);
   EXPECT_NEAR(standing.largest_gap, 3.1, 1e-9);
-  const Trajectory holed = without(reference, 1.05, 4.05);  // the reference's own hole
+  const Trajectory holed = without(reference, 1.05, 4.05);  // gap of the reference itself
   EXPECT_EQ(of(holed, reference).losses, 0u);
   EXPECT_EQ(of(reference, without(without(reference, 0.05, 2.55), 10.05, 14.05)).losses, 2u);
 }
@@ -95,7 +95,7 @@ TEST(Diagnostics, ScoresAreSingleNumbers) {
   EXPECT_NEAR(find(diagnostics(e, {}), "lost", "").mean, 3.1, 1e-9);
 }
 
-/// A bend without any attitude, as of GPS.
+/// A curved path with constant orientation, as from GPS.
 Trajectory positions_only(const Rotation& attitude) {
   Trajectory out = with_a_stop();
   for (StampedPose& pose : out) pose.world_from_body.rotation = attitude;
@@ -108,8 +108,8 @@ TEST(PositionOnly, IsOneAttitudeOnAPathThatTurns) {
   EXPECT_FALSE(is_position_only(with_a_stop()));
   Trajectory straight = positions_only(Rotation::Identity());
   straight.resize(60);
-  EXPECT_FALSE(is_position_only(straight));        // may well have driven straight on
-  EXPECT_FALSE(is_position_only(Trajectory(20)));  // standing
+  EXPECT_FALSE(is_position_only(straight));        // can be a real straight drive
+  EXPECT_FALSE(is_position_only(Trajectory(20)));  // at rest
   Trajectory few{straight[40], straight[45], straight[50], straight[55]};
   few[1].world_from_body.translation.y() += 1.0;
   EXPECT_FALSE(is_position_only(few));
@@ -120,8 +120,8 @@ TEST(PositionOnly, RotationIsRefusedAndPositionIsNot) {
   const Trajectory reference = positions_only(Rotation::Identity());
   const Evaluation e = evaluate(reference, with_a_stop(), {});
   const std::string why =
-      "the reference keeps one attitude while its path turns: it holds positions only, so rotation "
-      "is not judged";
+      "the reference has a constant orientation although its path is curved: it holds only "
+      "positions, so rotation is not evaluated";
   EXPECT_EQ(why_no_attitude(e), why);
   const auto absolute = ate(e, {});
   EXPECT_EQ(absolute[0].why_undefined, "");
@@ -129,7 +129,7 @@ TEST(PositionOnly, RotationIsRefusedAndPositionIsNot) {
   EXPECT_EQ(absolute[1].why_undefined, why);
   EXPECT_EQ(absolute[1].statistics.count, 0u);
   for (const Score& score : rpe(e, {.frame = RpeFrame::world})) {
-    const bool is_axis = score.axis != "3d";  // attitudes do not enter
+    const bool is_axis = score.axis != "3d";  // independent of orientations
     EXPECT_EQ(score.why_undefined, is_axis ? "" : why) << score.relation << score.axis;
   }
   for (const Score& score : rpe(e, {})) EXPECT_EQ(score.why_undefined, why);

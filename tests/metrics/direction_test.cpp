@@ -1,4 +1,4 @@
-/// Each score states the direction in which it improves.
+/// Each score has the documented direction.
 #include <map>
 #include <numbers>
 #include <set>
@@ -13,7 +13,7 @@ namespace {
 
 using test::JudgedCell;
 
-/// Along a circle and back to its start, in steps of 5 cm; `stray` bends it upwards.
+/// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {
   Trajectory out;
   for (int i = 0; i <= 400; ++i) {
@@ -56,7 +56,7 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
   return out;
 }
 
-/// Whether every score of the metric has that direction, and there is one.
+/// Whether all scores of the metric have that direction, and there is at least one.
 void expect_all(const std::string& metric, Better better) {
   const auto found = directions(metric);
   EXPECT_FALSE(found.empty()) << metric;

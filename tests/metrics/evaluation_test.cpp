@@ -20,7 +20,7 @@ Trajectory at(const std::vector<double>& stamps) {
 const Protocol kPlain{.max_diff = 0.1, .align = Align::none};
 
 TEST(Evaluation, CountsPairsPossibleAndSpan) {
-  // Reference lasts 8 s; the estimate is judged from 2 to 6 s and loses one pose in the hole.
+  // The reference lasts 8 s; the estimate is evaluated from 2 to 6 s and one pose lies in the gap.
   const Evaluation got = evaluate(at({0, 1, 2, 3, 5, 6, 7, 8}), at({2, 3, 4, 5, 6.05}), kPlain);
   EXPECT_EQ(got.coverage.pairs, 4u);
   EXPECT_EQ(got.coverage.possible, 5u);
@@ -50,17 +50,17 @@ TEST(Evaluation, TimeLostIsNotJudged) {
   };
   const Trajectory whole = at(every(0.5, 0.0, 40.0));
   EXPECT_EQ(span(whole, whole), 1.0);
-  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // silent from 3.5 to 36.5 s
-  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // the reference's own hole
-  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart all along
+  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // no poses from 3.5 to 36.5 s
+  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // gap of the reference itself
+  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart everywhere
   Trajectory standing = whole;
   for (auto& [stamp, pose] : standing) pose.translation.x() = stamp < 20.0 ? 0.0 : 1.0;
-  EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: nothing to make keyframes of
+  EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: at rest, no keyframes expected
 }
 
 TEST(Evaluation, ABridgedTrackingGapIsNotJudged) {
   const Trajectory whole = at(every(0.5, 0.0, 40.0));
-  const std::vector<double> keyframes = ends(0.5);  // nothing from 3.5 to 36.5 s
+  const std::vector<double> keyframes = ends(0.5);  // none from 3.5 to 36.5 s
   const Polyline chord(at(keyframes));
   const auto judged = [&](const Protocol& rules, const std::vector<double>& tracked = {}) {
     return evaluate(whole, chord, keyframes, Times::dense, rules, tracked).coverage;
@@ -95,7 +95,7 @@ TEST(Evaluation, SparseKeyframesAreNoTrackingGap) {
   EXPECT_EQ(got.bridged, 0.0);
 }
 
-/// A quarter of a circle with the attitude of its start, or turning along.
+/// A quarter circle with constant or tangential orientation.
 Trajectory bend(bool turns) {
   Trajectory out;
   for (int i = 0; i < 20; ++i) {
@@ -109,10 +109,11 @@ Trajectory bend(bool turns) {
 
 TEST(Evaluation, AFirstPoseWithoutAttitudeAlignsNothing) {
   for (const Align align : {Align::origin, Align::posyaw_origin}) {
-    EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
-              "alignment " + to_text(align) +
-                  ": the reference keeps one attitude while its path turns: it holds positions "
-                  "only, so its first pose aligns nothing; align by se3, sim3 or none");
+    EXPECT_EQ(
+        why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
+        "alignment " + to_text(align) +
+            ": the reference has a constant orientation although its path is curved: it holds only "
+            "positions, so its first pose does not define a rotation; align by se3, sim3 or none");
     EXPECT_NO_THROW(evaluate(bend(true), bend(true), {.align = align}));
     EXPECT_NO_THROW(evaluate(bend(false), bend(false), {.align = align}));
   }
@@ -123,7 +124,7 @@ TEST(Evaluation, CoordinatesBeyondDoublesSquaresAreToldSo) {
   Trajectory far = bend(true);
   far[3].world_from_body.translation.x() = 1e160;
   EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(true), far, Protocol{}); }),
-            "alignment se3: 20 pairs lie too far apart for double precision, so the rotation is "
+            "alignment se3: 20 pairs are too far apart for double precision, so the rotation is "
             "not unique; align by origin or none");
 }
 
@@ -151,7 +152,7 @@ TEST(Evaluation, SaysWhatDidNotMeet) {
               evaluate(at({0, 1}), at({0.5}), interpolating);
             }),
             "no pose of the estimate (0.5 .. 0.5 s, offset 0.0 s) matches the reference (0.0 .. "
-            "1.0 s): association interpolate wants a reference gap of at most 0.5 s");
+            "1.0 s): association interpolate accepts reference gaps of at most 0.5 s");
   EXPECT_EQ(why<std::runtime_error>([] { evaluate({}, at({0}), kPlain); }),
             "the reference has no poses");
   EXPECT_EQ(why<std::runtime_error>([] { evaluate(at({0}), {}, kPlain); }),

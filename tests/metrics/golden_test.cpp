@@ -1,4 +1,4 @@
-/// Numbers that evo, TUM's scripts and rpg gave on the same files: all 516 rows, none left out.
+/// Results of evo, TUM's scripts and rpg on the same files: all 516 rows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,11 +38,11 @@ const Trajectory& file(const std::string& name) {
                              : seen.emplace(name, read_trajectory(golden(name))).first->second;
 }
 
-/// 1e-9 of the value, but nobody has digits in what is zero up to rounding (first pose of origin).
+/// Relative tolerance 1e-9, absolute for values that are zero up to rounding (align origin).
 constexpr double kZero = 1e-12;
-/// The arccos of a trace near 3 turns rounding of 1e-16 into 1e-8 rad: where two motions hardly
-/// turn against each other, the original's own rounding is its error. So 1e-9 [rad or deg], not of
-/// it.
+/// The arccos of a trace near 3 amplifies rounding of 1e-16 to 1e-8 rad: for small relative
+/// rotations the original's own rounding dominates. So the tolerance is absolute: 1e-9 [rad or
+/// deg].
 constexpr double kNearZeroByTrace = 1e-9;
 
 void expect_same(double got, double wanted, const std::string& what, double zero = kZero) {
@@ -115,7 +115,7 @@ void evo_rpe(const Json& row) {
 
 void tum_ate(const Json& row) {
   const Protocol rules = named_protocol("tum", {{"offset", row["offset"].get<double>()}}).rules;
-  const Trajectory scaled = moved_by(Pose{}, row["scale"], file(row["est"]));  // as --scale does
+  const Trajectory scaled = moved_by(Pose{}, row["scale"], file(row["est"]));  // as with --scale
   const Evaluation got = evaluate(file("gt.txt"), scaled, rules);
   expect_same(find(ate(got, {}), "translation", "3d"), row["stats"], label(row));
 }
@@ -139,7 +139,7 @@ void tum_pairs_in_evos_form(const Json& row) {
   expect_same(find(got, "translation", "3d"), row["trans"], label(row));
 }
 
-/// Its alignments over all frames and over the first.
+/// Its alignments over all frames and over the first frame.
 void rpg(const Json& row) {
   std::string align = row["align"];
   if (row["n_frames"] == 1) align = align == "se3" ? "origin" : "posyaw_origin";
@@ -172,7 +172,7 @@ void rpg(const Json& row) {
   }
 }
 
-/// Rows of a tool, each compared.
+/// Compares all rows of a tool.
 template <class Compare>
 std::size_t compared(const std::string& tool, Compare compare) {
   std::size_t count = 0;
@@ -195,7 +195,7 @@ TEST(Golden, Rpg) { EXPECT_EQ(compared("rpg", rpg), 18u); }
 
 TEST(Golden, LeavesNoRowOut) { EXPECT_EQ(rows().size(), 252u + 210u + 12u + 12u + 12u + 18u); }
 
-// The one number people quote, so that it can be seen here.
+// The commonly quoted number, written out explicitly.
 TEST(Golden, BurstSeparatesTheAssociations) {
   const auto rmse = [](Association rule, double max_diff) {
     const Protocol rules{.association = rule, .max_diff = max_diff, .align = Align::se3};
@@ -206,8 +206,8 @@ TEST(Golden, BurstSeparatesTheAssociations) {
   EXPECT_NEAR(rmse(Association::tum, 0.02), 0.0361229585047602, 1e-12);
 }
 
-/// Not of golden.json: what a literal copy of evaluate_rpe.py in plain Python 3.11, with Python's
-/// own random.seed(0), gives without --fixed_delta.
+/// Not from golden.json: the result of a literal copy of evaluate_rpe.py in Python 3.11 with
+/// random.seed(0), without --fixed_delta.
 TEST(Golden, TumRpeOfRandomPairs) {
   const Params random{{"pairs", std::string("tum_random")}};
   const auto expect = [&](const char* name, std::size_t n, double rmse, double mean, double deg) {
@@ -230,7 +230,7 @@ TEST(Golden, RandomPairsHaveNoDelta) {
   const Evaluation judged =
       evaluate(file("gt.txt"), file("est_drift.txt"), named_protocol("tum", random).rules);
   EXPECT_EQ(why<Undefined>([&] { rpe(judged, {.delta = 1.0, .unit = DeltaUnit::s}); }),
-            "rpe: pairs tum_random have no stretch of 1.0 s; ask for rpe without delta and unit");
+            "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
   EXPECT_EQ(rpe(judged, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
             620u);
 }

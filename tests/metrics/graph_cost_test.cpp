@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// Two steps of 1 m ahead and a closure back over both; the estimate errs as each test says.
+/// Two steps of 1 m and a closure over both; each test adds its own error to the estimate.
 struct Judged {
   Problem problem;
   Trajectory estimate;
@@ -39,7 +39,7 @@ TEST(GraphCost, IsTheSumOfSquaresByHand) {
   Judged judged;
   judged.estimate[2].world_from_body.translation.x() += 0.1;
   for (const GraphError error : {GraphError::twist, GraphError::quaternion, GraphError::chordal}) {
-    const auto cost = judged.cost(error);  // (0.1)^2 by 4 and by 100
+    const auto cost = judged.cost(error);  // (0.1)^2 times 4 and times 100
     ASSERT_EQ(cost.size(), 3u);
     EXPECT_NEAR(cost[0], 1.04, 1e-12) << to_text(error);
     EXPECT_NEAR(cost[1], 0.04, 1e-12);

@@ -1,4 +1,4 @@
-/// What smoothing and interpolation can reach at all: headroom, floor, and the tools behind them.
+/// Limits of smoothing and interpolation: headroom, floor, and their filters.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 using test::find;
 using test::why;
 
-/// `n` poses, 1/64 s apart, that stray from the reference by `error`.
+/// `n` poses, 1/64 s apart, with position error `error`.
 template <class Error>
 Evaluation straying(std::size_t n, Error error) {
   Evaluation out;
@@ -34,7 +34,7 @@ double gain(const Evaluation& evaluation, const SmoothingHeadroomOptions& option
   return find(smoothing_headroom(evaluation, options), "gain", "3d").mean;
 }
 
-/// Waves of the mirrored span, so that each is one line of the spectrum: slow 3 m, fast 4 m.
+/// Basis functions of the mirrored span, each a single line of the spectrum: slow 3 m, fast 4 m.
 Evaluation slow_and_fast() {
   const double span = 1023.0 / 64.0;
   return straying(1024, [=](double t) {
@@ -47,7 +47,7 @@ Evaluation slow_and_fast() {
 TEST(SmoothingHeadroom, TakesFastWavesAwayAndLeavesSlowOnes) {
   const Evaluation e = slow_and_fast();
   const auto scores = smoothing_headroom(e, {.window = 1.0});
-  // Joining samples of a wave by straight lines leaves (2 + cos phase step) / 3 of its power.
+  // Linear interpolation of a sampled wave keeps (2 + cos phase step) / 3 of its power.
   const double slow = 0.5 * 9.0 * (2.0 + std::cos(std::numbers::pi * 4.0 / 1023.0)) / 3.0;
   const double fast = 0.5 * 16.0 * (2.0 + std::cos(std::numbers::pi * 80.0 / 1023.0)) / 3.0;
   EXPECT_NEAR(find(scores, "before", "3d").rmse, std::sqrt(slow + fast), 1e-3);
@@ -78,9 +78,9 @@ TEST(SmoothingHeadroom, ASteadyDriftGainsNothing) {
 TEST(SmoothingHeadroom, RefusesNoErrorAndNoTime) {
   const auto none = [](double) { return Vector3::Zero().eval(); };
   EXPECT_EQ(why<std::runtime_error>([&] { smoothing_headroom(straying(10, none), {}); }),
-            "smoothing_headroom: there is no error to take away");
+            "smoothing_headroom: the error is zero");
   EXPECT_EQ(why<std::runtime_error>([&] { smoothing_headroom(straying(1, none), {}); }),
-            "smoothing_headroom: needs two poses at different times");
+            "smoothing_headroom: needs two poses with different stamps");
 }
 
 TEST(MovingAverage, ByHandShrinksAtTheEndsAndBesideHoles) {
@@ -93,7 +93,7 @@ TEST(MovingAverage, ByHandShrinksAtTheEndsAndBesideHoles) {
 }
 
 // An independent cosine transform in another language gives 1.935, 4.617, 11.686 % on a grid of
-// 2048; the remaining digits are the grid.
+// 2048; the remaining digits depend on the grid.
 TEST(SmoothingHeadroom, OfRgbdslamOnRoomIsSmall) {
   const char* folder = std::getenv("LOOPBENCH_DATA");
   if (folder == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
@@ -118,7 +118,7 @@ TEST(NaturalCubic, ByHand) {
   EXPECT_THROW(NaturalCubic({0.0}, {{0, 0, 0}}), std::invalid_argument);
 }
 
-/// y = (t - 2)^2 for four seconds, 0.5 s apart, asked for by an estimate every second.
+/// y = (t - 2)^2 for 4 s, 0.5 s apart, with estimate poses every second.
 struct Parabola {
   Trajectory reference;
   Trajectory estimate;
@@ -150,7 +150,7 @@ TEST(InterpolationFloor, ByHand) {
   const double inner = 0.25 - (18.0 + 12.0) / 7.0 / 16.0;
   EXPECT_NEAR(
       find(scores, "natural_cubic", "3d").sse, 2.0 * (outer * outer + inner * inner), 1e-13);
-  EXPECT_NEAR(find(scores, "slerp", "3d").max, 0.0, 1e-12);  // a steady turn
+  EXPECT_NEAR(find(scores, "slerp", "3d").max, 0.0, 1e-12);  // constant angular velocity
 }
 
 TEST(InterpolationFloor, DoesNotJoinKeyframesAcrossAHoleInTheReference) {

@@ -1,4 +1,4 @@
-/// What the harness hands a metric for one method on one sequence.
+/// Evaluation of one method on one sequence, as the harness passes it to a metric.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace loopbench::test {
 
-/// Owns everything its evaluation points at; do not copy or move.
+/// Owns everything its evaluation points to; do not copy or move.
 struct JudgedCell {
   JudgedCell(Trajectory truth,
              Problem given,

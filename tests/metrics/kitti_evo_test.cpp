@@ -1,4 +1,4 @@
-/// What evo stored for public KITTI estimates; needs the data, which is not kept here.
+/// Results of evo for public KITTI estimates; needs the data, which is not in the repository.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,7 +13,7 @@
 namespace loopbench::test {
 namespace {
 
-/// RPE over 10 m of path, consecutive pairs, with the files' digits or with rotations made of them.
+/// RPE over 10 m of path, consecutive pairs, with printed matrices or with rotations from them.
 Statistics over_ten_metres(const std::filesystem::path& reference,
                            const std::filesystem::path& estimate,
                            bool with_digits) {

@@ -1,4 +1,4 @@
-/// What KITTI's odometry devkit printed on the same files, digit by digit.
+/// Results of KITTI's odometry devkit on the same files, digit by digit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ std::vector<Score> drift(const std::string& name) {
   return segments(evaluation, {});
 }
 
-/// As printf's %.9g, in which the golden file was written.
+/// printf's %.9g, the format of the golden file.
 std::string nine_digits(double value) {
   std::ostringstream out;
   out.precision(9);

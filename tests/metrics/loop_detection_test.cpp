@@ -1,4 +1,4 @@
-// Precision and recall of a place recogniser, worked by hand.
+// Precision and recall of place recognition, computed by hand.
 #include "metrics/correction/loop_detection.hpp"
 
 #include "datasets/core/sequence.hpp"
@@ -6,7 +6,7 @@
 namespace loopbench {
 namespace {
 
-/// Out along x and back, a keyframe a second: 0 1 2 3 2 1 0 metres, so 4, 5, 6 revisit 2, 1, 0.
+/// Forward along x and back, one keyframe per second: 0 1 2 3 2 1 0 m, so 4, 5, 6 revisit 2, 1, 0.
 Sequence out_and_back() {
   Sequence out;
   for (const double x : {0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 0.0}) {
@@ -51,7 +51,7 @@ TEST(LoopDetection, AWrongOneInTheMiddleCostsWhatTheDefinitionSays) {
   EXPECT_EQ(score.precision_at[2], 1.0);
   EXPECT_NEAR(score.precision_at[3], 2.0 / 3.0, 1e-12);
   EXPECT_EQ(score.precision_at[6], 0.0);  // not reached
-  EXPECT_EQ(score.wrong_pose, 1u);        // truth is 2 m back, not 1
+  EXPECT_EQ(score.wrong_pose, 1u);        // the true distance is 2 m, not 1
 }
 
 TEST(LoopDetection, EqualScoresCountTogether) {

@@ -1,4 +1,4 @@
-/// The median is that of the sorted list, to the bit, whatever the values.
+/// The median equals that of the sorted list bit by bit for any values.
 #include "metrics/numerics/median.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Median, IsThatOfTheSortedList) {
 }
 
 TEST(Median, IsRightWhereTheSampleIsUnlikeTheRest) {
-  // Every tenth value is looked at first, and far above the others.
+  // Every tenth value is in the sample, and far above the others.
   std::vector<double> values(40'960);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = static_cast<double>(i % 10 == 0 ? 1'000'000 + i : i % 777);
@@ -77,7 +77,7 @@ TEST(Statistics, OfManyByHand) {
   EXPECT_NEAR(s.std, std::sqrt((300'001.0 * 300'001.0 - 1.0) / 12.0), 1e-9 * s.std);
 }
 
-/// As statistics() promises to add, on one thread.
+/// The summation that statistics() documents, on one thread.
 double pairwise_squares(const double* first, std::size_t n) {
   if (n > 128) return pairwise_squares(first, n / 2) + pairwise_squares(first + n / 2, n - n / 2);
   double total = 0.0;

@@ -25,7 +25,7 @@ Evaluation beside(const Trajectory& reference, const Trajectory& estimate, Align
   return evaluate(reference, estimate, {.align = type, .min_pairs = 1});
 }
 
-/// Three poses one metre apart along x, 1 s apart; the estimate strays by known amounts.
+/// Three poses 1 m apart along x, 1 s apart; the estimate has known errors.
 Evaluation by_hand() {
   Trajectory reference(3);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -71,8 +71,8 @@ TEST(Rpe, ByHandInTheWorldAndInTheBody) {
   EXPECT_DOUBLE_EQ(find(world, "translation", "z").max, 2.0);
   EXPECT_NEAR(find(world, "rotation", "3d").min, 90.0, 1e-13);
 
-  // First step E = (4,-4,0) - (1,0,0). Second: the body has turned by 90 degrees about z, so the
-  // world motion (-2,4,2) reads (4,2,2) there, and E = (3,2,2).
+  // First step E = (4,-4,0) - (1,0,0). Second: the body is rotated by 90 degrees about z, so the
+  // world motion (-2,4,2) is (4,2,2) in its frame, and E = (3,2,2).
   const auto body = rpe(by_hand(), {});
   EXPECT_NEAR(find(body, "translation", "x").sse, 9.0 + 9.0, 1e-13);
   EXPECT_NEAR(find(body, "translation", "y").sse, 16.0 + 4.0, 1e-13);
@@ -94,7 +94,7 @@ TEST(Rpe, DeltaCountsFramesSecondsOrMetres) {
 
 TEST(Rpe, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(why<OptionError>([] { rpe(by_hand(), {.delta = 1.5}); }),
-            "delta = 1.5: frames come whole");
+            "delta = 1.5: expected a whole number of frames");
   EXPECT_EQ(why<std::runtime_error>([] { rpe(by_hand(), {.delta = 3}); }),
             "rpe: none of 3 poses is 3.0 frames before another");
   EXPECT_EQ(why<std::runtime_error>([] { rpe(by_hand(), {.delta = 9, .unit = DeltaUnit::m}); }),
@@ -112,7 +112,7 @@ TEST(CoverageMetric, IsTwoSharesAndTheTimeBridged) {
   EXPECT_EQ(find(scores, "bridged", "").rmse, 12.5);
 }
 
-/// The metrics that are errors of pairs: zero when perfect, never negative.
+/// The metrics that are errors of pairs: zero for a perfect estimate, never negative.
 std::vector<MetricEntry> pair_errors() {
   std::vector<MetricEntry> out;
   for (const MetricEntry& entry : metrics()) {
@@ -136,7 +136,7 @@ TEST(Catalogue, ReadsOptionsAndRefusesBadOnes) {
   EXPECT_THROW(metrics()[2].score(by_hand(), {{"delta", 0.0}}), OptionError);
 }
 
-/// The same laws on walks with strays of every size.
+/// The same laws on random walks with errors of any size.
 class Laws : public testing::TestWithParam<double> {
  protected:
   std::mt19937_64 random_{17};
@@ -172,7 +172,7 @@ TEST_P(Laws, MeanIsAtMostRmseIsAtMostMax) {
   }
 }
 
-// (e_j - e_i)^2 <= 2 e_j^2 + 2 e_i^2, and each error stands in at most two of the n - D pairs.
+// (e_j - e_i)^2 <= 2 e_j^2 + 2 e_i^2, and each error occurs in at most two of the n - D pairs.
 TEST_P(Laws, AxisRpeIsBoundedByAxisAte) {
   const Evaluation e = beside(reference_, estimate_, Align::se3);
   const double n = 200.0;

@@ -11,7 +11,7 @@ namespace {
 
 using Pairs = std::vector<FromTo>;
 
-/// evo's filters.py, word by word: argmin over everything later.
+/// Literal copy of evo's filters.py: argmin over all later poses.
 Pairs literal(const std::vector<double>& measure, double delta, double tolerance) {
   Pairs out;
   for (std::size_t i = 0; i + 1 < measure.size(); ++i) {
@@ -62,7 +62,8 @@ TEST(PairSearch, IsTheLiteralRuleOnRandomMeasuresWithStandstills) {
 }
 
 TEST(PairSearch, LongStandstillsAreNotQuadratic) {
-  // Half a million poses at 0 m, half a million at 0.95 m: each start faces the whole second run.
+  // Half a million poses at 0 m, half a million at 0.95 m: the second run is a candidate of each
+  // start.
   std::vector<double> measure(1'000'000, 0.0);
   for (std::size_t i = 500'000; i < measure.size(); ++i) measure[i] = 0.95;
   const Pairs got = pairs_by_measure(measure, 1.0, 0.1);

@@ -52,11 +52,11 @@ TEST(Consecutive, MetresLeaveTheFirstPoseOutAndAnglesDoNot) {
 
 TEST(Consecutive, SecondsMissByNoMoreThanTheTolerance) {
   EXPECT_EQ(consecutive_seconds({0, 1, 2, 3, 4, 5}, 2.0, 0.2), (Pairs{{0, 2}, {2, 4}}));
-  // 15 Hz: 0.1 s lies between one step and two, and neither is within a tenth of it.
+  // 15 Hz: 0.1 s lies between one step and two, and neither is within 10 % of it.
   std::vector<double> stamps;
   for (int i = 0; i < 30; ++i) stamps.push_back(i / 15.0);
   EXPECT_EQ(consecutive_seconds(stamps, 0.1, 0.01), Pairs{});
-  // 10 Hz with the rounding of large stamps, and a gap that no stretch bridges.
+  // 10 Hz with the rounding of large stamps, and a gap that no pair crosses.
   stamps.clear();
   for (int i = 0; i < 30; ++i) {
     if (i < 10 || i >= 15) stamps.push_back(1.7e9 + 0.1 * i);
@@ -91,9 +91,9 @@ TEST(AnglePairs, AreThoseThatLookingAtAllOfThemFinds) {
 }
 
 TEST(TumClosestIndex, OnATieTheOneProbedFirstWins) {
-  // Five: the middle, 2, is probed first, and equals 1 in distance to 1.5.
+  // Five: the middle, 2, is probed first and is as near to 1.5 as 1 is.
   EXPECT_EQ(tum_closest_index({0, 1, 2, 3, 4}, 1.5), 2u);
-  // Four: again 2 first; a later 1 is as near, not nearer.
+  // Four: again 2 first; 1, probed later, is as near, not nearer.
   EXPECT_EQ(tum_closest_index({0, 1, 2, 3}, 1.5), 2u);
   EXPECT_EQ(tum_closest_index({0, 1, 2, 3}, 2.5), 2u);
   EXPECT_EQ(tum_closest_index({0, 1, 2, 3}, 9.0), 3u);
@@ -103,7 +103,7 @@ TEST(TumClosestIndex, OnATieTheOneProbedFirstWins) {
 
 constexpr std::size_t kMostPairs = 10'000;
 
-/// Their pairs by stamp: whole seconds that count the poses of turning().
+/// Their pairs by stamp: integer seconds, one per pose of turning().
 Pairs of_whole_estimate(const TumMotions& motions) {
   Pairs out;
   const auto number = [&](std::size_t i) {
@@ -123,7 +123,7 @@ TEST(TumMotions, DropTheLastPoseAsAnEndAndGapsInTheReference) {
   // Without 3..7 the median stays 1 s, and 5 s is 3 s from its neighbours: beyond 2.
   reference.erase(reference.begin() + 3, reference.begin() + 8);
   EXPECT_EQ(of_whole_estimate(motions()), (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {6, 7}, {7, 8}}));
-  EXPECT_EQ(motions().poses.reference.size(), 8u);  // of 5 and 9 nothing is asked
+  EXPECT_EQ(motions().poses.reference.size(), 8u);  // 5 and 9 are not used
 }
 
 TEST(TumMotions, MeasureMetresFramesAndTurns) {
@@ -138,7 +138,7 @@ TEST(TumMotions, MeasureMetresFramesAndTurns) {
   EXPECT_EQ(pairs(46.0, DeltaUnit::deg), two);
 }
 
-/// What Python 3.11 answers to random.seed(0); [random.randint(0, SIZE - 1) for _ in range(8)].
+/// Python 3.11: random.seed(0); [random.randint(0, SIZE - 1) for _ in range(8)].
 TEST(PythonRandom, DrawsWhatPythonDraws) {
   const auto draws = [](std::size_t size) {
     PythonRandom random;
@@ -151,7 +151,7 @@ TEST(PythonRandom, DrawsWhatPythonDraws) {
   EXPECT_EQ(draws(1), std::vector<std::size_t>(8, 0));
 }
 
-/// What Python's random.sample and the rules of evaluate_rpe.py gave in tests/data/tum_sampled.
+/// Result of Python's random.sample and the rules of evaluate_rpe.py in tests/data/tum_sampled.
 TEST(PythonRandom, SamplesWhatPythonSamples) {
   for (const Json& wanted : sampled()["sample"]) {
     const std::vector<std::size_t> got =
@@ -234,9 +234,9 @@ TEST(StretchPairs, RefuseWhatNoStretchCanBe) {
       stretch_pairs(poses, poses, PairRule::all, {delta, unit, 0.1});
     });
   };
-  EXPECT_EQ(refusal(1.5, DeltaUnit::frames), "delta = 1.5: frames come whole");
-  EXPECT_EQ(refusal(181.0, DeltaUnit::deg), "delta = 181.0: no turn is beyond half a circle");
-  EXPECT_EQ(refusal(4.0, DeltaUnit::rad), "delta = 4.0: no turn is beyond half a circle");
+  EXPECT_EQ(refusal(1.5, DeltaUnit::frames), "delta = 1.5: expected a whole number of frames");
+  EXPECT_EQ(refusal(181.0, DeltaUnit::deg), "delta = 181.0: expected at most 180 degrees");
+  EXPECT_EQ(refusal(4.0, DeltaUnit::rad), "delta = 4.0: expected at most 180 degrees");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Relations, Euler angles, projections and error forms, worked by hand.
+/// Relations, Euler angles, projections and error forms, computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(Projection, KeepsTheAngleAcrossThePlane) {
 }
 
 /// The reference at the origin, then 4 m ahead; the estimate with the same start, then 5 m ahead
-/// and turned by 60 degrees about z.
+/// and rotated by 60 degrees about z.
 Evaluation two_poses(ErrorForm form = ErrorForm::evo) {
   const Trajectory reference{{0.0, {}}, {1.0, {Rotation::Identity(), Vector3(4, 0, 0)}}};
   const Trajectory estimate{{0.0, {}}, {1.0, {turn(0, 0, 60 * kDegree), Vector3(5, 0, 0)}}};
@@ -109,7 +109,7 @@ TEST(Rpe, PointDistancesCompareLengthsOfMotions) {
 
 TEST(Rpe, TumPairsAreForProtocolsThatAskForThem) {
   EXPECT_EQ(why<OptionError>([] { rpe(two_poses(), {.pairs = RpePairs::tum}); }),
-            "pairs = tum: looks at whole files; only a protocol can ask for it");
+            "pairs = tum: needs a protocol with pairs = tum");
 }
 
 }  // namespace

@@ -58,11 +58,10 @@ TEST(Protocols, ChangesAreToldAndNonChangesAreNot) {
 
 TEST(Protocols, WhatIsAskedForHasToMatter) {
   EXPECT_EQ(refusal("kitti", {{"max_diff", 0.001}}),
-            "max_diff = 0.001: association index does not look at it");
+            "max_diff = 0.001: association index does not use it");
   EXPECT_EQ(refusal("loopbench", {{"association", word("interpolate")}, {"max_diff", 0.02}}),
-            "max_diff = 0.02: association interpolate does not look at it");
-  EXPECT_EQ(refusal("evo", {{"max_gap", 0.5}}),
-            "max_gap = 0.5: association evo does not look at it");
+            "max_diff = 0.02: association interpolate does not use it");
+  EXPECT_EQ(refusal("evo", {{"max_gap", 0.5}}), "max_gap = 0.5: association evo does not use it");
   EXPECT_NO_THROW(named_protocol("evo", {{"association", word("interpolate")}, {"max_gap", 0.5}}));
 }
 
@@ -73,36 +72,35 @@ TEST(Protocols, AnUnknownNameIsAnsweredWithTheKnownOnes) {
 
 TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("evo", {{"align_first", std::int64_t{100}}}),
-            "align_first = 100: only least squares look at several pairs, not origin or none");
+            "align_first = 100: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal("loopbench", {{"align_first", std::int64_t{2}}}),
-            "align_first = 2: too few for least squares; one pose is align: origin");
-  EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}),
-            "offset = 1.0: association index does not look at stamps");
+            "align_first = 2: too few pairs for least squares; for one pose use align: origin");
+  EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}), "offset = 1.0: association index ignores stamps");
   EXPECT_EQ(refusal("tum", {{"pairs_from", word("reference")}}),
-            "pairs_from = reference: pairs tum are those of the estimate");
+            "pairs_from = reference: pairs tum always use the estimate");
   EXPECT_EQ(refusal("tum", {{"project", word("xy")}}),
-            "project = xy: pairs tum are taken from the files, not flattened");
+            "project = xy: pairs tum use the unprojected files");
   EXPECT_EQ(refusal("evo", {{"pairs", word("tum_random")}, {"pairs_from", word("reference")}}),
-            "pairs_from = reference: pairs tum_random are those of the estimate");
+            "pairs_from = reference: pairs tum_random always use the estimate");
   EXPECT_EQ(refusal("evo", {{"max_pairs", std::int64_t{0}}}),
-            "max_pairs = 0: only pairs tum and tum_random are drawn");
+            "max_pairs = 0: applies only to pairs tum and tum_random");
   EXPECT_EQ(refusal("tum", {{"pairs", word("tum_random")}, {"max_pairs", std::int64_t{0}}}),
-            "max_pairs = 0: pairs tum_random would be every pose with every other; use tum");
+            "max_pairs = 0: pairs tum_random needs a limit above 0; for all pairs use tum");
   EXPECT_EQ(refusal("rpg", {{"segments.precision", word("float32")}}),
             "segments.precision = float32: is the KITTI devkit's: end beyond, form kitti, angle "
             "trace");
   EXPECT_EQ(refusal("kitti", {{"segments.end", word("nearest")}}),
-            "segments.tolerance = 0: no end would be near enough");
+            "segments.tolerance = 0: expected more than zero");
   EXPECT_EQ(refusal("ov_eval", {{"segments.tolerance", word("8")}}),
-            "segments.tolerance = 8: as wide as a length, so a start would end it");
+            "segments.tolerance = 8: expected less than every length");
   EXPECT_EQ(refusal("rpg", {{"segments.step", std::int64_t{2}}}),
-            "segments.step = 2: end rpg starts at every pose");
+            "segments.step = 2: segments.end = rpg requires step 1");
   EXPECT_EQ(refusal("evo", {{"segments.lengths", word("ten")}}),
-            "segments.lengths: 'ten': expected metres or a share, like 100 or 20%");
-  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2: expected 0 <= ddof <= 1");
+            "segments.lengths: 'ten': expected a length in metres or %, as 100 or 20%");
+  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 expected 0 <= ddof <= 1");
 }
 
-/// 1 m and 0.1 s a pose along x.
+/// Steps of 1 m in 0.1 s along x.
 Trajectory road(int size) {
   Trajectory out;
   for (int i = 0; i < size; ++i) out.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0, 0)}});
@@ -115,7 +113,7 @@ Evaluation judged(const std::string& name,
   return evaluate(reference, estimate, named_protocol(name).rules);
 }
 
-// ov_eval and eth3d stand on their code alone, without numbers of the originals: rule by rule.
+// ov_eval and eth3d are tested rule by rule against their code, without numbers from the originals.
 
 TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
   const double tilt = 0.1;
@@ -133,7 +131,7 @@ TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
 
 TEST(OvEval, SegmentsStartEverywhereAndStdDividesByOneLess) {
   Trajectory estimate = road(21);
-  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the way
+  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the path
   const std::vector<Score> got = segments(judged("ov_eval", road(21), estimate), {});
   std::set<std::string> axes;
   for (const Score& score : got) axes.insert(score.axis);
@@ -160,7 +158,7 @@ TEST(OvEval, AnEndExactlyHalfAMetreOffIsNone) {
   EXPECT_EQ(find(segments(judged("ov_eval", off, off), {}), "translation", "8 m").count, 1u);
 }
 
-/// 40 steps along x, then 40 along y, 10 ms each, turning; `at` says how many have been gone.
+/// 40 steps along x, then 40 along y, 10 ms each, rotating; `at` is the number of steps done.
 Pose on_the_corner(double step, double at) {
   const double x = std::min(at, 40.0);
   return {exp_so3(Vector3(0.0, 0.0, 0.01 * at)), Vector3(step * x, step * (at - x), 0.0)};
@@ -170,7 +168,7 @@ TEST(Eth3d, InterpolatesTheReferenceOverAtMostASeventyFifth) {
   Trajectory reference;
   Trajectory estimate;
   for (int i = 0; i <= 80; ++i) {
-    // Without 20 its neighbours are 20 ms apart, and what lies between has no reference.
+    // Without 20 its neighbours are 20 ms apart, and there is no reference between them.
     if (i != 20) reference.push_back({0.01 * i, on_the_corner(0.1, i)});
     if (i < 80) estimate.push_back({0.01 * (i + 0.5), on_the_corner(0.1, i + 0.5)});
   }
@@ -188,8 +186,8 @@ TEST(Eth3d, ErrorsAreOfTheMetresGoneAndNothingIsScaled) {
   }
   const Evaluation got = judged("eth3d", reference, estimate);
   EXPECT_EQ(got.alignment.scale, 1.0);
-  // Five steps are 0.505 m for 0.5 m, and a hundredth too long: 1 % of what was gone, less across
-  // the corner. 20 steps are 2.02 m.
+  // Five steps are 0.505 m for 0.5 m and 1 % too long: error 1 % of the distance travelled, less
+  // across the corner. 20 steps are 2.02 m.
   const std::vector<Score> scores = segments(got, {});
   for (const char* length : {"0.5 m", "1 m", "1.5 m", "2 m"}) {
     EXPECT_NEAR(find(scores, "translation", length).max, 1.0, 1e-9) << length;

@@ -1,4 +1,4 @@
-/// What the original tools gave on public files; needs the data, which is not kept here.
+/// Results of the original tools on public files; needs the data, which is not in the repository.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -25,7 +25,7 @@ class PublicValues : public testing::Test {
   }
 
   Evaluation judged(const std::string& estimate, const Protocol& protocol) const {
-    // Published ground truths repeat stamps.
+    // Published ground truths have repeated stamps.
     ReadOptions options;
     options.repeats = Repeats::keep_first;
     const std::filesystem::path file = folder_ / estimate;
@@ -73,7 +73,7 @@ TEST_F(PublicValues, Fr2DeskOrbSlam) {
   EXPECT_NEAR(evo_form.rmse, 0.0070935, 5e-8);  // quoted with five digits
 }
 
-// Quoted with six digits, for SE(3): no scale on the motions.
+// Quoted with six digits, for SE(3): the motions are not scaled.
 TEST_F(PublicValues, RpgPairsStartsWithOtherStartsEnds) {
   const std::string file = "fr2_desk/orbslam_frames_evo.txt";
   const auto over_2_metres = [&](const std::string& name) {

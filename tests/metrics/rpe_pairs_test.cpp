@@ -1,4 +1,4 @@
-/// How many pairs a relative error is made of, and what its axes are.
+/// Number of pairs of a relative error, and definition of its axes.
 #include <gtest/gtest.h>
 
 #include "metrics/errors/rpe.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 const RpeOptions kSecond{.delta = 1.0, .unit = DeltaUnit::s};
 
-/// 70 keyframes 0.7 s apart, but for two that are 1 s apart.
+/// 70 keyframes 0.7 s apart, except two that are 1 s apart.
 Trajectory sparse(std::mt19937_64& random) {
   Trajectory out = random_walk(random, 70);
   double stamp = 0.0;

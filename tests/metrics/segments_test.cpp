@@ -57,7 +57,7 @@ TEST(SegmentPairs, NearestIsTheSameInBlocksOnSeveralThreads) {
 }
 
 TEST(SegmentPairs, RpgGivesTheKthEndToTheKthPose) {
-  // Nothing is 1 m after pose 0; from there on every end is one pose early.
+  // No pose is 1 m after pose 0; from there on every end is one pose early.
   const std::vector<double> d{0.0, 5.0, 6.0, 7.0};
   EXPECT_EQ(segment_pairs(d, 1.0, 0.2, SegmentEnd::nearest, 1), (Pairs{{1, 2}, {2, 3}}));
   EXPECT_EQ(segment_pairs(d, 1.0, 0.2, SegmentEnd::rpg, 1), (Pairs{{0, 2}, {1, 3}}));
@@ -70,8 +70,8 @@ TEST(SegmentPairs, BeyondIsStrictAndSteps) {
 }
 
 TEST(SegmentPairs, Eth3dLosesTheFirstStartsAndTheLast) {
-  // The end runs to 2 m less a step before it stops; it fits when the start is 1 m before it. At
-  // 2.75 m the end meets the last pose and all stops.
+  // The end advances to 2 m minus a step before it stops; it fits when the start is 1 m before it.
+  // At 2.75 m the end reaches the last pose and the search stops.
   std::vector<double> d;
   for (int i = 0; i <= 16; ++i) d.push_back(0.25 * i);
   const Pairs got = segment_pairs(d, 1.0, 0.025, SegmentEnd::eth3d, 1);
@@ -93,7 +93,7 @@ TEST(Lengths, AreMetresOrShares) {
   }
 }
 
-/// A straight road of 1 m steps; the estimate is 1 % too long and turns 0.001 rad a step.
+/// A straight road of 1 m steps; the estimate is 1 % too long and rotates by 0.001 rad per step.
 Evaluation road(const Protocol& protocol) {
   Trajectory reference;
   Trajectory estimate;
@@ -125,7 +125,7 @@ TEST(Segments, OfAStraightRoadByHand) {
   EXPECT_NEAR(score("yaw", "10 m", "deg").max, 0.01 * degree, 1e-12);
   EXPECT_NEAR(score("gravity", "10 m", "deg").max, 0.0, 1e-12);
   EXPECT_NEAR(score("rotation", "all", "deg/m").mean, 0.001 * degree, 1e-12);
-  // From pose 0, where the estimate looks straight: 10.1 m against 10 m.
+  // From pose 0, where the estimate's orientation is correct: 10.1 m instead of 10 m.
   EXPECT_NEAR(score("translation", "10 m", "m").min, 0.1, 1e-12);
   EXPECT_NEAR(score("translation", "10 m", "%").min, 1.0, 1e-11);
 }
@@ -147,14 +147,14 @@ TEST(Segments, OfPositionsAloneAreRefused) {
     poses.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0.1 * i * i, 0.0)}});
   }
   const Evaluation judged = evaluate(poses, poses, named_protocol("loopbench").rules);
-  EXPECT_EQ(why<Undefined>([&] { segments(judged, {}); }).find("the reference keeps one"), 0u);
+  EXPECT_EQ(why<Undefined>([&] { segments(judged, {}); }).find("the reference has a constant"), 0u);
 }
 
 TEST(Segments, WithoutAnySaysSo) {
   const Params far{{"segments.lengths", std::string("5000")}};
   EXPECT_EQ(
       why<std::runtime_error>([&] { segments(road(named_protocol("kitti", far).rules), {}); }),
-      "segments: no stretch of the reference (1000.0 m) has a length of 5000");
+      "segments: no segment of the reference (1000.0 m) has a length of 5000");
 }
 
 }  // namespace

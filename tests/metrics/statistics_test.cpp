@@ -28,7 +28,7 @@ TEST(Statistics, MedianOfAnOddCountIsTheMiddleOne) {
 }
 
 TEST(Statistics, SumsOfAMillionKeepTheirDigits) {
-  // 0.1 has no exact double; plain summation puts the mean of a million of them 1.3e-12 off.
+  // 0.1 is not representable; plain summation gives an error of 1.3e-12 in the mean of a million.
   const Statistics s = statistics(std::vector<double>(1'000'000, 0.1));
   EXPECT_NEAR(s.mean, 0.1, 1e-15);
   EXPECT_NEAR(s.rmse, 0.1, 1e-15);

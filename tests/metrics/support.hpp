@@ -1,4 +1,4 @@
-/// What the metric tests share: made-up trajectories, finding a score.
+/// Helpers of the metric tests: synthetic trajectories, search for a score.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ inline Pose random_pose(std::mt19937_64& random, double metres, double radians) 
   return {exp_so3(random_vector(random, radians)), random_vector(random, metres)};
 }
 
-/// A walk of `size` poses, 0.1 s apart.
+/// A random walk of `size` poses, 0.1 s apart.
 inline Trajectory random_walk(std::mt19937_64& random, std::size_t size) {
   Trajectory out;
   Pose pose = random_pose(random, 5.0, 1.0);
@@ -36,7 +36,7 @@ inline Trajectory random_walk(std::mt19937_64& random, std::size_t size) {
   return out;
 }
 
-/// Every pose shaken on its own.
+/// Every pose with independent noise.
 inline Trajectory noisy(std::mt19937_64& random, Trajectory poses, double metres, double radians) {
   for (auto& [stamp, pose] : poses) pose = normalized(pose * random_pose(random, metres, radians));
   return poses;
@@ -59,7 +59,7 @@ inline Statistics find(const std::vector<Score>& scores,
   throw std::runtime_error("no score " + relation + " " + axis);
 }
 
-/// The text of the exception `action` must throw.
+/// The message of the exception that `action` must throw.
 template <class Error, class Action>
 std::string why(Action action) {
   try {

@@ -17,10 +17,9 @@
 namespace loopbench {
 namespace {
 
-/// Looks at the workers' memory this far apart: a process fills some tens of megabytes in between.
-constexpr int kMemoryWatch = 20;  // [ms]
+constexpr int kMemoryWatch = 20;  // [ms], between memory checks of the workers
 
-/// The highest core this process may use: the first ones get most of the interrupts.
+/// The highest core this process may use, since the first ones handle most interrupts.
 int last_core() {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -37,13 +36,13 @@ std::string signal_name(int signal) {
   return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
 }
 
-/// A worker, the jobs it has not answered yet, in order, and what has come of its answers.
-struct Seat {
+/// A worker, its unanswered jobs in order, and the answers received so far.
+struct WorkerSlot {
   std::unique_ptr<WorkerProcess> process;
   std::deque<Job> jobs;
   std::string bytes;
   std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
-  std::optional<CellResult> verdict;  ///< why the sweep ended it, for the cell it names
+  std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, for its current cell
 };
 
 class IsolatedSweep {
@@ -57,11 +56,11 @@ class IsolatedSweep {
         finished_(finished),
         queue_(context.cells),
         facts_(context.cells.size()),
-        seats_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
+        slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
         pinned_(context.sweep.serial ? last_core() : -1) {}
 
   void run() {
-    // A wrong path in the last dataset must not cost the hour before it.
+    // Load all sequences first, so that a wrong path in the last dataset is reported immediately.
     for (const std::size_t cell : queue_.first_of_datasets()) loads_.push_back({cell, true});
     work();
     loads_done_ = true;
@@ -69,49 +68,50 @@ class IsolatedSweep {
   }
 
  private:
-  /// Until nothing is left to give out and all is answered.
+  /// Runs until all jobs are assigned and answered.
   void work() {
     for (;;) {
-      for (Seat& seat : seats_) fill(seat);
-      if (std::ranges::all_of(seats_, [](const Seat& seat) { return seat.jobs.empty(); })) return;
+      for (WorkerSlot& slot : slots_) fill(slot);
+      if (std::ranges::all_of(slots_, [](const WorkerSlot& slot) { return slot.jobs.empty(); }))
+        return;
       wait();
-      for (Seat& seat : seats_) {
-        if (!seat.process) continue;
-        const bool alive = seat.process->receive(seat.bytes);
-        read_answers(seat);
+      for (WorkerSlot& slot : slots_) {
+        if (!slot.process) continue;
+        const bool alive = slot.process->receive(slot.bytes);
+        read_answers(slot);
         if (alive) {
-          watch(seat);
+          watch(slot);
         } else {
-          bury(seat);
+          reap(slot);
         }
       }
     }
   }
 
-  /// One job under way and one waiting, so that a worker never waits for the sweep; only one when
-  /// nothing else may run meanwhile.
-  void fill(Seat& seat) {
+  /// One running and one queued job per worker, so that a worker does not wait for the sweep; only
+  /// one job if nothing else may run at the same time.
+  void fill(WorkerSlot& slot) {
     const std::size_t depth = context_.sweep.serial ? 1 : 2;
-    while (seat.jobs.size() < depth && !stop_) {
+    while (slot.jobs.size() < depth && !stop_) {
       std::optional<Job> job;
       if (!loads_.empty()) {
-        // One each: the others should load theirs meanwhile.
-        if (!seat.jobs.empty()) return;
+        // One each, so that the other workers load their sequences in parallel.
+        if (!slot.jobs.empty()) return;
         job = loads_.front();
         loads_.pop_front();
-        seat.group = queue_.group_of(job->cell);
+        slot.group = queue_.group_of(job->cell);
       } else if (loads_done_) {
-        const auto cell = queue_.next(seat.group);
+        const auto cell = queue_.next(slot.group);
         if (cell) job = Job{*cell, false};
       }
       if (!job) return;
-      if (!seat.process) seat.process = std::make_unique<WorkerProcess>(context_, pinned_);
-      seat.jobs.push_back(*job);
-      seat.process->send(*job);
+      if (!slot.process) slot.process = std::make_unique<WorkerProcess>(context_, pinned_);
+      slot.jobs.push_back(*job);
+      slot.process->send(*job);
     }
   }
 
-  /// Until a worker says something, or a limit may be reached.
+  /// Waits until a worker answers or a limit can be reached.
   void wait() {
     std::vector<pollfd> sockets;
     int longest = -1;  // [ms]
@@ -119,71 +119,70 @@ class IsolatedSweep {
       const int bound = static_cast<int>(std::clamp<std::int64_t>(milliseconds, 1, 60000));
       longest = longest < 0 ? bound : std::min(longest, bound);
     };
-    for (const Seat& seat : seats_) {
-      if (!seat.process || seat.jobs.empty()) continue;
-      sockets.push_back({seat.process->socket(), POLLIN, 0});
+    for (const WorkerSlot& slot : slots_) {
+      if (!slot.process || slot.jobs.empty()) continue;
+      sockets.push_back({slot.process->socket(), POLLIN, 0});
       const Limits& limits = context_.sweep.limits;
       if (limits.memory > 0) at_most(kMemoryWatch);
       if (limits.seconds > 0.0) {
-        const bool idle = seat.process->board().job == Board::kIdle;
-        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(seat) * 1e3);
+        const bool idle = slot.process->board().job == Board::kIdle;
+        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(slot) * 1e3);
         at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
       }
     }
-    poll(sockets.data(), sockets.size(), longest);  // an interrupt ends it too: `stop` may be set
+    poll(sockets.data(), sockets.size(), longest);  // also ended by an interrupt, which sets `stop`
   }
 
-  static double busy_for(const Seat& seat) {
-    return 1e-9 * static_cast<double>(steady_nanoseconds() - seat.process->board().since);
+  static double busy_for(const WorkerSlot& slot) {
+    return 1e-9 * static_cast<double>(steady_nanoseconds() - slot.process->board().since);
   }
 
-  /// Ends a worker that is beyond a limit.
-  void watch(Seat& seat) {
-    const Board& board = seat.process->board();
+  /// Kills a worker that exceeds a limit.
+  void watch(WorkerSlot& slot) {
+    const Board& board = slot.process->board();
     const std::uint64_t job = board.job;
-    if (seat.verdict || job == Board::kIdle) return;
+    if (slot.verdict || job == Board::kIdle) return;
     const char* doing = board.loading ? "loading its sequence" : "the cell";
     const Limits& limits = context_.sweep.limits;
     CellResult verdict;
     verdict.cell = context_.cells[job];
-    if (limits.seconds > 0.0 && busy_for(seat) > limits.seconds) {
+    if (limits.seconds > 0.0 && busy_for(slot) > limits.seconds) {
       verdict.status = Status::timeout;
-      verdict.why = fmt::format("{} took longer than the limit of {} s", doing, limits.seconds);
-    } else if (const std::int64_t size = limits.memory > 0 ? seat.process->resident_memory() : 0;
+      verdict.why = fmt::format("{} exceeded the time limit of {} s", doing, limits.seconds);
+    } else if (const std::int64_t size = limits.memory > 0 ? slot.process->resident_memory() : 0;
                size > limits.memory) {
       verdict.status = Status::out_of_memory;
-      verdict.why =
-          fmt::format("{} grew to {} bytes, above the limit of {}", doing, size, limits.memory);
+      verdict.why = fmt::format("{} grew to {} bytes, limit {}", doing, size, limits.memory);
     } else {
       return;
     }
     verdict.signal = "SIGKILL";
-    seat.verdict = verdict;
-    seat.process->kill();
+    slot.verdict = verdict;
+    slot.process->kill();
   }
 
-  void read_answers(Seat& seat) {
+  void read_answers(WorkerSlot& slot) {
     std::size_t at = 0;
     for (;;) {
       Header header;
-      if (seat.bytes.size() - at < sizeof header) break;
-      std::memcpy(&header, seat.bytes.data() + at, sizeof header);
-      if (header.size > seat.bytes.size() - at - sizeof header) break;
-      const std::string_view body(seat.bytes.data() + at + sizeof header, header.size);
-      if (!take(seat, header, body)) {
-        // It has written over its own memory: whatever else it says is worth nothing.
-        seat.process->kill();
-        at = seat.bytes.size();
+      if (slot.bytes.size() - at < sizeof header) break;
+      std::memcpy(&header, slot.bytes.data() + at, sizeof header);
+      if (header.size > slot.bytes.size() - at - sizeof header) break;
+      const std::string_view body(slot.bytes.data() + at + sizeof header, header.size);
+      if (!take(slot, header, body)) {
+        // It has corrupted its own memory, so its other answers are not reliable.
+        slot.process->kill();
+        at = slot.bytes.size();
         break;
       }
       at += sizeof header + header.size;
     }
-    seat.bytes.erase(0, at);
+    slot.bytes.erase(0, at);
   }
 
-  /// False for what no sound worker would say.
-  bool take(Seat& seat, const Header& header, std::string_view body) {
-    if (seat.jobs.empty() || header.cell != seat.jobs.front().cell) return false;
+  /// False for invalid messages, which only a corrupted worker sends.
+  bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
+    if (slot.jobs.empty() || header.cell != slot.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
     if (header.kind == Header::Kind::loaded) {
       auto facts = std::make_shared<SequenceFacts>();
@@ -197,7 +196,7 @@ class IsolatedSweep {
       result.cell = context_.cells[header.cell];
       finish(result, header.cell);
     }
-    seat.jobs.pop_front();
+    slot.jobs.pop_front();
     return true;
   }
 
@@ -216,10 +215,11 @@ class IsolatedSweep {
     std::shared_ptr<const SequenceFacts>& kept = facts_[queue_.group_of(cell)];
     if (kept &&
         !std::ranges::equal(kept->inputs, facts->inputs, {}, &InputFile::hash, &InputFile::hash)) {
-      throw InputError(facts->inputs.front().path + " or a file read with it changed meanwhile");
+      throw InputError(facts->inputs.front().path +
+                       " or a file read with it changed during the run");
     }
     if (kept) return;
-    // Every worker loads its own, but once is enough for who reads it.
+    // Every worker loads its own copy, but the notes are printed once.
     tell(context_.sweep.datasets[context_.cells[cell].dataset].label, facts->notes);
     kept = std::move(facts);
   }
@@ -228,37 +228,37 @@ class IsolatedSweep {
     const std::size_t group = queue_.group_of(cell);
     result.facts = facts_[group];
     flag_trained_on_judged(result, context_.sweep);
-    if (queue_.finish(cell)) facts_[group].reset();  // nobody asks again
+    if (queue_.finish(cell)) facts_[group].reset();  // no longer needed
     finished_(result);
   }
 
-  /// A worker has ended: the cell it was in is told how, those after it go to another.
-  void bury(Seat& seat) {
-    const WorkerProcess::End end = seat.process->end();
-    const bool loading = seat.process->board().loading;
-    const bool idle = seat.process->board().job == Board::kIdle;
-    seat.process.reset();
-    seat.bytes.clear();
-    std::deque<Job> jobs = std::exchange(seat.jobs, {});
-    const std::optional<CellResult> verdict = std::exchange(seat.verdict, std::nullopt);
+  /// Handles the end of a worker: sets the result of its current cell and requeues the others.
+  void reap(WorkerSlot& slot) {
+    const WorkerProcess::End end = slot.process->end();
+    const bool loading = slot.process->board().loading;
+    const bool idle = slot.process->board().job == Board::kIdle;
+    slot.process.reset();
+    slot.bytes.clear();
+    std::deque<Job> jobs = std::exchange(slot.jobs, {});
+    const std::optional<CellResult> verdict = std::exchange(slot.verdict, std::nullopt);
     if (jobs.empty()) return;
     const Job first = jobs.front();
     const Cell& cell = context_.cells[first.cell];
     if (verdict && verdict->cell.index != cell.index) {
-      give_back(jobs);  // it had answered before the end came
+      give_back(jobs);  // it had answered everything
       return;
     }
     jobs.pop_front();
     give_back(jobs);
-    if (first.only_load) return;  // it will be told of each of its cells
+    if (first.only_load) return;  // each of its cells will report the failure
     CellResult result = verdict ? *verdict : CellResult{};
     result.cell = cell;
     if (!verdict) {
       result.status = Status::crashed;
       if (end.signal != 0) result.signal = signal_name(end.signal);
       result.why = end.signal != 0 ? "ended by " + result.signal
-                                   : fmt::format("ended its process, exit code {}", end.exit_code);
-      if (end.signal == 9) result.why += ", not by this program: was memory out?";
+                                   : fmt::format("exited, exit code {}", end.exit_code);
+      if (end.signal == 9) result.why += ", not by this program (system out of memory?)";
       if (loading && !idle) result.why += ", while loading its sequence";
     }
     result.worker = {true, context_.sweep.serial, context_.sweep.serial};
@@ -280,7 +280,7 @@ class IsolatedSweep {
   std::deque<Job> loads_;
   bool loads_done_ = false;
   std::vector<std::shared_ptr<const SequenceFacts>> facts_;  ///< by group
-  std::vector<Seat> seats_;
+  std::vector<WorkerSlot> slots_;
   int pinned_;
 };
 

@@ -1,4 +1,5 @@
-/// All cells of a sweep in worker processes: a crash, a hang or a flood of memory costs one cell.
+/// Runs all cells of a sweep in worker processes, so that a crash, hang or memory overrun affects
+/// only one cell.
 #pragma once
 
 #include <atomic>
@@ -10,11 +11,11 @@
 
 namespace loopbench {
 
-/// As run_sweep, with `jobs` processes instead of threads (one, pinned to a core, when the sweep is
-/// serial), which are used again until one ends by a failure. Cells that went beyond the sweep's
-/// limits or ended their process come out as timeout, out_of_memory or crashed. To be called from a
-/// process without threads. Throws InputError for a sequence that cannot be loaded,
-/// std::runtime_error when no process can be had.
+/// As run_sweep, with `jobs` processes instead of threads (one, pinned to a core, if the sweep is
+/// serial), which are reused until one ends by a failure. Cells that exceed the sweep's limits or
+/// end their process have the status timeout, out_of_memory or crashed. Call from a process without
+/// threads. Throws InputError for a sequence that cannot be loaded, std::runtime_error if a process
+/// cannot be created.
 void run_isolated(const Sweep& sweep,
                   const std::vector<Cell>& cells,
                   const Catalogue& catalogue,

@@ -1,4 +1,4 @@
-/// The sequences a worker has at hand, so that cells of one do not load it again.
+/// Cache of a worker's loaded sequences.
 #pragma once
 
 #include <list>
@@ -20,19 +20,19 @@ class LoadedSequences {
 
   explicit LoadedSequences(const WorkerContext& context) : context_(context) {}
 
-  /// Null unless it is at hand.
+  /// Null unless it is loaded.
   const Entry* find(const Cell& cell);
 
-  /// Loads it; lets go of those used longest ago beyond kMostBytes. Throws InputError.
+  /// Loads it; evicts the least recently used sequences beyond kMostBytes. Throws InputError.
   const Entry& load(const Cell& cell);
 
  private:
-  /// Of poses and edges. Repeats follow each other and are not asked for again: memory they give
-  /// back is warm, more of it would have to be fetched from the system page by page.
+  /// Limit on poses and edges. Repeats follow each other and are not requested again, and freed
+  /// memory is reused faster than new memory is mapped.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   const WorkerContext& context_;
-  std::list<Entry> entries_;  ///< last used first
+  std::list<Entry> entries_;  ///< most recently used first
 };
 
 }  // namespace loopbench

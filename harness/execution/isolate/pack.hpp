@@ -1,4 +1,4 @@
-/// Values as bytes for a pipe between two processes of the same program.
+/// Binary serialisation for messages between two processes of the same program.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace loopbench {
 
-/// Appends what it is called with: plain data, strings, vectors, optionals, and whatever has a
+/// Appends its arguments: plain data, strings, vectors, optionals, and types with a
 /// `walk(archive, value)`.
 class Packer {
  public:
@@ -46,8 +46,8 @@ class Packer {
   std::string bytes_;
 };
 
-/// Reads back in the same order. Throws std::runtime_error when the bytes end too early: a worker
-/// that writes over its memory may send anything.
+/// Reads in the same order. Throws std::runtime_error if the bytes end too early, because a worker
+/// with corrupted memory can send anything.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
@@ -81,7 +81,7 @@ class Unpacker {
 
  private:
   const char* take(std::size_t size) {
-    if (size > bytes_.size()) throw std::runtime_error("a message of a worker is cut off");
+    if (size > bytes_.size()) throw std::runtime_error("a message of a worker is truncated");
     const char* out = bytes_.data();
     bytes_.remove_prefix(size);
     return out;
@@ -90,7 +90,7 @@ class Unpacker {
     std::size_t out = 0;
     std::memcpy(&out, take(sizeof out), sizeof out);
     if (out > bytes_.size() / item_size)
-      throw std::runtime_error("a message of a worker is cut off");
+      throw std::runtime_error("a message of a worker is truncated");
     return out;
   }
 

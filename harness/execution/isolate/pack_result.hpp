@@ -1,4 +1,4 @@
-/// The members of what travels from a worker to the sweep, each list once for both directions.
+/// Serialised members of the types sent by workers, each list used for both directions.
 #pragma once
 
 #include <concepts>
@@ -45,7 +45,7 @@ void walk(Archive& a, T& facts) {
   a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
 }
 
-/// Everything but the facts of its sequence, which travel once for all its cells.
+/// All members except the metadata of its sequence, which are sent once for all its cells.
 template <class Archive, class T>
 requires std::same_as<std::remove_const_t<T>, CellResult>
 void walk(Archive& a, T& r) {

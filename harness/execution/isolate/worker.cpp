@@ -14,7 +14,7 @@
 namespace loopbench {
 namespace {
 
-/// All of it or false: the other side is gone.
+/// Writes all bytes; false if the other side has closed.
 bool send_all(int socket, const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -44,7 +44,7 @@ bool answer(int socket, Header::Kind kind, std::uint64_t cell, const std::string
   return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
 }
 
-/// Stays on one core; false where it may not.
+/// Pins the process to one core; false if that is not permitted.
 bool pin(int core) {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -53,17 +53,17 @@ bool pin(int core) {
 }
 
 void begin(Board& board, std::uint64_t job, bool loading) {
-  // The clock first: the sweep must not see an old time with a new job.
+  // Store the time first: the sweep must not combine an old time with a new job.
   board.since = steady_nanoseconds();
   board.loading = loading;
   board.job = job;
 }
 
-/// A method that grew beyond the limit between two looks at it is beyond the limit all the same.
-void obey(const Limits& limits, CellResult& result) {
+/// Detects a method that exceeded the limit between two checks by the sweep.
+void apply_limits(const Limits& limits, CellResult& result) {
   if (limits.memory <= 0 || result.peak_memory.value_or(0) <= limits.memory) return;
   result.status = Status::out_of_memory;
-  result.why = "grew to " + std::to_string(*result.peak_memory) + " bytes, above the limit of " +
+  result.why = "grew to " + std::to_string(*result.peak_memory) + " bytes, limit " +
                std::to_string(limits.memory);
   result.scores.clear();
   result.trace = {};
@@ -102,7 +102,7 @@ void serve(const WorkerContext& context, int socket, Board& board, int pinned) {
     begin(board, job.cell, false);
     CellResult result = run_cell(cell, context.sweep, entry->sequence, context.catalogue);
     result.worker = how;
-    obey(context.sweep.limits, result);
+    apply_limits(context.sweep.limits, result);
     board.job = Board::kIdle;
     Packer packed;
     packed(result);

@@ -1,4 +1,4 @@
-/// The other side of the fork: loads, runs, answers, until told to end.
+/// Main loop of a worker process: loads sequences, runs cells, sends results.
 #pragma once
 
 #include <atomic>
@@ -10,12 +10,12 @@
 
 namespace loopbench {
 
-/// What a worker is doing, in memory shared with the sweep, which watches the clock.
+/// Status of a worker in memory shared with the sweep, which checks the time limit.
 struct Board {
   static constexpr std::uint64_t kIdle = ~std::uint64_t{0};
   std::atomic<std::uint64_t> job = kIdle;  ///< Job::cell
-  std::atomic<std::int64_t> since = 0;     ///< when that began [ns], steady clock
-  std::atomic<bool> loading = false;       ///< its sequence, before the cell itself
+  std::atomic<std::int64_t> since = 0;     ///< start of the job [ns], steady clock
+  std::atomic<bool> loading = false;       ///< loading the sequence, before the cell itself
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
@@ -24,11 +24,11 @@ struct Job {
   bool only_load = false;
 };
 
-/// Before each message; `size` bytes follow. All from the same program, so as they lie in memory.
+/// Header of each message, followed by `size` bytes; sent as raw memory within one program.
 struct Header {
   enum class Kind : std::uint32_t {
-    loaded,       ///< SequenceFacts of a job's sequence, loaded for it
-    cannot_load,  ///< the InputError's text: the sweep cannot go on
+    loaded,       ///< SequenceFacts of a job's sequence, which was loaded for it
+    cannot_load,  ///< message of the InputError, which ends the sweep
     result,       ///< CellResult
     only_loaded,  ///< a job with only_load is done
   };
@@ -37,7 +37,7 @@ struct Header {
   std::uint64_t size = 0;
 };
 
-/// What every worker of a sweep shares. Everything outlives the workers.
+/// Data shared by all workers of a sweep; must outlive them.
 struct WorkerContext {
   const Sweep& sweep;
   const std::vector<Cell>& cells;
@@ -45,11 +45,11 @@ struct WorkerContext {
   const DataRoot& root;
 };
 
-/// Reads jobs from `socket` and answers there until it is closed. `pinned`: the core to stay on,
-/// or -1. Never throws; ends early when it cannot answer.
+/// Reads jobs from `socket` and answers there until it is closed. `pinned`: the core to run on, or
+/// -1. Does not throw; returns early if it cannot answer.
 void serve(const WorkerContext& context, int socket, Board& board, int pinned);
 
-/// Steady clock [ns], the same in every process.
+/// Steady clock [ns], common to all processes.
 std::int64_t steady_nanoseconds();
 
 }  // namespace loopbench

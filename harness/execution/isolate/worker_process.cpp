@@ -24,7 +24,7 @@ std::runtime_error refused(const std::string& what) {
   return std::runtime_error("a worker process: " + what + ": " + std::strerror(errno));
 }
 
-/// When memory runs out altogether the system should end the worker, not the sweep.
+/// If the system runs out of memory, it should kill the worker, not the sweep.
 void offer_to_be_ended_first() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -44,7 +44,7 @@ WorkerProcess::WorkerProcess(const WorkerContext& context, int pinned) {
     munmap(board_, sizeof(Board));
     throw refused("socket pair");
   }
-  std::fflush(nullptr);  // or the worker would print it again
+  std::fflush(nullptr);  // otherwise the worker would print buffered output again
   const pid_t parent = getpid();
   process_ = fork();
   if (process_ == 0) be_worker(context, pinned, ends[1], parent);
@@ -67,10 +67,10 @@ WorkerProcess::~WorkerProcess() {
 
 void WorkerProcess::be_worker(const WorkerContext& context, int pinned, int socket, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // it died in between
-  std::signal(SIGINT, SIG_IGN);       // the sweep decides what an interrupt means
+  if (getppid() != parent) _exit(0);  // the parent has died in the meantime
+  std::signal(SIGINT, SIG_IGN);       // the sweep handles interrupts
   std::signal(SIGTERM, SIG_DFL);
-  // The store, its lock and the other workers' sockets are the sweep's.
+  // Close the sweep's files: the store, its lock and the other workers' sockets.
   constexpr int kSocket = 3;
   if (socket != kSocket) dup2(socket, kSocket);
   close_range(kSocket + 1, ~0u, 0);
@@ -79,11 +79,11 @@ void WorkerProcess::be_worker(const WorkerContext& context, int pinned, int sock
   offer_to_be_ended_first();
   serve(context, kSocket, *board_, pinned);
   std::fflush(nullptr);
-  _exit(0);  // destructors here would be those of the sweep
+  _exit(0);  // without running the sweep's destructors
 }
 
 void WorkerProcess::send(const Job& job) {
-  // A worker that has ended does not listen; its end is seen by receive().
+  // Errors are ignored: receive() reports that a worker has ended.
   [[maybe_unused]] const ssize_t sent = ::send(socket_, &job, sizeof job, MSG_NOSIGNAL);
 }
 

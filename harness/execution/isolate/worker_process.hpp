@@ -1,4 +1,4 @@
-/// A worker as the sweep sees it: a process, a socket, a board.
+/// A worker process as seen by the sweep: process, socket, shared status.
 #pragma once
 
 #include <sys/types.h>
@@ -14,28 +14,28 @@ namespace loopbench {
 
 class WorkerProcess {
  public:
-  /// Forks. Only from a process without threads. Throws std::runtime_error when it cannot.
+  /// Forks. Only from a process without threads. Throws std::runtime_error on failure.
   WorkerProcess(const WorkerContext& context, int pinned);
-  ~WorkerProcess();  ///< ends it, however busy
+  ~WorkerProcess();  ///< kills it if it is running
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// Never waits: a few jobs fit the socket. Whether it still listens shows in receive().
+  /// Does not block: a few jobs fit into the socket buffer. Errors are reported by receive().
   void send(const Job& job);
 
-  /// Appends what has come to `bytes`; false once the worker has ended and all is read.
+  /// Appends received bytes to `bytes`; false after the worker has ended and everything is read.
   bool receive(std::string& bytes);
 
   void kill() const;
 
-  /// After receive() was false: the signal that ended it, or 0 and its exit code.
+  /// After receive() returned false: the signal that ended it, or 0 and its exit code.
   struct End {
     int signal = 0;
     int exit_code = 0;
   };
   End end();
 
-  /// Resident size [bytes], 0 when it cannot be told.
+  /// Resident size [bytes], 0 if unknown.
   std::int64_t resident_memory() const;
 
   const Board& board() const { return *board_; }
@@ -46,7 +46,7 @@ class WorkerProcess {
 
   Board* board_ = nullptr;  ///< in shared memory
   int socket_ = -1;
-  pid_t process_ = -1;  ///< -1 once its end is known
+  pid_t process_ = -1;  ///< -1 after its end
 };
 
 }  // namespace loopbench

@@ -20,11 +20,11 @@
 
 namespace {
 
-/// A thread's own counter needs no locked addition, which would cost as much as malloc itself.
+/// A thread-local counter avoids an atomic addition, which would cost as much as malloc itself.
 struct alignas(64) AllocationCount {
   std::atomic<std::int64_t> value{0};
 };
-constexpr int kAllocationCounts = 64;  // the last is shared by all threads beyond
+constexpr int kAllocationCounts = 64;  // the last is shared by all further threads
 constinit AllocationCount allocation_counts[kAllocationCounts];
 constinit std::atomic<int> allocating_threads{0};
 constinit thread_local int allocation_place = -1;
@@ -44,7 +44,7 @@ void count_allocation() {
 
 }  // namespace
 
-// NOLINTBEGIN: the names are glibc's, which offers them for this
+// NOLINTBEGIN: glibc provides these names for replacement
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

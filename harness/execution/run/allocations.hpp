@@ -1,4 +1,4 @@
-/// How often the program asked for memory.
+/// Number of memory allocations of the program.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 
 namespace loopbench {
 
-/// Calls of malloc, calloc, realloc and their aligned kin by all threads so far: those behind
-/// `new`, inside Eigen and in C libraries alike. Nothing where they are not counted: under
-/// sanitizers and outside glibc. A program that links this has its own malloc, which counts and
-/// calls glibc's; that costs about a nanosecond.
+/// Calls of malloc, calloc, realloc and the aligned variants by all threads so far, including those
+/// by `new`, Eigen and C libraries. nullopt under sanitizers and outside glibc, where they are not
+/// counted. A program that links this replaces malloc by a counting wrapper around glibc's, which
+/// costs about a nanosecond.
 std::optional<std::int64_t> allocations();
 
 }  // namespace loopbench

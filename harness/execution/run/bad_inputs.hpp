@@ -1,4 +1,4 @@
-/// Input files that are missing or broken, found before anything runs.
+/// Detection of missing or invalid input files before a sweep runs.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace loopbench {
 
-/// Loads every sequence of the cells once (with its first seed), or inspects it where loading takes
-/// long. Returns "LABEL: reason" for each that cannot be loaded.
+/// Loads every sequence of the cells once (with its first seed), or inspects it if loading is slow.
+/// Returns "LABEL: reason" for each sequence that cannot be loaded.
 std::vector<std::string> bad_inputs(const Sweep& sweep,
                                     const std::vector<Cell>& cells,
                                     const Catalogue& catalogue,

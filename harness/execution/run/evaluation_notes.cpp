@@ -13,7 +13,7 @@
 namespace loopbench {
 namespace {
 
-/// That least squares over all pairs estimates; 0 for alignments that are no fit of all pairs.
+/// Number of parameters estimated from all pairs; 0 for alignments that do not use all pairs.
 int fitted_parameters(const Evaluation& evaluation) {
   const auto first = static_cast<std::size_t>(evaluation.protocol.align_first);
   if (first > 0 && first < evaluation.coverage.pairs) return 0;
@@ -34,15 +34,15 @@ int fitted_parameters(const Evaluation& evaluation) {
 }
 
 std::string few_pairs(const Evaluation& evaluation) {
-  constexpr double kMost = 0.1;  // parameters over coordinates: errors 5 % too small
+  constexpr double kMost = 0.1;  // parameters per coordinate; errors are then 5 % too small
   const std::size_t coordinates = 3 * evaluation.coverage.pairs;
   const int parameters = fitted_parameters(evaluation);
   const double share = parameters / static_cast<double>(coordinates);
   if (share <= kMost) return "";
   const double bias = share < 1.0 ? 1.0 - std::sqrt(1.0 - share) : 1.0;
   return fmt::format(
-      "few pairs: {} pairs have {} coordinates, and alignment {} fits {} parameters to them: the "
-      "errors come out about {:.0f} % too small",
+      "few pairs: {} pairs have {} coordinates, and alignment {} fits {} parameters to them, so "
+      "the errors are about {:.0f} % too small",
       evaluation.coverage.pairs,
       coordinates,
       to_text(evaluation.alignment.type),
@@ -51,15 +51,15 @@ std::string few_pairs(const Evaluation& evaluation) {
 }
 
 std::string stamp_differences(const Trajectory& reference, const Evaluation& evaluation) {
-  constexpr double kNegligible = 0.2;  // of the ATE: 2 % of it, as independent errors add
+  constexpr double kNegligible = 0.2;  // of the ATE; independent errors then add 2 %
   constexpr double kRounding = 1e-6;   // [s]
   const auto found = association_error(reference, evaluation);
   if (!found) return "";
   const double error = ate(evaluation, {}).front().statistics.rmse;
   if (found->largest_difference < kRounding || found->metres <= kNegligible * error) return "";
   return fmt::format(
-      "association: the stamps of the pairs differ by up to {:.3g} s, which at the reference's "
-      "speed is {:.3g} m (rmse) beside an ATE of {:.3g} m; association interpolate avoids it",
+      "association: the stamps of paired poses differ by up to {:.3g} s; at the reference's speed "
+      "this is an error of {:.3g} m (rmse), with an ATE of {:.3g} m; use association interpolate",
       found->largest_difference,
       found->metres,
       error);
@@ -72,7 +72,7 @@ std::string bridged(const Evaluation& evaluation) {
       "tracking gaps: {:.3g} s between keyframes are bridged without a measurement, "
       "and {} (max_estimate_gap)",
       evaluation.coverage.bridged,
-      is_judged ? "judged all the same" : "not judged");
+      is_judged ? "evaluated nevertheless" : "not evaluated");
 }
 
 void note_once(std::vector<std::string>& list, const std::string& text) {
@@ -91,7 +91,7 @@ std::vector<std::string> evaluation_notes(const Trajectory& reference,
 }
 
 std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep& sweep) {
-  constexpr double kLittle = 0.5;
+  constexpr double kLowCoverage = 0.5;
   std::vector<std::string> out;
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty() || problem.keyframes.empty()) return out;
@@ -105,7 +105,7 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
                                                protocol.rules,
                                                tracked_stamps(problem));
         const Coverage& covered = evaluation.coverage;
-        if (covered.least() < kLittle) {
+        if (covered.least() < kLowCoverage) {
           note_once(
               out,
               fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",
@@ -117,7 +117,7 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
           note_once(out, note);
         }
       } catch (const std::runtime_error&) {
-        // Nothing matches, or no unique alignment: every cell reports that itself.
+        // No pairs or no unique alignment: every cell reports that itself.
       }
     }
   }

@@ -1,4 +1,4 @@
-/// Estimates that no metric can judge.
+/// Check for estimates that are not finite.
 #pragma once
 
 #include "datasets/core/curve.hpp"
@@ -7,9 +7,9 @@
 
 namespace loopbench {
 
-/// Throws std::runtime_error when the curve is not finite at a keyframe or, where the sweep judges
-/// densely, at a reference stamp within its span: at how many, and the first. One sampling of the
-/// curve for the keyframes and one for each time offset of the protocols.
+/// Throws std::runtime_error if the curve is not finite at a keyframe or, in dense evaluation, at a
+/// reference stamp within its span; the message gives the count and the first stamp. Samples the
+/// curve once for the keyframes and once for each time offset of the protocols.
 void require_finite(const Curve& curve, const Sequence& sequence, const Sweep& sweep);
 
 }  // namespace loopbench

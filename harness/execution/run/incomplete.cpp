@@ -6,11 +6,12 @@ namespace loopbench {
 
 std::string why_incomplete(const Coverage& coverage, double min_coverage) {
   if (coverage.least() >= min_coverage) return "";
-  return fmt::format("judged {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
-                     coverage.pairs,
-                     coverage.possible,
-                     100.0 * coverage.span,
-                     100.0 * min_coverage);
+  return fmt::format(
+      "evaluated {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
+      coverage.pairs,
+      coverage.possible,
+      100.0 * coverage.span,
+      100.0 * min_coverage);
 }
 
 }  // namespace loopbench

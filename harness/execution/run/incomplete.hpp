@@ -1,4 +1,4 @@
-/// Numbers that rest on too little of a trajectory.
+/// Check for evaluations with too little coverage.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace loopbench {
 
-/// Why so little was judged that the numbers do not stand beside others: pairs or time covered are
-/// below `min_coverage` (0..1). Empty when enough was.
+/// Reason why the coverage (pairs or time) is below `min_coverage` (0..1); empty if it is not.
 std::string why_incomplete(const Coverage& coverage, double min_coverage);
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Methods that were shown the reference they are judged by, or were trained on it.
+/// Detection of methods that use, or were trained on, the reference they are evaluated against.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace loopbench {
 /// Whether a stage is one of harness/oracle.
 bool is_shown_reference(const MethodChoice& method, const Catalogue& catalogue);
 
-/// Says with which calibration, when it was trained on the reference or the noise of this sequence;
-/// else empty. Sources are compared, see source_of(), and dataset labels where a calibration file
-/// has no sources.
+/// Message naming the calibration if it was trained on the reference or the noise of this sequence;
+/// otherwise empty. Compares sources, see source_of(), or dataset labels if a calibration file has
+/// no sources.
 std::string trained_on_judged(const MethodChoice& method,
                               const DatasetChoice& dataset,
                               const SequenceFacts& facts);

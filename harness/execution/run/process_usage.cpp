@@ -11,7 +11,7 @@
 namespace loopbench {
 namespace {
 
-/// The number of kilobytes after `name` in /proc/self/status, in bytes.
+/// Reads the number of kilobytes after `name` in /proc/self/status; returns bytes.
 std::optional<std::int64_t> from_status(std::string_view name) {
   const int file = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
   if (file < 0) return std::nullopt;

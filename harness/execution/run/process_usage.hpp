@@ -1,4 +1,4 @@
-/// What this process has used so far, as the system counts it.
+/// Resource usage of this process as reported by the system.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@ namespace loopbench {
 /// CPU time of all threads of the process [s].
 double process_cpu_seconds();
 
-/// Resident size now [bytes]; nothing where /proc is not.
+/// Current resident size [bytes]; nullopt without /proc.
 std::optional<std::int64_t> resident_memory();
 
-/// Forgets the largest resident size so far, so that peak_memory() tells what comes. False where
-/// the system cannot.
+/// Resets the largest resident size, so that peak_memory() covers the time from now on. False if
+/// the system does not support it.
 bool forget_peak_memory();
 
-/// Largest resident size since then, or since the process began [bytes].
+/// Largest resident size since the reset or the start of the process [bytes].
 std::optional<std::int64_t> peak_memory();
 
 }  // namespace loopbench

@@ -29,7 +29,7 @@ void Progress::step(const std::string& label) {
   if (!visible_ || (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100))) return;
   drawn_ = now;
   const double seconds = std::chrono::duration<double>(now - begin_).count();
-  // One column short: writing the last one makes some terminals wrap.
+  // One column short, because writing the last column wraps on some terminals.
   const std::string line = progress_line(done_, total_, seconds, label, terminal_width() - 1);
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);

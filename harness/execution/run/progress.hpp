@@ -1,4 +1,4 @@
-/// A progress line for people: cells, rate, time left. Only on a terminal, only on stderr.
+/// Progress line with cells, rate and remaining time; only if stderr is a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,13 @@ namespace loopbench {
 
 class Progress {
  public:
-  /// Silent unless stderr is a terminal.
+  /// Prints nothing unless stderr is a terminal.
   explicit Progress(std::size_t total);
   ~Progress();  ///< clears the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more cell is done; redraws at most ten times a second.
+  /// Counts a finished cell; redraws at most ten times a second.
   void step(const std::string& label);
 
  private:

@@ -19,10 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs `work`; an exception of any kind becomes a status with its text: failed, or declined for a
-/// metric that says it means nothing here.
+/// Runs `work` and converts any exception to a status with its message: declined for Undefined
+/// metrics, otherwise failed.
 template <class Result, class Work>
-void fenced(Result& result, Work work) {
+void catch_errors(Result& result, Work work) {
   try {
     work();
   } catch (const Undefined& reason) {
@@ -30,17 +30,17 @@ void fenced(Result& result, Work work) {
     result.why = reason.what();
   } catch (const std::bad_alloc&) {
     result.status = Status::out_of_memory;
-    result.why = "asked for more memory than there is";
+    result.why = "memory allocation failed";
   } catch (const std::exception& error) {
     result.status = Status::failed;
     result.why = error.what();
   } catch (...) {
     result.status = Status::failed;
-    result.why = "threw something that is not a std::exception";
+    result.why = "threw an exception that is not a std::exception";
   }
 }
 
-/// The method's verb, run and measured; memory is looked at outside the clock.
+/// Runs and measures the method; memory is measured outside the timed part.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const Method& method,
                                    const Problem& problem,
@@ -49,7 +49,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
       forget_peak_memory() ? resident_memory() : std::nullopt;
   std::unique_ptr<const Curve> curve;
   for (int run = 0; run < runs; ++run) {
-    curve.reset();  // or its end would be in the next one's time
+    curve.reset();  // so that its destruction is not timed with the next run
     Report report;
     const std::optional<std::int64_t> asked_before = allocations();
     const double cpu_begin = process_cpu_seconds();
@@ -74,7 +74,7 @@ bool is_finite(const Statistics& s) {
          std::isfinite(s.sse);
 }
 
-/// All scores of one metric, or one row that says why there are none. `row` says what of.
+/// All scores of one metric, or one row with the reason why there are none. `row` has its labels.
 void score(CellResult& result,
            const MetricChoice& choice,
            ScoreResult row,
@@ -83,7 +83,7 @@ void score(CellResult& result,
   row.metric = choice.metric.name;
   row.label = choice.label;
   row.coverage = evaluation.coverage;
-  fenced(row, [&] {
+  catch_errors(row, [&] {
     const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
     for (Score& score : metric.score(evaluation, choice.metric.options)) {
       result.scores.push_back(row);
@@ -103,7 +103,7 @@ void score(CellResult& result,
   if (has_thrown) result.scores.push_back(row);
 }
 
-/// Every metric under one protocol at one choice of times, which `row` names.
+/// Computes every metric under the protocol and times of `row`.
 void judge(CellResult& result,
            const ScoreResult& row,
            const Sweep& sweep,
@@ -115,7 +115,7 @@ void judge(CellResult& result,
   const std::vector<double> tracked = tracked_stamps(sequence.problem);
   const Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
-  fenced(none, [&] {
+  catch_errors(none, [&] {
     Evaluation evaluation =
         evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
@@ -143,14 +143,14 @@ void judge(CellResult& result,
     }
   });
   if (none.status == Status::ok) return;
-  for (const MetricChoice& choice : sweep.metrics) {  // nothing matched, or no unique alignment
+  for (const MetricChoice& choice : sweep.metrics) {  // no pairs, or no unique alignment
     none.metric = choice.metric.name;
     none.label = choice.label;
     result.scores.push_back(none);
   }
 }
 
-/// What can be said from the problem alone; once, since neither pairs nor times play a part.
+/// Computes metrics that need only the problem; once, since they depend on neither pairs nor times.
 void judge_without_reference(CellResult& result,
                              const Sweep& sweep,
                              const Sequence& sequence,
@@ -205,7 +205,7 @@ CellResult run_cell(const Cell& cell,
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];
   result.oracle_method = is_shown_reference(choice, catalogue);
-  fenced(result, [&] {
+  catch_errors(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
@@ -216,7 +216,7 @@ CellResult run_cell(const Cell& cell,
         timed(result, *method, sequence.problem, sweep.timing);
     require_finite(*curve, sequence, sweep);
     if (sequence.reference.empty()) {
-      result.why = "no reference to judge against";
+      result.why = "no reference to evaluate against";
       judge_without_reference(result, sweep, sequence, *curve, catalogue);
       return;
     }

@@ -1,4 +1,4 @@
-/// Running one cell: only the method's verb is timed, and whatever it throws stays in its row.
+/// Runs one cell; only the method is timed, and its exceptions are stored in its row.
 #pragma once
 
 #include "datasets/core/sequence.hpp"
@@ -8,13 +8,13 @@
 
 namespace loopbench {
 
-/// The stages of a choice as one method; only an oracle is shown `reference`. Throws InputError,
-/// OptionError.
+/// Combines the stages of a choice into one method; only an oracle has access to `reference`.
+/// Throws InputError, OptionError.
 std::unique_ptr<const Method> make_method(const MethodChoice& choice,
                                           const Catalogue& catalogue,
                                           const Trajectory& reference);
 
-/// Never throws for what a method or metric does: that becomes status and why.
+/// Does not throw for errors of a method or metric: they are stored as status and why.
 CellResult run_cell(const Cell& cell,
                     const Sweep& sweep,
                     const Sequence& sequence,

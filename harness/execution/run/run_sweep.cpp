@@ -10,30 +10,31 @@
 namespace loopbench {
 namespace {
 
-/// Hands 0..count-1 to `jobs` threads. The first exception stops the rest and is thrown here.
+/// Distributes 0..count-1 over `jobs` threads. The first exception stops the others and is
+/// rethrown.
 void for_each_index(std::size_t count,
                     int jobs,
                     const std::atomic<bool>& stop,
                     const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
-  std::atomic<bool> broken = false;
+  std::atomic<bool> has_failed = false;
   std::exception_ptr first;
   std::mutex mutex;
   const auto worker = [&] {
-    for (std::size_t i = next++; i < count && !stop && !broken; i = next++) {
+    for (std::size_t i = next++; i < count && !stop && !has_failed; i = next++) {
       try {
         work(i);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!first) first = std::current_exception();
-        broken = true;
+        has_failed = true;
       }
     }
   };
   std::vector<std::jthread> threads;
   for (int job = 1; job < jobs; ++job) threads.emplace_back(worker);
   worker();
-  threads.clear();  // joins
+  threads.clear();  // joins the threads
   if (first) std::rethrow_exception(first);
 }
 
@@ -46,7 +47,7 @@ void run_sweep(const Sweep& sweep,
                int jobs,
                const std::atomic<bool>& stop,
                const std::function<void(const CellResult&)>& finished) {
-  // A wrong path in the last dataset must not cost the hour before it.
+  // Check all inputs first, so that a wrong path in the last dataset is reported immediately.
   std::vector<const Cell*> first_of_dataset;
   for (const Cell& cell : cells) {
     if (first_of_dataset.empty() || first_of_dataset.back()->dataset != cell.dataset) {
@@ -63,7 +64,7 @@ void run_sweep(const Sweep& sweep,
     CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
     result.facts = sequences.facts(cells[i]);
     flag_trained_on_judged(result, sweep);
-    if (jobs > 1) {  // the process is more than this cell
+    if (jobs > 1) {  // the process also runs other cells
       result.cpu_seconds.clear();
       result.peak_memory = result.added_memory = result.allocations = std::nullopt;
     }

@@ -1,4 +1,4 @@
-/// All cells of a sweep on several threads; the results do not depend on how many.
+/// Runs all cells of a sweep on several threads; results do not depend on the number of threads.
 #pragma once
 
 #include <atomic>
@@ -9,9 +9,9 @@
 
 namespace loopbench {
 
-/// Calls `finished` once per cell, one call at a time, in order of completion. Sequences that
-/// cannot be loaded end the sweep before its first cell (InputError). Stops early, leaving the
-/// remaining cells out, when `stop` becomes true. `jobs` >= 1.
+/// Calls `finished` once per cell, serialised, in order of completion. Throws InputError before the
+/// first cell if a sequence cannot be loaded. Stops early and omits the remaining cells if `stop`
+/// becomes true. `jobs` >= 1.
 void run_sweep(const Sweep& sweep,
                const std::vector<Cell>& cells,
                const Catalogue& catalogue,

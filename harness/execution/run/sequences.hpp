@@ -1,4 +1,4 @@
-/// The sequences of a sweep, each loaded once and let go when its last cell is done.
+/// Loads each sequence of a sweep once and frees it after its last cell.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace loopbench {
 
-/// What is kept about the sequence of a cell; its dataset's `group` goes before the source. Throws
+/// Metadata of the sequence of a cell; the dataset's `group` overrides the source. Throws
 /// InputError.
 SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep);
 
@@ -26,14 +26,14 @@ class Sequences {
             DataRoot root,
             const std::vector<Cell>& cells);
 
-  /// The sequence of a cell, loaded by whoever asks first. Throws InputError with the dataset's
-  /// label when a file is missing or broken.
+  /// The sequence of a cell, loaded by the first caller. Throws InputError with the dataset's label
+  /// if a file is missing or invalid.
   std::shared_ptr<const Sequence> get(const Cell& cell);
 
-  /// What is kept about it. Only after get().
+  /// Metadata of the sequence. Only after get().
   std::shared_ptr<const SequenceFacts> facts(const Cell& cell);
 
-  /// Says that a cell will not ask again.
+  /// Declares that a cell does not need its sequence any more.
   void done(const Cell& cell);
 
  private:
@@ -41,14 +41,14 @@ class Sequences {
     std::mutex mutex;
     std::shared_ptr<const Sequence> sequence;
     std::shared_ptr<const SequenceFacts> facts;
-    std::size_t waiting = 0;  ///< cells not done yet
+    std::size_t waiting = 0;  ///< unfinished cells
   };
   using Key = std::pair<std::size_t, int>;  // dataset, repeat
 
   const Sweep& sweep_;
   const Catalogue& catalogue_;
   DataRoot root_;
-  std::map<Key, Slot> slots_;  ///< complete after construction: only the slots' insides change
+  std::map<Key, Slot> slots_;  ///< keys are fixed after construction; only slots change
 };
 
 }  // namespace loopbench

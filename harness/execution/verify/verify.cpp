@@ -16,8 +16,8 @@ namespace {
 constexpr std::array kParts{"status", "scores", "report", "trace"};
 
 struct Print {
-  std::array<Hash, kParts.size()> parts;  ///< in that order
-  bool ended_its_worker = false;
+  std::array<Hash, kParts.size()> parts;  ///< in the order of kParts
+  bool ended_worker = false;
 };
 
 template <class... T>
@@ -27,7 +27,7 @@ Hash hash_of_values(const T&... values) {
   return hash_of(pack.bytes());
 }
 
-Print print_of(const CellResult& r) {
+Print result_digest(const CellResult& r) {
   return {{hash_of_values(r.status, r.why, r.signal),
            hash_of_values(r.scores),
            hash_of_values(r.report.counts, r.report.notes, r.report.sections),
@@ -50,7 +50,7 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const std::vector<Manner>& manners,
                                const std::atomic<bool>& stop,
                                const std::function<void(const std::string& manner)>& step) {
-  std::map<std::size_t, std::size_t> place;  // of a cell by its position
+  std::map<std::size_t, std::size_t> place;  // index of a cell by its position
   for (std::size_t i = 0; i < cells.size(); ++i) place.emplace(cells[i].index, i);
   std::vector<std::optional<Print>> first(cells.size());
   std::vector<Difference> out;
@@ -58,15 +58,15 @@ std::vector<Difference> verify(const Sweep& sweep,
     const Manner& manner = manners[m];
     std::vector<Cell> chosen;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const bool dangerous = first[i] && first[i]->ended_its_worker;
-      if (manner.isolated || !dangerous) chosen.push_back(cells[i]);
+      const bool crashes = first[i] && first[i]->ended_worker;
+      if (manner.isolated || !crashes) chosen.push_back(cells[i]);
     }
     if (chosen.empty()) continue;
     std::vector<Difference> found;
     const auto finished = [&](const CellResult& result) {
       step(manner.name());
       const std::size_t cell = place.at(result.cell.index);
-      const Print print = print_of(result);
+      const Print print = result_digest(result);
       if (m == 0) first[cell] = print;
       if (!first[cell]) return;  // interrupted
       const auto differ = std::ranges::mismatch(print.parts, first[cell]->parts);

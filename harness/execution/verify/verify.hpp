@@ -1,4 +1,4 @@
-/// Does the same sweep give the same bits, however it is run?
+/// Check that a sweep is bit-identical for any number of workers and threads.
 #pragma once
 
 #include <atomic>
@@ -12,24 +12,24 @@
 
 namespace loopbench {
 
-/// One way to run a sweep.
+/// Run mode of a sweep.
 struct Manner {
-  bool isolated = true;  ///< worker processes; else threads of this one
+  bool isolated = true;  ///< worker processes; otherwise threads of this process
   int jobs = 1;
 
   std::string name() const;
 };
 
-/// A cell that came out otherwise than in the first manner.
+/// A cell whose result differs from that of the first run mode.
 struct Difference {
-  std::size_t cell = 0;  ///< into the list of cells
+  std::size_t cell = 0;  ///< index into the list of cells
   std::string manner;
   std::string part;  ///< "status", "scores", "trace" or "report": the first that differs
 };
 
-/// Runs all cells in each manner, the first of which is what the others are held to, and compares
-/// everything but times and memory bit by bit. Cells that ended their worker are left out of
-/// threads, and are not compared there. Ordered by manner, then cell. Throws as the sweeps do.
+/// Runs all cells in each mode and compares everything except times and memory bit by bit with the
+/// first mode. Cells that ended their worker are skipped in threads and not compared there. Ordered
+/// by mode, then cell. Throws as the sweeps do.
 std::vector<Difference> verify(const Sweep& sweep,
                                const std::vector<Cell>& cells,
                                const Catalogue& catalogue,

@@ -13,23 +13,23 @@
     const by = R.state.abscissa;
     const far = d3.max(traces, (t) => t[by][t[by].length - 1]) || 1;
     const reference = R.reference(s);
-    // One scale for the three axes: small errors shall look small.
+    // Common scale of the three axes, so that errors are comparable.
     const [low, high] = R.padded(R.extent(traces.flatMap((t) => [t.ex, t.ey, t.ez])));
     for (const [id, key, name, label] of parts) {
       const host = document.getElementById(id);
       host.replaceChildren();
       R.caption(host, name === "rotation" ? "Rotation" : `Along ${name}`, R.runName(s));
-      if (!traces.length) { R.nothing(host, "No method shown has a trajectory here."); continue; }
+      if (!traces.length) { R.nothing(host, "None of the selected methods has a trajectory."); continue; }
       R.chart(host, {
         label: `${label} of ${methods.map((m) => m.label).join(", ")}`, height: 250, zoom: true,
-        x: { label: by === "s" ? "path of the reference [m]" : "time [s]", domain: [0, far] },
+        x: { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, far] },
         y: { label, domain: key === "a" ? [0, 1.05 * (d3.max(traces, (t) => d3.max(t.a)) || 1)] : [low, high] },
         draw: (group, x, y) => {
           group.append("line").attr("class", "zero").attr("x1", -1e4).attr("x2", 1e4).attr("y1", y(0)).attr("y2", y(0));
           for (const [, to] of reference ? reference.closures : []) {
             const at = x(traces[0][by][R.placeAt(traces[0].t, to)]);
             group.append("line").attr("class", "loop").style("opacity", 0.45).attr("x1", at).attr("x2", at).attr("y1", -1e4).attr("y2", 1e4)
-              .append("title").text("here a loop is closed");
+              .append("title").text("loop closure");
           }
           methods.forEach((m, i) => R.curve(group, traces[i][by], traces[i][key], x, y, m));
         },
@@ -38,6 +38,6 @@
     const last = document.getElementById("along-a");
     R.methodLegend(last, methods, false);
     const loops = reference ? reference.closures.length : 0;
-    if (loops) d3.select(last).append("p").attr("class", "hint below").text("Violet: where a loop closes.");
+    if (loops) d3.select(last).append("p").attr("class", "hint below").text("Violet: loop closures.");
   });
 })();

@@ -1,4 +1,4 @@
-// Axes, grid, zoom: what all figures in a plane share.
+// Axes, grid and zoom, common to all planar figures.
 (() => {
   "use strict";
   const R = window.R;
@@ -34,7 +34,7 @@
     return [low / factor, high * factor];
   };
 
-  // A metre along y as long as along x: the shorter domain grows.
+  // Equal scales of x and y: extends the shorter domain.
   const equalised = (x, y, width, height) => {
     const scale = Math.max((x[1] - x[0]) / width, (y[1] - y[0]) / height) || 1;
     const grown = (d, pixels) => {
@@ -49,9 +49,9 @@
   // o: {label, width, height, margin, x: {label, domain, log}, y: likewise or {band}, equal, zoom,
   // draw(group, x, y)}; draw is called again at every zoom.
   R.chart = (host, o) => {
-    // As wide as there is room, so that letters keep their size on a telephone.
+    // Uses the available width, so that text keeps its size on a phone.
     const width = o.width || Math.max(330, Math.min(600, host.clientWidth || 600));
-    // There the names of rows stand above them instead of taking half the room.
+    // On narrow screens row names are above the rows.
     const above = o.y.band !== undefined && width < 480;
     const height = above ? 60 + 36 * o.y.band.length
       : Math.round((o.height || 420) * (o.y.band ? 1 : Math.min(1, 0.3 + (0.7 * width) / 600)));
@@ -80,7 +80,7 @@
       root.append("text").attr("transform", `translate(${-margin.left + 14},${inner.height / 2}) rotate(-90)`)
         .attr("text-anchor", "middle").text(o.y.label);
     }
-    // A log axis over less than a decade has no powers of ten to label: plain ticks then.
+    // A log axis over less than a decade has no powers of ten to label, so it gets plain ticks.
     const ticks = (s, axis, count) => {
       if (!axis.log) return s.ticks(count);
       const [a, b] = s.domain();
@@ -88,7 +88,7 @@
       const leading = b / a < 300 ? [1, 2, 5] : b / a < 3000 ? [1, 3] : [1];
       return s.ticks(30).filter((t) => leading.includes(Math.round(t / Math.pow(10, Math.floor(Math.log10(t) + 1e-9)))));
     };
-    // Numbers take some 7 px a digit: what would touch the one before is left out.
+    // Skips labels that would overlap the previous one (about 7 px per digit).
     const apart = (values, s) => {
       let end = -Infinity;
       return values.filter((t) => {

@@ -1,4 +1,4 @@
-// How a method cut up the way: its segments and windows, and what it chose for each.
+// Segments and windows of a method along the path, and its choice for each.
 (() => {
   "use strict";
   const R = window.R;
@@ -11,7 +11,7 @@
     return;
   }
   const kFamilies = ["#0b6fd3", "#e8710a", "#0f9d58", "#7b3ff2", "#c2185b", "#00a3a3", "#8d5524", "#b58900"];
-  const kPlain = ["#0b6fd3", "#e8710a"]; // neighbours without a name differ all the same
+  const kPlain = ["#0b6fd3", "#e8710a"]; // alternating colours of unnamed neighbours
   const state = { method: has[0].place, kind: "segment" };
   const colourOf = (part, names) => (k) => (part.what[k] ? kFamilies[names.indexOf(part.what[k]) % kFamilies.length] : kPlain[k % 2]);
 
@@ -32,7 +32,7 @@
 
   const map = (host, trace, part, names, title) => {
     host.replaceChildren();
-    R.caption(host, `${part.all} ${part.kind}${part.all === 1 ? "" : "s"} from above`, title);
+    R.caption(host, `${part.all} ${part.kind}${part.all === 1 ? "" : "s"}, top view`, title);
     const colour = colourOf(part, names);
     R.chart(host, {
       label: `${part.kind}s of ${title}`, height: 440, equal: true, zoom: true,
@@ -52,8 +52,8 @@
     const by = R.state.abscissa;
     const at = (t) => trace[by][R.placeAt(trace.t, t)];
     const speed = trace.t.map((t, i) => (i === 0 ? NaN : (trace.s[i] - trace.s[i - 1]) / (t - trace.t[i - 1])));
-    const x = { label: by === "s" ? "path of the reference [m]" : "time [s]", domain: [0, trace[by][trace[by].length - 1]] };
-    R.caption(host, "Along the way", title);
+    const x = { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, trace[by][trace[by].length - 1]] };
+    R.caption(host, "Along the path", title);
     R.chart(host, {
       label: `Speed along ${title}`, height: 190, zoom: false, x, y: { label: "speed [m/s]", domain: [0, 1.05 * (d3.max(speed) || 1)] },
       margin: { left: 110 },
@@ -84,7 +84,7 @@
     const counts = new Map();
     for (const part of parts) for (const what of part.what) if (what) counts.set(what, (counts.get(what) || 0) + 1);
     R.legend(host, names.map((name, i) => ({ name: `${name} (${counts.get(name)})`, color: kFamilies[i % kFamilies.length], wide: true })));
-    if (parts.some((p) => p.all > p.begin.length)) R.nothing(host, "Not all are drawn: there are too many for a page.");
+    if (parts.some((p) => p.all > p.begin.length)) R.nothing(host, "Some segments are not drawn, because there are too many.");
   };
 
   R.follow(() => {
@@ -98,7 +98,7 @@
     if (!trace || !parts) {
       right.replaceChildren();
       left.replaceChildren();
-      return R.nothing(left, `${m.label} told of no segments here.`);
+      return R.nothing(left, `${m.label} reported no segments.`);
     }
     const names = d3.sort(new Set(parts.flatMap((p) => p.what).filter(Boolean)));
     const title = `${m.label}, ${R.runName(s)}`;

@@ -1,4 +1,4 @@
-// What was measured, and how it is asked for. Everything of the report hangs on R.
+// Data of the report and access functions. R is the global namespace.
 (() => {
   "use strict";
   const R = (window.R = window.R || {});
@@ -32,7 +32,7 @@
 
   const path = (packed) => {
     const [t, x, y, z] = ["t", "x", "y", "z"].map((axis) => R.unpack(packed[axis]));
-    const s = new Float64Array(t.length); // length of the way so far [m]
+    const s = new Float64Array(t.length); // distance travelled [m]
     for (let i = 1; i < t.length; ++i) {
       s[i] = s[i - 1] + (Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]) || 0);
     }
@@ -43,7 +43,7 @@
     const packed = raw.traces.sequences[s];
     return packed && { ...path(packed), runs: packed.runs };
   });
-  // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the run that is shown;
+  // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the selected run;
   // or null.
   R.reference = (s) => {
     const found = reference(s);
@@ -74,13 +74,13 @@
     };
   });
 
-  // The drawn estimate of a method on the shown run of a sequence with its errors, or null.
+  // The subsampled estimate of a method on the selected run with its errors, or null.
   R.trace = (s, m) => {
     const i = drawn.get(placeOf(s, m, R.state.repeat));
     return i === undefined ? null : errors(i);
   };
 
-  // How the method of a cell cut up the way: [{kind, begin, end, what, all}], or null.
+  // Segments of the path reported by the method of a cell: [{kind, begin, end, what, all}], or null.
   R.cutOf = cached((i) => {
     const cell = raw.traces.cells[i];
     return (cell && cell.cut && cell.cut.map((part) => ({
@@ -97,7 +97,7 @@
     .filter((c) => c.m === m && (s === null || c.s === s) && c.v[kind] && c.v[kind][statistic] !== null)
     .map((c) => ({ value: c.v[kind][statistic], sequence: c.s, repeat: c.n, ms: c.ms }));
 
-  // The place of the first stamp that is not before t.
+  // Index of the first stamp that is not before t.
   R.placeAt = (stamps, t) => Math.min(d3.bisectLeft(stamps, t), stamps.length - 1);
 
   R.number = (value) => {

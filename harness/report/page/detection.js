@@ -1,4 +1,4 @@
-// How surely places were recognised: the best precision at each recall, of the sequence shown.
+// Precision over recall of the place recognition on the selected sequence.
 (() => {
   "use strict";
   const R = window.R;
@@ -11,7 +11,7 @@
     link.hidden = true;
     return;
   }
-  // The detector saw no method: any cell of the sequence that has the score says the same.
+  // Does not depend on the method: uses any cell of the sequence with the score.
   const valueOf = (place) => {
     const cell = R.scores.cells.find((c) => c.s === R.state.sequence && c.v[place]);
     return cell ? cell.v[place][0] : NaN;
@@ -26,7 +26,7 @@
     const said = ["revisits", "closures", "false_poses", "average_precision", "full_precision_recall"]
       .map((name) => `${name.replaceAll("_", " ")} ${R.number(valueOf(placeOf(name)))}`).join(", ");
     R.caption(host, `Loop detection: ${R.scores.sequences[R.state.sequence]}`, points.length ? said : "");
-    if (!points.length) return R.nothing(host, "No loops were looked for in this sequence, or it has none.");
+    if (!points.length) return R.nothing(host, "This sequence has no loop candidates or no loops.");
     const reached = points.filter((p) => p.y > 0);
     const accepted = { x: valueOf(placeOf("recall")), y: valueOf(placeOf("precision")) };
     R.chart(host, {
@@ -43,6 +43,6 @@
           .append("title").text(`accepted closures: precision ${R.number(accepted.y)}, recall ${R.number(accepted.x)}`);
       },
     });
-    R.legend(host, [{ name: "best precision at this recall or more", color: "#0b6fd3" }, { name: "what was accepted (ring)", color: "#d93025" }]);
+    R.legend(host, [{ name: "best precision at this or higher recall", color: "#0b6fd3" }, { name: "accepted closures (ring)", color: "#d93025" }]);
   });
 })();

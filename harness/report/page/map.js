@@ -1,4 +1,4 @@
-// Seen from above: all methods at once, and one before and one after, coloured by their error.
+// Top view: all methods, and two methods side by side, coloured by error.
 (() => {
   "use strict";
   const R = window.R;
@@ -26,11 +26,11 @@
     const s = R.state.sequence;
     const reference = R.reference(s);
     const methods = R.shown().filter((m) => R.trace(s, m.place));
-    R.caption(host, "From above (xoy)", R.runName(s));
-    if (!reference) return R.nothing(host, "No trajectories were kept of this sequence (traces: false).");
+    R.caption(host, "Top view (x, y)", R.runName(s));
+    if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const traces = methods.map((m) => R.trace(s, m.place));
     R.chart(host, {
-      label: `Trajectories of ${R.scores.sequences[s]} from above`, height: 470, equal: true, zoom: true,
+      label: `Trajectories of ${R.scores.sequences[s]}, top view`, height: 470, equal: true, zoom: true,
       ...around([reference, ...traces]),
       draw: (group, x, y) => {
         band(group, reference, x, y);
@@ -47,7 +47,7 @@
     const trace = R.trace(s, m.place);
     if (!trace) {
       R.caption(host, `${title}: ${m.label}`);
-      return R.nothing(host, "This method has no trajectory here; see the failures.");
+      return R.nothing(host, "This method has no trajectory; see the failures.");
     }
     const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
     const digits = d3.format(".3~g");
@@ -70,7 +70,7 @@
           const loop = group.append("g").attr("class", "loop");
           loop.append("line").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
           for (const [cx, cy] of [[x1, y1], [x2, y2]]) loop.append("circle").attr("cx", cx).attr("cy", cy).attr("r", 3);
-          loop.append("title").text("loop closure: these two places are one");
+          loop.append("title").text("loop closure: the same place");
         }
       },
     });
@@ -93,7 +93,7 @@
     svg.selectAll("rect").data(d3.range(kLevels)).join("rect").attr("x", (l) => 28 + 24 * l).attr("y", 6).attr("width", 24).attr("height", 12)
       .style("fill", (l) => ramp((l + 0.5) / kLevels));
     svg.selectAll(null).data([0, 0.5, 1]).join("text").attr("x", (f) => 28 + 24 * kLevels * f).attr("y", 31).attr("text-anchor", "middle").text((f) => d3.format(".2~g")(most * f));
-    R.nothing(legend, "Position error [m], the same colours on both sides" + (reference.closures.length
+    R.nothing(legend, "Position error [m], same colours on both sides" + (reference.closures.length
       ? `; violet: ${reference.closures.length} of ${reference.allClosures} loop closures.` : "; no loop closures."));
   });
 })();

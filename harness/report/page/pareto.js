@@ -1,5 +1,5 @@
-// What accuracy costs in time; the front joins methods that none beats in both, among those that have
-// every run and were not shown the reference. Relative differences below 1e-6 count as none.
+// Accuracy against time; the Pareto front contains methods that no other beats in both, among those that have
+// every run and do not use the reference. Relative differences below 1e-6 are ignored.
 (() => {
   "use strict";
   const R = window.R;
@@ -28,9 +28,9 @@
     if (!kind) return;
     R.caption(host, `${R.kindLabel(kind)} against time`, s === null
       ? "all sequences, geometric means of methods that have every run" : R.scores.sequences[s]);
-    if (kind.better !== "lower") return R.nothing(host, "Choose an error as score: here less is better.");
+    if (kind.better !== "lower") return R.nothing(host, "Select a score for which lower is better.");
     const all = points(s);
-    if (!all.length) return R.nothing(host, "No method has this score, above zero, here.");
+    if (!all.length) return R.nothing(host, "No method has a positive value of this score.");
     const fair = all.filter((p) => !p.m.oracle);
     const front = d3.sort(fair.filter((p) => !fair.some((q) => beats(q, p))), (p) => p.ms);
     const isNamed = (p) => front.includes(p) || R.state.shown.has(p.m.place);
@@ -46,7 +46,7 @@
           .style("fill", (p) => (R.state.shown.has(p.m.place) ? R.color(p.m.place) : "var(--soft)"))
           .style("fill-opacity", (p) => (front.includes(p) ? 1 : 0.7)).style("stroke", "var(--card)")
           .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms`);
-        // Names do not cover each other: a lower one gives way downwards, the far right stand left.
+        // Avoids overlapping names: lower ones move down, those at the right edge are placed left.
         const taken = [];
         dots.filter(isNamed).sort((a, b) => d3.ascending(a.error, b.error)).each(function (p) {
           const text = R.short(p.m.label, 40);

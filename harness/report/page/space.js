@@ -1,4 +1,4 @@
-// An orthographic view that turns: by dragging, or with the arrow keys.
+// Orthographic 3-D view, rotated by dragging or with the arrow keys.
 (() => {
   "use strict";
   const R = window.R;
@@ -14,7 +14,7 @@
       const right = a * ct - b * st, deep = a * st + b * ct;
       return [right, c * cp + deep * sp];
     };
-    // The box around everything always fills the picture.
+    // The bounding box fills the picture.
     const corners = d3.cross(d3.cross(scene.x, scene.y), scene.z, ([x, y], z) => seen(x, y, z));
     const scale = view.zoom * Math.min(...[[0, kWidth - 70], [1, kHeight - 60]]
       .map(([axis, pixels]) => pixels / (2 * d3.max(corners, (p) => Math.abs(p[axis])) || 1)));
@@ -25,7 +25,7 @@
     const line = d3.line().defined((p) => Number.isFinite(p[0]) && Number.isFinite(p[1]));
     const along = (t) => line(Array.from(t.x, (_, i) => at(t.x[i], t.y[i], t.z[i])));
     svg.selectAll("*").remove();
-    // The floor: a grid below everything, with the reference's shadow on it.
+    // Floor grid with the projection of the reference.
     const floor = scene.z[0];
     const grid = svg.append("g").attr("class", "grid");
     const rule = (p, q) => grid.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]);
@@ -41,7 +41,7 @@
       ends.push([p, q, name]);
       svg.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]).style("stroke", "var(--soft)");
     };
-    axis([x2, y1, floor], `x, ${R.number(step)} m a square`);
+    axis([x2, y1, floor], `x, ${R.number(step)} m per square`);
     axis([x1, y2, floor], "y");
     axis([x1, y1, scene.z[1]], `z, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.stretch === 1 ? "" : ` (× ${view.stretch})`));
     svg.append("path").attr("class", "band").attr("d", along(reference));
@@ -58,8 +58,8 @@
     host.replaceChildren();
     const s = R.state.sequence;
     const reference = R.reference(s);
-    R.caption(host, "In space", R.runName(s));
-    if (!reference) return R.nothing(host, "No trajectories were kept of this sequence (traces: false).");
+    R.caption(host, "3-D view", R.runName(s));
+    if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const methods = R.shown().filter((m) => R.trace(s, m.place));
     const traces = methods.map((m) => R.trace(s, m.place));
     const [x, y, z] = ["x", "y", "z"].map((axis) => R.extent([reference, ...traces].map((t) => t[axis])));
@@ -67,14 +67,14 @@
       x, y, z, reference, methods, traces,
       middle: [x, y, z].map((d) => (d[0] + d[1]) / 2),
     };
-    // Where all is nearly flat, heights are stretched until they show; the z axis says by how much.
+    // Stretches heights of nearly planar trajectories; the z axis shows the factor.
     if (stretchedFor !== s) {
       const wide = Math.max(x[1] - x[0], y[1] - y[0]);
       view.stretch = Math.max(1, Math.min(20, Math.round((0.15 * wide) / Math.max(z[1] - z[0], 1e-9))));
       stretchedFor = s;
     }
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`).attr("role", "img")
-      .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in space; arrow keys turn`)
+      .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in 3-D; arrow keys rotate`)
       .attr("tabindex", 0).attr("class", "turns");
     const again = () => draw(svg, scene);
     const turned = (turn, tilt) => {

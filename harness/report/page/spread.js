@@ -1,9 +1,9 @@
-// How much runs differ: box plots on one sequence, ratios to the baseline with intervals over all.
+// Dispersion over runs: box plots on one sequence, ratios to the baseline with intervals over all.
 (() => {
   "use strict";
   const R = window.R;
   const rowHeight = (rows) => (rows.length > 24 ? 17 : 24);
-  // A swept label loses the names of its options first: its values tell it from its siblings.
+  // Shortens swept labels by dropping option names; the values identify the method.
   const short = (text, most = 30) => {
     const bare = text.length > most ? text.replace(/[\w.]+=/g, "") : text;
     return bare.length > most ? bare.slice(0, most - 1) + "…" : bare;
@@ -17,7 +17,7 @@
       .filter((row) => row.values.length).sort((a, b) => d3.median(a.values) - d3.median(b.values));
     const repeats = d3.max(rows, (row) => row.values.length) || 0;
     R.caption(host, R.kindLabel(kind), `${R.scores.sequences[R.state.sequence]}, ${repeats === 1 ? "one run" : repeats + " repeats"}`);
-    if (!rows.length) return R.nothing(host, "No method has this score here.");
+    if (!rows.length) return R.nothing(host, "No method has this score.");
     const all = rows.flatMap((row) => row.values);
     const log = d3.min(all) > 0 && d3.max(all) / d3.min(all) > 20;
     R.chart(host, {
@@ -41,7 +41,7 @@
       },
     });
     d3.select(host).append("p").attr("class", "hint below")
-      .text(repeats > 2 ? "Dots: runs. Box: quartiles and median; whiskers: least and largest." : "Dots: runs; too few for boxes.");
+      .text(repeats > 2 ? "Dots: runs. Box: quartiles and median; whiskers: minimum and maximum." : "Dots: runs; too few for boxes.");
   };
 
   const forest = (host) => {

@@ -1,4 +1,4 @@
-// Controls, and the first drawing: last of all, when every figure follows.
+// Controls and the first drawing; loaded last, after all figures are registered.
 (() => {
   "use strict";
   const R = window.R;
@@ -23,7 +23,7 @@
     choice("Statistic", indexed(R.scores.statistics), state.statistic, (v) => (state.statistic = Number(v))),
     choice("Along", [["s", "path"], ["t", "time"]], state.abscissa, (v) => (state.abscissa = v)));
   form.append(row);
-  // Which repeat: only where trajectories of several are in the page.
+  // Choice of repeat, if the page has trajectories of several.
   const repeat = element("select");
   repeat.addEventListener("change", () => { state.repeat = Number(repeat.value); R.changed(); });
   const repeatField = element("label", { className: "field" }, "Repeat", repeat);

@@ -1,11 +1,11 @@
-// What is shown: one sequence, one score, some methods. Controls write it, figures follow.
+// Selection: one sequence, one score, some methods. Controls set it, figures are redrawn.
 (() => {
   "use strict";
   const R = window.R;
   const kPalette = ["#0b6fd3", "#0f9d58", "#e8710a", "#7b3ff2", "#00a3a3", "#c2185b", "#b58900", "#4a5bd4", "#8d5524", "#5f8f00"];
   const kDashes = ["", "7 3", "2 2", "9 3 2 3"];
 
-  // Colours go to methods as they are first shown, so that few methods differ clearly.
+  // Assigns colours when methods are first shown, so that a few methods are easy to distinguish.
   const order = [];
   const placeOf = (m) => {
     if (!order.includes(m)) order.push(m);
@@ -26,7 +26,7 @@
       ["protocol", "times", "relation", "axis", "unit"].every((key) => c[key] === k[key])) || null;
   };
 
-  // The baseline, then by rank those that do not look the same.
+  // The baseline, then by rank methods with distinct trajectories.
   const usual = () => {
     const out = R.baseline ? [R.baseline.place] : [];
     const ratios = [1];
@@ -46,18 +46,18 @@
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   shown.forEach((m) => placeOf(m));
   R.state = {
-    // report.html?sequence=driving opens on that one.
+    // report.html?sequence=driving selects that sequence.
     sequence: Math.max(0, R.scores.sequences.indexOf(new URLSearchParams(location.search).get("sequence"))),
     repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
-  // A sequence without that repeat shows its first one.
+  // Falls back to the first repeat.
   R.keepRepeat = () => {
     const own = R.repeats(R.state.sequence);
     if (!own.includes(R.state.repeat)) R.state.repeat = own.length ? own[0] : 0;
   };
   R.keepRepeat();
-  // "room", or "room (repeat 2)" as tables name it: they count from 0.
+  // "room" or "room (repeat 2)" as in tables, counted from 0.
   R.runName = (s) => R.scores.sequences[s] + (R.state.repeat > 0 ? ` (repeat ${R.state.repeat})` : "");
   R.usual = shown;
   R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));

@@ -44,7 +44,7 @@
     const points = family.members.map(({ m, options }) => ({ x: options.get(option), by: other ? options.get(other) : 0, y: valueOf(m.place) }))
       .filter((p) => Number.isFinite(p.y));
     R.caption(host, `${family.name}: ${option}`, R.scores.sequences[R.state.sequence]);
-    if (!points.length) return R.nothing(host, "No value of this score here.");
+    if (!points.length) return R.nothing(host, "No value of this score.");
     const groups = d3.groups(points, (p) => p.by).sort((a, b) => a[0] - b[0]);
     const base = R.baseline ? valueOf(R.baseline.place) : NaN;
     const far = points.map((p) => p.y).concat(Number.isFinite(base) ? [base] : []);
@@ -78,7 +78,7 @@
     const axis = (name) => [...new Set(family.members.map((member) => member.options.get(name)))].sort(d3.ascending);
     const [xs, ys] = [axis(option), axis(other).reverse()];
     R.caption(host, `${family.name}: ${option} and ${other}`, R.kindLabel(kind));
-    if (!all.length) return R.nothing(host, "No value of this score here.");
+    if (!all.length) return R.nothing(host, "No value of this score.");
     const width = Math.max(330, Math.min(600, host.clientWidth || 600));
     const [height, left, top] = [330, width < 480 ? 60 : 80, 10];
     const x = d3.scaleBand(xs, [left, width - 14]).padding(0.04);

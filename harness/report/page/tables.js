@@ -1,4 +1,4 @@
-// Tables sort by their headings; those of scores follow the chosen sequence and a filter.
+// Sorting of tables by their headings; score tables are filtered by sequence and by method name.
 (() => {
   "use strict";
   const R = window.R;

@@ -1,34 +1,36 @@
-/// Where one body sits in another, from how both move: hand and eye.
+/// Hand-eye calibration: extrinsic offset between two bodies from their motions.
 #pragma once
 
 #include "metrics/alignment/hand_eye/turning_stretches.hpp"
 
 namespace loopbench {
 
-/// What reference Q and estimate Z of one body with offset C owe to it: Z C = C Q.
+/// Solution of the hand-eye equation Z C = C Q for relative poses Q (reference) and Z (estimate).
 struct HandEye {
-  /// C, body_from_reference, in the reference's unit of length. Its translation is zero in
-  /// directions that are not told.
+  /// C, body_from_reference, in the reference's scale. Its translation (the lever arm) is zero in
+  /// directions that are not significant.
   Pose body_from_reference;
-  Vector3 deviation = Vector3::Zero();  ///< standard deviations of the translation, 0: not told [m]
-  double turn_explained = 0.0;   ///< part of the squared differences that C's rotation explains [-]
-  double lever_explained = 0.0;  ///< part of what then is left that its translation explains [-]
+  Vector3 deviation =
+      Vector3::Zero();           ///< std of the translation [m]; 0: direction not significant
+  double turn_explained = 0.0;   ///< share of the squared differences explained by C's rotation [-]
+  double lever_explained = 0.0;  ///< share of the remaining ones explained by its translation [-]
 };
 
-/// The rotation turns the reference's motions into the estimate's in least squares (Kabsch, of
-/// rotation vectors, and of displacements where all turn about one axis); it is left out below 5
-/// degrees or where it does not explain half of how they differ. The translation c solves
+/// The rotation maps the reference's motions to the estimate's in least squares (Kabsch, of
+/// rotation vectors, and of displacements if all rotations have one axis). It is the identity if it
+/// is below 5 degrees or does not explain half of the differences. The lever arm c solves
 ///
 ///     (R_Z - I) c + s R_C t_Q + k = R_C t_Q - t_Z
 ///
-/// with Huber's weights, any factor 1 - s of the unit of length (who looks at a thing while going
-/// round it would take one for the other) and drift k of a few per cent a stretch (where all turn
-/// one way it looks like another place). Directions are told that lie three deviations from zero.
-/// What c explains is judged apart from the scale, but of drift, too, and not of jumps.
+/// with Huber weights, for any scale factor 1 - s (a camera that circles an object cannot separate
+/// scale from lever arm) and a drift k of a few per cent per relative pose (if all rotations have
+/// the same sign, drift resembles a lever arm). A direction is significant if it is three standard
+/// deviations from zero. The share explained by c excludes the scale, but not drift or jumps.
 ///
-/// Attitude noise per stretch shrinks c, and who turns on the spot tells nothing of it: all that
-/// the reference moves could be scale. Needs more pairs than unknowns. O(pairs). Source: F. Park,
-/// B. Martin, Robot sensor calibration: solving AX = XB on the Euclidean group, IEEE T-RO 1994.
+/// Rotation noise shrinks c. Rotations in place carry no information about c, because all motion
+/// of the reference can be explained by scale. Needs more pairs than unknowns. O(pairs). Source:
+/// F. Park, B. Martin, Robot sensor calibration: solving AX = XB on the Euclidean group, IEEE T-RO
+/// 1994.
 HandEye hand_eye(const std::vector<MotionPair>& pairs);
 
 }  // namespace loopbench

@@ -9,9 +9,9 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMotionRounding = 1e-18;  // of squared motion: nothing is left to explain
+constexpr double kMotionRounding = 1e-18;  // of the squared motion; below it nothing is explained
 
-/// The place c, the error s of the scale and the drift k of a stretch.
+/// Unknowns: lever arm c, scale error s, and drift k per relative pose.
 using LeverUnknowns = Eigen::Matrix<double, 7, 1>;
 
 Vector3 residual(const LeverEquation& e, const LeverUnknowns& x) {
@@ -23,11 +23,11 @@ struct LeverEstimate {
   Matrix3 covariance;  ///< of c
 };
 
-/// Least squares at noise `sigma`, with what is believed of s and k before.
+/// Least squares with noise `sigma` and priors on s and k.
 LeverEstimate estimate_at(const std::vector<LeverEquation>& all, double sigma, double way) {
-  constexpr double kScale = 10.0;  // of s: any
-  constexpr double kDrift = 0.05;  // of k, part of the way
-  constexpr double kUntold = 1e-12;
+  constexpr double kScale = 10.0;  // prior std of s: uninformative
+  constexpr double kDrift = 0.05;  // prior std of k, relative to the distance
+  constexpr double kRegularisation = 1e-12;
   Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
   LeverUnknowns right = LeverUnknowns::Zero();
   Eigen::Matrix<double, 3, 7> row;
@@ -41,19 +41,20 @@ LeverEstimate estimate_at(const std::vector<LeverEquation>& all, double sigma, d
   const double square = sigma * sigma;
   information(3, 3) += square / (kScale * kScale);
   information.diagonal().tail<3>().array() += square / (kDrift * kDrift * way * way);
-  // Directions of c that nothing tells would have no inverse; they come out as far from sure.
-  information.diagonal().head<3>().array() += kUntold * information.topLeftCorner<3, 3>().trace();
+  // Keeps the inverse finite in unobservable directions of c, with a large variance.
+  information.diagonal().head<3>().array() +=
+      kRegularisation * information.topLeftCorner<3, 3>().trace();
   const Eigen::LDLT<Eigen::Matrix<double, 7, 7>> factor(information);
   const Eigen::Matrix<double, 7, 3> first = Eigen::Matrix<double, 7, 3>::Identity();
   return {factor.solve(right), square * factor.solve(first).topRows<3>()};
 }
 
-/// Keeps of c what is sure along the axes of its covariance. An axis is left out where rotation
-/// tells a thousand times less of it than of the best one: a planar motion has no height, and what
-/// little its attitude errs would be divided by next to nothing.
-LeverFit sure_part(const LeverEstimate& found) {
-  constexpr double kSure = 3.0;   // deviations
-  constexpr double kWorst = 1e3;  // deviations of the best axis
+/// Sets c to zero along axes of its covariance in which it is not significant. Also drops an axis
+/// if its information from rotation is a thousand times less than that of the best axis: in planar
+/// motion the height is unobservable, and small orientation errors would be divided by near zero.
+LeverFit significant_part(const LeverEstimate& found) {
+  constexpr double kSignificance = 3.0;  // standard deviations
+  constexpr double kWorst = 1e3;         // times the standard deviation of the best axis
   const Eigen::SelfAdjointEigenSolver<Matrix3> axes(found.covariance);
   Vector3 sure = Vector3::Zero();
   Vector3 variance = Vector3::Zero();
@@ -61,7 +62,7 @@ LeverFit sure_part(const LeverEstimate& found) {
     const Vector3 axis = axes.eigenvectors().col(i);
     const double square = std::max(0.0, axes.eigenvalues()[i]);
     const double along = axis.dot(found.x.head<3>());
-    if (along * along < kSure * kSure * square) continue;
+    if (along * along < kSignificance * kSignificance * square) continue;
     if (square > kWorst * kWorst * std::max(0.0, axes.eigenvalues()[0])) continue;
     sure += along * axis;
     variance += square * axis.cwiseAbs2();
@@ -69,7 +70,8 @@ LeverFit sure_part(const LeverEstimate& found) {
   return {sure, variance.cwiseSqrt(), 0.0};
 }
 
-/// Squares that a place leaves, the scale chosen for it; no drift: the mean counts, too.
+/// Sum of squared residuals for a lever arm, minimised over the scale; without drift, so the mean
+/// counts.
 double left_by(const std::vector<LeverEquation>& all, const Vector3& lever, double& scale) {
   double way = 0.0, across = 0.0, out = 0.0;
   for (const LeverEquation& e : all) {
@@ -87,7 +89,7 @@ double left_by(const std::vector<LeverEquation>& all, const Vector3& lever, doub
 
 LeverFit fit_lever(std::vector<LeverEquation> all) {
   constexpr int kRounds = 20;
-  constexpr double kSettled = 1e-6;
+  constexpr double kConverged = 1e-6;
   constexpr double kHuber = 2.0, kJump = 6.0;  // times the residuals' scale
   constexpr double kMedianOf3d = 1.54;         // of a standard normal vector's length
   const auto count = static_cast<double>(all.size());
@@ -108,16 +110,16 @@ LeverFit fit_lever(std::vector<LeverEquation> all) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       all[k].weight = lengths[k] > kHuber * sigma ? kHuber * sigma / lengths[k] : 1.0;
     }
-    if (std::abs(sigma - last) <= kSettled * sigma) break;
+    if (std::abs(sigma - last) <= kConverged * sigma) break;
   }
-  LeverFit out = sure_part(found);
+  LeverFit out = significant_part(found);
   for (std::size_t k = 0; k < all.size(); ++k) {
     all[k].weight = lengths[k] > kJump * sigma ? 0.0 : 1.0;
   }
   double scale = 0.0;
   const double before = left_by(all, Vector3::Zero(), scale);
   const double after = left_by(all, out.lever, scale);
-  // Nothing there, chance, or an estimate that stands still.
+  // Zero, not significant, or the estimate does not move.
   if (before <= kMotionRounding * ways || after >= before || scale >= 1.0) return {};
   out.explained = 1.0 - after / before;
   out.lever /= 1.0 - scale;

@@ -1,4 +1,4 @@
-/// Where one body sits in another whose axes are known.
+/// Least-squares lever arm between two bodies with known relative rotation.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace loopbench {
 
-/// moved = turned c + s way + k, a pair each: R_C t_Q - t_Z, R_Z - I and R_C t_Q.
+/// One pair of relative poses: moved = turned c + s way + k, with moved = R_C t_Q - t_Z, turned =
+/// R_Z - I and way = R_C t_Q.
 struct LeverEquation {
   Matrix3 turned;
   Vector3 way;
@@ -16,13 +17,14 @@ struct LeverEquation {
 };
 
 struct LeverFit {
-  Vector3 lever = Vector3::Zero();      ///< c in the reference's unit; 0 where nothing tells [m]
-  Vector3 deviation = Vector3::Zero();  ///< standard deviations, 0: not told [m]
-  double explained = 0.0;               ///< part of the squares that the scale leaves [-]
+  Vector3 lever = Vector3::Zero();      ///< c in the reference's scale; 0 if not significant [m]
+  Vector3 deviation = Vector3::Zero();  ///< standard deviations [m]; 0: not significant
+  double explained = 0.0;  ///< share of the squared residuals explained by c beyond the scale [-]
 };
 
-/// Least squares with Huber's weights, any scale, and drift of a few per cent a stretch; directions
-/// are told that lie three deviations from zero. See hand_eye(). O(equations).
+/// Least squares with Huber weights, free scale, and drift of a few per cent per relative pose.
+/// Directions closer than three standard deviations to zero are set to zero. See hand_eye().
+/// O(equations).
 LeverFit fit_lever(std::vector<LeverEquation> equations);
 
 }  // namespace loopbench

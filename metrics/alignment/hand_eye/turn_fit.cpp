@@ -7,12 +7,12 @@
 namespace loopbench {
 namespace {
 
-constexpr double kExplains = 0.5;                              // of the squares, to be believed
-constexpr double kLeastTurn = 5.0 * std::numbers::pi / 180.0;  // less: a tilt, unseen in a plane
-constexpr double kSecondAxis = 0.02;                           // of turning, of the first
-constexpr double kNothing = 1e-18;  // of squared motion: nothing is left to explain
+constexpr double kExplains = 0.5;                              // share of the squares, to accept
+constexpr double kLeastTurn = 5.0 * std::numbers::pi / 180.0;  // below: a tilt, unobservable in 2-D
+constexpr double kSecondAxis = 0.02;                           // of the first singular value
+constexpr double kNothing = 1e-18;  // of the squared motion; below it nothing is explained
 
-/// Sums of squared turns and ways: each counts in parts of its own size.
+/// Sums of squared rotations and displacements, each normalised by its own size.
 struct MotionSizes {
   double turns = 0.0;
   double ways = 0.0;
@@ -38,12 +38,12 @@ double difference(const std::vector<MotionPair>& pairs,
   return out;
 }
 
-/// Kabsch's rotation.
+/// The rotation by Kabsch's method.
 Rotation turn_of(const Eigen::JacobiSVD<Matrix3>& svd) {
   Matrix3 flip = Matrix3::Identity();
   flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   Rotation turn(Matrix3(svd.matrixU() * flip * svd.matrixV().transpose()));
-  if (turn.w() < 0.0) turn.coeffs() *= -1.0;  // the same turn, in the form that files have
+  if (turn.w() < 0.0) turn.coeffs() *= -1.0;  // the same rotation with w >= 0, as in files
   return turn.normalized();
 }
 
@@ -59,7 +59,8 @@ TurnFit fit_turn(const std::vector<MotionPair>& pairs) {
   }
   constexpr unsigned kWhole = Eigen::ComputeFullU | Eigen::ComputeFullV;
   Eigen::JacobiSVD<Matrix3> svd(turns, kWhole);
-  // Displacements depend on the place sought, too: they only help where all turn about one axis.
+  // Displacements also depend on the unknown lever arm: use them only if all rotations share an
+  // axis.
   const bool about_one_axis = svd.singularValues()[1] <= kSecondAxis * svd.singularValues()[0];
   if (about_one_axis) svd.compute(turns + ways, kWhole);
   const Rotation turn = turn_of(svd);

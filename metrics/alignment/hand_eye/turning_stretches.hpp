@@ -1,4 +1,4 @@
-/// Stretches of the way over which two lists of poses turn.
+/// Relative poses over which two trajectories rotate by a given angle.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace loopbench {
 
-/// How reference and estimate moved over the same time, each in its own body at the beginning.
+/// Relative poses of reference and estimate over the same interval, each in its own body frame at
+/// the start.
 struct MotionPair {
   Pose reference;
   Pose estimate;
 };
 
-/// From each pose on to the first that both have turned to by `turn` [rad]; stretches that take
-/// longer than `longest` [s] are left out, for then odometry has drifted. The lists are pairs.
-/// O(n).
+/// From each pose to the first later pose at which both trajectories have rotated by `turn` [rad].
+/// Intervals longer than `longest` [s] are skipped, because odometry has drifted by then. The lists
+/// are paired. O(n).
 std::vector<MotionPair> turning_stretches(const Trajectory& reference,
                                           const Trajectory& estimate,
                                           double turn,

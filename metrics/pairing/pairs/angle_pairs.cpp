@@ -5,10 +5,10 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kLeaf = 8;    // poses looked at one by one
-constexpr double kRounding = 1e-9;  // [rad]; bounds are wider than what angles round by
+constexpr std::size_t kLeaf = 8;    // poses checked individually
+constexpr double kRounding = 1e-9;  // [rad]; margin of the bounds against rounding
 
-/// Stretches of a trajectory, halved and halved again, each with a bound on its attitudes.
+/// Binary tree of trajectory intervals, each with a bound on its orientations.
 class Attitudes {
  public:
   explicit Attitudes(const Trajectory& trajectory) : poses_(trajectory) {
@@ -24,7 +24,7 @@ class Attitudes {
  private:
   struct Bound {
     Rotation middle = Rotation::Identity();
-    double radius = 0.0;  ///< largest angle from it [rad]
+    double radius = 0.0;  ///< largest angle from the middle orientation [rad]
   };
   struct Wanted {
     std::size_t i;

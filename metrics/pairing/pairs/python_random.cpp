@@ -7,7 +7,7 @@
 namespace loopbench {
 namespace {
 
-/// What init_by_array({0}) leaves as the state; mt19937 takes the 32-bit words as they are.
+/// State after init_by_array({0}); mt19937 takes the 32-bit words unchanged.
 struct SeedZero {
   using result_type = std::uint32_t;
 
@@ -51,7 +51,7 @@ std::size_t PythonRandom::below(std::size_t size) {
 }
 
 std::vector<std::size_t> PythonRandom::sample(std::size_t size, std::size_t count) {
-  // Python's estimate of what a set of `count` takes; a shorter population is copied instead.
+  // Python's size estimate for a set of `count`; it copies a smaller population instead.
   std::size_t set_size = 21;
   if (count > 5) {
     std::size_t table = 1;

@@ -10,7 +10,7 @@
 namespace loopbench {
 namespace {
 
-/// Whole frames, or nothing when no list is that long.
+/// A whole number of frames; nullopt if no list can be that long.
 std::size_t frames(const Stretch& stretch, std::size_t size) {
   check(stretch);
   return static_cast<std::size_t>(std::min(stretch.delta, static_cast<double>(size)));
@@ -38,11 +38,11 @@ void check(const Stretch& stretch) {
     return OptionError("delta", "delta = " + to_text(delta) + ": " + why);
   };
   if (stretch.unit == DeltaUnit::frames && delta != std::floor(delta)) {
-    throw refuse("frames come whole");
+    throw refuse("expected a whole number of frames");
   }
   const bool is_angle = stretch.unit == DeltaUnit::deg || stretch.unit == DeltaUnit::rad;
   const double angle = stretch.unit == DeltaUnit::deg ? delta / kDegrees : delta;
-  if (is_angle && angle > std::numbers::pi) throw refuse("no turn is beyond half a circle");
+  if (is_angle && angle > std::numbers::pi) throw refuse("expected at most 180 degrees");
 }
 
 std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula) {

@@ -1,4 +1,4 @@
-/// Which pairs of poses a relative error compares, by the protocol's rule.
+/// Selection of the pose pairs of a relative error by the protocol's rule.
 #pragma once
 
 #include "metrics/pairing/pair_search.hpp"
@@ -18,16 +18,16 @@ inline auto choices(DeltaUnit) {
 struct Stretch {
   double delta = 1.0;
   DeltaUnit unit = DeltaUnit::frames;
-  double tolerance = 0.1;  ///< part of delta
+  double tolerance = 0.1;  ///< relative to delta [-]
 };
 
-/// Throws OptionError for a delta that is not whole for frames or beyond 180 degrees.
+/// Throws OptionError for a fractional number of frames or an angle beyond 180 degrees.
 void check(const Stretch& stretch);
 
-/// Rule `all`: every i with its one j by frames, seconds or metres (pair_search.hpp), or every j
-/// that is turned by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule
-/// `consecutive`: see consecutive.hpp; only seconds have a tolerance there. Seconds are reference
-/// stamps; metres and angles are measured on `measured`. Throws as check does.
+/// Rule `all`: every i with one j by frames, seconds or metres (pair_search.hpp), or every j
+/// rotated by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule `consecutive`: see
+/// consecutive.hpp; only seconds have a tolerance there. Seconds use reference stamps; metres and
+/// angles are measured on `measured`. Throws as check does.
 std::vector<FromTo> stretch_pairs(const Trajectory& reference,
                                   const Trajectory& measured,
                                   PairRule rule,

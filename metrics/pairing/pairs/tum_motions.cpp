@@ -41,11 +41,11 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
   return out;
 }
 
-/// The pairs, of poses of the estimate, that are no gap of the reference, and the poses they use.
-TumMotions laid_side_by_side(const Paired& whole,
-                             double offset,
-                             const Alignment& alignment,
-                             const std::vector<FromTo>& pairs) {
+/// The pairs of estimate poses without a reference gap, and the poses they use.
+TumMotions paired_motions(const Paired& whole,
+                          double offset,
+                          const Alignment& alignment,
+                          const std::vector<FromTo>& pairs) {
   constexpr std::size_t kUnmatched = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t kUnused = kUnmatched - 1;
   const auto& reference = whole.reference;
@@ -63,7 +63,7 @@ TumMotions laid_side_by_side(const Paired& whole,
     }
   });
   TumMotions out;
-  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // of the poses in `out`
+  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // index into `out`
   const auto taken = [&](std::size_t i) {
     if (place[i] == kUnmatched) {
       place[i] = out.poses.estimate.size();
@@ -127,7 +127,7 @@ TumMotions tum_motions(const Paired& whole,
     }
     pairs = std::move(drawn);
   }
-  return laid_side_by_side(whole, offset, alignment, pairs);
+  return paired_motions(whole, offset, alignment, pairs);
 }
 
 TumMotions tum_random_motions(const Paired& whole,
@@ -143,7 +143,7 @@ TumMotions tum_random_motions(const Paired& whole,
     const std::size_t j = takes_all ? k % n : random.below(n);
     pairs.emplace_back(i, j);
   }
-  return laid_side_by_side(whole, offset, alignment, pairs);
+  return paired_motions(whole, offset, alignment, pairs);
 }
 
 }  // namespace loopbench
