@@ -60,6 +60,8 @@ int run(CLI::App& app,
     return fail(error.what(), kExitBadInput);
   } catch (const OptionError& error) {
     return fail(error.what(), kExitBadInput);
+  } catch (const MissingPart& error) {
+    return fail(error.what(), kExitMissingPart);
   } catch (const std::system_error& error) {
     // fmt throws these when nobody takes what it prints.
     if (std::ferror(stdout) != 0) {
@@ -81,7 +83,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 some cells failed or got worse, 2 unusable input or output, "
-      "3 internal error, 130 interrupted.");
+      "3 internal error, 4 a part that this build was made without is needed, 130 interrupted.");
   int exit_code = kExitOk;
   add_run(app, exit_code, {source_commit, source_state});
   add_list(app, exit_code);

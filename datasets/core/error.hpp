@@ -13,6 +13,12 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A part that this build was made without is needed. Ends a run with exit code 4.
+class MissingPart : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// `file: what`, or `file:line: what` when line > 0.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
   std::string text = file;

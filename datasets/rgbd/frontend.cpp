@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core/utility.hpp>
-
 #include "datasets/rgbd/cpu_clock.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
+#include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/pack_stages.hpp"
 #include "datasets/rgbd/stage_cache.hpp"
@@ -198,8 +197,7 @@ Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
                       const FrontendHooks& hooks) {
-  // Frames are spread over the cores already.
-  cv::setNumThreads(1);
+  run_opencv_on_one_thread();
   const StageCache cache(hooks.cache, source, options);
   std::optional<CacheLock> alone;  // workers of one sweep ask for the same sequence at once
   if (!hooks.cache.empty()) alone.emplace(cache.tracked());
