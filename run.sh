@@ -3,19 +3,33 @@
 # ./run.sh ARGS...  the same set-up, then `loopbench ARGS...`
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/cmake/setup.sh"
-
 build=$here/build/release
-if [[ ! -f $build/build.ninja ]]; then
-  (cd "$here" && cmake --preset release >&2)
-fi
-if [[ ! -x $build/loopbench ]]; then
-  echo "loopbench: building; the first time takes a few minutes" >&2
-  cmake --build "$build" --target loopbench >&2
-else
-  # Quiet when there is nothing to do or all goes well; everything when it does not.
-  log=$(cmake --build "$build" --target loopbench 2>&1) || { echo "$log" >&2; exit 3; }
-fi
-
+source "$here/cmake/setup.sh"
 (($#)) || set -- run "$here/configs/quickstart.yaml"
+
+configure() { (cd "$here" && cmake --preset release -DLOOPBENCH_BUILD_TESTS=OFF >&2); }
+
+build_program() {
+  if [[ ! -x $build/loopbench ]]; then
+    echo "loopbench: building; the first time takes a few minutes" >&2
+    cmake --build "$build" --target loopbench >&2
+  else
+    # Prints nothing unless the build fails.
+    log=$(cmake --build "$build" --target loopbench 2>&1) || { echo "$log" >&2; exit 3; }
+  fi
+}
+
+install_missing "${packages[@]}"
+case $1 in plot | reproduce) install_missing "${plot_packages[@]}" ;; esac
+[[ -f $build/build.ninja ]] || configure
+build_program
+
+grep -q '^LOOPBENCH_OPENCV_INCLUDE:PATH=/' "$build/CMakeCache.txt" && exec "$build/loopbench" "$@"
+code=0
+"$build/loopbench" "$@" || code=$?
+((code == 4)) || exit "$code"
+# Exit code 4: the config reads images, and this build was made without OpenCV.
+install_missing "${image_packages[@]}"
+configure
+build_program
 exec "$build/loopbench" "$@"

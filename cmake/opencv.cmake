@@ -1,10 +1,17 @@
 # The parts of OpenCV that datasets/rgbd uses. By hand: Debian ships OpenCVConfig.cmake only with
-# libopencv-dev, which drags in every module and their graphics stacks.
-find_path(LOOPBENCH_OPENCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+# libopencv-dev, which depends on every module and its graphics stack. Without OpenCV the program
+# is built without the image front end (exit code 4 when a config asks for it).
 find_path(LOOPBENCH_STB_INCLUDE stb/stb_image.h REQUIRED)
+find_path(LOOPBENCH_OPENCV_INCLUDE opencv2/calib3d.hpp PATH_SUFFIXES opencv4)
 add_library(loopbench_opencv INTERFACE)
-target_include_directories(loopbench_opencv SYSTEM INTERFACE ${LOOPBENCH_OPENCV_INCLUDE})
-foreach(part core imgproc features2d calib3d flann)
-  find_library(LOOPBENCH_OPENCV_${part} opencv_${part} REQUIRED)
-  target_link_libraries(loopbench_opencv INTERFACE ${LOOPBENCH_OPENCV_${part}})
-endforeach()
+if(LOOPBENCH_OPENCV_INCLUDE)
+  target_include_directories(loopbench_opencv SYSTEM INTERFACE ${LOOPBENCH_OPENCV_INCLUDE})
+  foreach(part core imgproc features2d calib3d flann)
+    find_library(LOOPBENCH_OPENCV_${part} opencv_${part} REQUIRED)
+    target_link_libraries(loopbench_opencv INTERFACE ${LOOPBENCH_OPENCV_${part}})
+  endforeach()
+  set(loopbench_rgbd_except "/without_opencv\\.cpp$")
+else()
+  message(STATUS "OpenCV was not found: building without the image front end")
+  set(loopbench_rgbd_except "/(opencv|find_features|match_everywhere|pose_by_ransac)\\.cpp$")
+endif()

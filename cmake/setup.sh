@@ -1,30 +1,31 @@
-# Sourced by run.sh and test.sh: installs what is missing, says so, and is silent otherwise.
-# Needs Debian 12 (or a relative with the same package names). Who sources it may name more_packages.
+# Sourced by run.sh and test.sh: install_missing PACKAGE... installs what is not there, and names it.
+# Needs Debian 12 (or a relative with the same package names).
 
 packages=(
-  g++ cmake ninja-build ccache
+  g++ cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
-  libopencv-features2d-dev libopencv-calib3d-dev libopencv-imgcodecs-dev libstb-dev
-  libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox
-  "${more_packages[@]}"
+  libstb-dev
 )
+# OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
+image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
+plot_packages=(gnuplot-nox)
+test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev)
 
-missing=()
-for package in "${packages[@]}"; do
-  status=$(dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null || true)
-  [[ $status == ii* ]] || missing+=("$package")
-done
-
-if ((${#missing[@]})); then
+install_missing() {
+  local package status missing=()
+  for package in "$@"; do
+    status=$(dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null || true)
+    [[ $status == ii* ]] || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
   if ! command -v apt-get >/dev/null; then
     echo "loopbench: please install, by the names of Debian 12: ${missing[*]}" >&2
     exit 2
   fi
-  as_root=()
+  local as_root=()
   ((EUID == 0)) || as_root=(sudo)
   echo "loopbench: installing ${missing[*]}" >&2
   "${as_root[@]}" apt-get -qq update >&2
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" \
     apt-get -qq install -y --no-install-recommends "${missing[@]}" >&2
-fi
-unset packages missing package status as_root
+}

@@ -35,6 +35,7 @@ struct DatasetEntry {
   /// Checks quickly whether the input of load() exists; null if load() itself is fast. Throws the
   /// same exceptions as load().
   std::function<void(const Params&, const DataRoot&)> inspect = {};
+  std::string missing_part = {};  ///< why this build cannot load it; empty: it can
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. Combinations
@@ -57,6 +58,7 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
           },
+          {},
           {}};
 }
 

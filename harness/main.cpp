@@ -60,6 +60,8 @@ int run(CLI::App& app,
     return fail(error.what(), kExitBadInput);
   } catch (const OptionError& error) {
     return fail(error.what(), kExitBadInput);
+  } catch (const MissingPart& error) {
+    return fail(error.what(), kExitMissingPart);
   } catch (const std::system_error& error) {
     // fmt throws these if standard output cannot be written.
     if (std::ferror(stdout) != 0) {
@@ -81,7 +83,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
-      "3 internal error, 130 interrupted.");
+      "3 internal error, 4 the build lacks a required part, 130 interrupted.");
   int exit_code = kExitOk;
   add_run(app, exit_code, {source_commit, source_state});
   add_list(app, exit_code);

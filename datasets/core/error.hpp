@@ -13,6 +13,12 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The build lacks a required part. The program exits with code 4.
+class MissingPart : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Message `file: what`, or `file:line: what` if line > 0.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
   std::string text = file;

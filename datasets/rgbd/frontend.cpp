@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/core/utility.hpp>
-
 #include "datasets/rgbd/cpu_clock.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
+#include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/pack_stages.hpp"
 #include "datasets/rgbd/stage_cache.hpp"
@@ -202,8 +201,7 @@ Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
                       const FrontendHooks& hooks) {
-  // Frames are already processed in parallel.
-  cv::setNumThreads(1);
+  run_opencv_on_one_thread();
   const StageCache cache(hooks.cache, source, options);
   std::optional<CacheLock> lock;  // workers of one sweep may load the same sequence concurrently
   if (!hooks.cache.empty()) lock.emplace(cache.tracked());

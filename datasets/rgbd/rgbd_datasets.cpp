@@ -1,5 +1,6 @@
 #include "datasets/rgbd/rgbd_datasets.hpp"
 
+#include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/render/rendered_room.hpp"
 
 namespace loopbench {
@@ -37,6 +38,9 @@ std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
     const RgbdOptions options = with(RgbdOptions{}, given);
     open_rgbd_folder(root.find(options.path), options.folder);
   };
+  if (!has_opencv()) {
+    for (DatasetEntry& entry : out) entry.missing_part = kWithoutOpencv;
+  }
   return out;
 }
 

@@ -126,6 +126,7 @@ int run(const RunArguments& arguments, const Source& source) {
   const std::vector<bool> with_seed = seeded(sweep, known);
   const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
   if (planned.empty()) throw InputError(arguments.config + ": no cells to run");
+  require_parts(sweep, planned, known);
   if (arguments.dry_run) {
     print_plan(sweep, planned);
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));

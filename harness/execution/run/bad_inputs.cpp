@@ -3,6 +3,7 @@
 #include <exception>
 #include <set>
 
+#include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 
 namespace loopbench {
@@ -28,6 +29,14 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
     }
   }
   return out;
+}
+
+void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue) {
+  for (const Cell& cell : cells) {
+    const DatasetChoice& choice = sweep.datasets[cell.dataset];
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    if (!entry.missing_part.empty()) throw MissingPart(choice.label + ": " + entry.missing_part);
+  }
 }
 
 }  // namespace loopbench

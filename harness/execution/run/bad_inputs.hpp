@@ -17,4 +17,7 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
                                     const Catalogue& catalogue,
                                     const DataRoot& root);
 
+/// Throws MissingPart when a sequence of the cells needs a part that this build was made without.
+void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue);
+
 }  // namespace loopbench

@@ -1,0 +1,27 @@
+#include "datasets/core/error.hpp"
+#include "datasets/rgbd/features/features.hpp"
+#include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/opencv.hpp"
+#include "datasets/rgbd/tracking/camera_pose.hpp"
+
+namespace loopbench {
+
+bool has_opencv() { return false; }
+
+void run_opencv_on_one_thread() {}
+
+Features find_features(const RgbdFrame&, const Camera&, const FeatureOptions&) {
+  throw MissingPart(kWithoutOpencv);
+}
+
+std::vector<Match> match_everywhere(const Features&, const Features&, const MatchOptions&) {
+  throw MissingPart(kWithoutOpencv);
+}
+
+std::optional<Pose> pose_by_ransac(const std::vector<Observation>&,
+                                   const Camera&,
+                                   const PoseOptions&) {
+  throw MissingPart(kWithoutOpencv);
+}
+
+}  // namespace loopbench
