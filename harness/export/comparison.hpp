@@ -17,7 +17,8 @@ Sheet sheet(const Comparison& comparison);
 /// A line per method of every comparison, numbers in full precision; empty where there is none.
 std::string csv(const std::vector<Comparison>& comparisons);
 
-/// An array with an object per comparison: what it is of, verdict, remarks, methods, gaps.
-std::string json(const std::vector<Comparison>& comparisons);
+/// An array with an object per comparison: what it is of, verdict, remarks, methods, gaps. On one
+/// line with an indent below zero.
+std::string json(const std::vector<Comparison>& comparisons, int indent = 2);
 
 }  // namespace loopbench

@@ -18,20 +18,21 @@ struct Shape {
 };
 
 /// normal, uniform, Laplace, Student's t with 3 degrees of freedom, gamma with skewness 1,
-/// exponential (skewness 2), and half ties with normal effects.
+/// exponential (skewness 2), lognormal with sigma 0.5 (skewness 1.8) and 1 (skewness 6.2), and half
+/// ties with normal effects.
 std::vector<Shape> shapes();
 
 /// How the errors of several methods are drawn. Method 0 is the baseline.
 struct Truth {
   std::vector<double> effects;  ///< expected logarithm of each method's error
   std::size_t groups = 10;
-  std::size_t runs_in_group = 1;   ///< runs of a group share `shared` of their deviation
-  double shared = 0.0;             ///< intra-group correlation of the deviations [-]
-  double spread = 0.3;             ///< standard deviation of a method's logarithm [-]
-  std::vector<double> failures = {};///< probability that a method fails; empty: never
-  bool states_groups = true;       ///< false: records without Record::group
-  double copies = 0.0;             ///< share of runs repeated with equal content
-  bool baseline_is_fixed = false;  ///< the baseline's deviation is zero
+  std::size_t runs_in_group = 1;      ///< runs of a group share `shared` of their deviation
+  double shared = 0.0;                ///< intra-group correlation of the deviations [-]
+  double spread = 0.3;                ///< standard deviation of a method's logarithm [-]
+  std::vector<double> failures = {};  ///< probability that a method fails; empty: never
+  bool states_groups = true;          ///< false: records without Record::group
+  double copies = 0.0;                ///< share of runs repeated with equal content
+  bool baseline_is_fixed = false;     ///< the baseline's deviation is zero
 };
 
 /// One ATE per method and run.
