@@ -1,8 +1,8 @@
 /// The numbers that fell into one cell of a table.
 #pragma once
 
-#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +19,13 @@ class CellNumbers {
   void add(const Record& record, double value);
 
   /// Records that were added.
-  std::size_t size() const { return values_.size(); }
+  std::size_t size() const { return added_; }
+  /// Records that are averaged: added and kept.
+  std::size_t averaged() const { return values_.size(); }
+  /// Names of their runs.
+  std::set<std::string> finished() const;
+  /// Leaves only the records of these runs to the average.
+  void keep(const std::set<std::string>& runs);
 
   /// The mean; of gains 1 - the geometric mean ratio, over groups as a verdict has it. None where
   /// that is not a number.
@@ -32,10 +38,17 @@ class CellNumbers {
   bool is_gain() const { return is_gain_; }
 
  private:
+  struct Value {
+    std::string run;
+    std::string group;
+    std::string method;
+    double value = 0.0;
+  };
+
   double gain() const;
 
-  std::vector<double> values_;
-  std::map<std::string, std::map<std::string, double>> by_group_;  // by method and run
+  std::vector<Value> values_;
+  std::size_t added_ = 0;
   ByRun runs_;
   std::string method_;
   Better better_ = Better::neither;

@@ -6,7 +6,7 @@ namespace loopbench {
 namespace {
 
 /// `_` opens emphasis only at the edge of a word, `<` a tag and `&` an entity only before a letter
-/// or a sign: names like uniform_position and p < 0.05 stay readable.
+/// or a sign: names like uniform_position, p < 0.05 and p <= 0.05 stay readable.
 std::string escaped_markdown(const std::string& text) {
   const std::string line = one_line(text);
   const auto is_word = [&](std::size_t i) {
@@ -19,7 +19,7 @@ std::string escaped_markdown(const std::string& text) {
         i + 1 < line.size() &&
         (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
     const bool opens = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
-    if (c == '<' && is_tag) {
+    if (c == '<' && is_tag && line[i + 1] != '=') {
       out += "&lt;";
     } else if (c == '&' && is_tag) {
       out += "&amp;";
