@@ -18,9 +18,10 @@ using Params = std::map<std::string, Param>;
 /// What `list` tells about one option.
 struct OptionInfo {
   std::string name;
-  Param value;       ///< the default
-  std::string help;  ///< what it does, unit in brackets
-  std::string rule;  ///< "0 <= share <= 1", "none | slerp", or empty
+  Param value;           ///< the default
+  std::string help;      ///< what it does, unit in brackets
+  std::string rule;      ///< "0 <= share <= 1", "none | slerp", or empty
+  bool is_text = false;  ///< holds text or a word of a list, whatever its default
 };
 
 /// An option was refused: unknown, of the wrong type, or against its rule.

@@ -11,17 +11,9 @@
 
 namespace loopbench {
 
-/// Whether the option holds text or a word of a list. Its default tells: an optional number, which
-/// is `none` by default, has no list of words as its rule.
-inline bool takes_text(const OptionInfo& option) {
-  const std::string* text = std::get_if<std::string>(&option.value);
-  if (text == nullptr) return false;
-  return *text != "none" || option.rule.find(" | ") != std::string::npos;
-}
-
 /// The value that `option` is given, where `text` is how it was written (empty: nobody wrote it).
 inline Param value_for(const OptionInfo& option, const Param& value, const std::string& text) {
-  return takes_text(option) && !text.empty() ? Param(text) : value;
+  return option.is_text && !text.empty() ? Param(text) : value;
 }
 
 /// Replaces the values of text options; unknown names are left to the check of the options.
