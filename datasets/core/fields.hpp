@@ -174,7 +174,8 @@ std::vector<OptionInfo> describe(Options options) {
     std::string text;
     if constexpr (NamedEnum<Member>) text = choice_list<Member>();
     ((text += (text.empty() ? "" : ", ") + rule.text(name)), ...);
-    out.push_back({name, FieldType<Member>::to_param(member), help, text});
+    const bool is_text = std::same_as<Member, std::string> || NamedEnum<Member>;
+    out.push_back({name, FieldType<Member>::to_param(member), help, text, is_text});
   });
   return out;
 }

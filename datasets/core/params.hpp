@@ -18,9 +18,10 @@ using Params = std::map<std::string, Param>;
 /// Description of one option, as printed by `list`.
 struct OptionInfo {
   std::string name;
-  Param value;       ///< the default
-  std::string help;  ///< meaning, with the unit in brackets
-  std::string rule;  ///< "0 <= share <= 1", "none | slerp", or empty
+  Param value;           ///< the default
+  std::string help;      ///< meaning, with the unit in brackets
+  std::string rule;      ///< "0 <= share <= 1", "none | slerp", or empty
+  bool is_text = false;  ///< holds text or one of a list of words, whatever its default
 };
 
 /// Invalid option: unknown name, wrong type, or value outside its range.

@@ -1,15 +1,11 @@
 #include <CLI/CLI.hpp>
 
-#include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/deliver.hpp"
-#include "harness/model/where.hpp"
-#include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench {
 namespace {
@@ -22,23 +18,6 @@ struct CompareArguments {
   ExportFormat format = ExportFormat::markdown;
   std::string out;
 };
-
-/// Keeps the scores of one metric, selected by its label, by the short name of a score ("error x"),
-/// or otherwise by the metric's name.
-void keep_metric(std::vector<Record>& records, const std::string& metric) {
-  std::vector<std::string> known;
-  for (const char* column : {"label", "score", "metric"}) {
-    const auto is_wanted = [&](const Record& r) { return field(r, column) == metric; };
-    for (const Record& r : records) {
-      if (r.metric.empty() || std::ranges::count(known, field(r, column)) > 0) continue;
-      known.push_back(field(r, column));
-    }
-    if (std::ranges::none_of(records, is_wanted)) continue;
-    std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && !is_wanted(r); });
-    return;
-  }
-  throw InputError("--metric: " + unknown_name("metric", metric, known));
-}
 
 std::string text(const std::vector<Comparison>& comparisons, ExportFormat format) {
   if (format == ExportFormat::csv) return csv(comparisons);
@@ -54,22 +33,9 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
   return out;
 }
 
-int print_comparison(CompareArguments arguments) {
-  std::vector<Record> records = all_records(arguments.store);
-  keep_where(records, arguments.where);
-  if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
-    throw InputError(arguments.store + ": no scores to compare" +
-                     (arguments.where.empty() ? "" : " after --where"));
-  }
-  keep_metric(records, arguments.metric);
-  if (arguments.options.baseline.empty()) {
-    arguments.options.baseline = read_run(arguments.store).at("baseline");
-  }
-  if (arguments.options.baseline.empty()) {
-    throw InputError(arguments.store +
-                     ": the sweep has no baseline; set one with --baseline METHOD");
-  }
-  const std::vector<Comparison> comparisons = compare(records, arguments.options);
+int print_comparison(const CompareArguments& arguments) {
+  const std::vector<Comparison> comparisons =
+      compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
   deliver(text(comparisons, arguments.format),
           arguments.format,
           "comparisons",

@@ -18,9 +18,8 @@ void add_ratio(MethodVerdict& method, const PairedMethods& pair, const Compariso
   const double sign = of.kind.better == Better::higher ? -1.0 : 1.0;
   const double estimate = std::exp(sign * *middle);
   method.ratio = Interval{estimate, estimate, estimate};
-  const CompareOptions& options = of.options;
-  const auto found =
-      mean_interval(pair.common, {1.0 - options.alpha, options.resamples, options.seed});
+  method.why_no_interval = why_no_interval(pair.common);
+  const auto found = mean_interval(pair.common, 1.0 - of.options.alpha);
   if (!found) return;
   const double one = std::exp(sign * found->interval.low);
   const double other = std::exp(sign * found->interval.high);
@@ -76,8 +75,7 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   if (out.groups == 0 || names.size() < 2 || found == names.end()) return out;
   const auto baseline = static_cast<std::size_t>(found - names.begin());
   const Levels levels(kept.values, options.relevant);
-  const Ranking ranking =
-      rank_methods(kept.values, {options.alpha, options.relevant, options.resamples, options.seed});
+  const Ranking ranking = rank_methods(kept.values, {options.alpha, options.relevant});
   const std::vector<std::string> shared = letters(ranking);
   out.is_best_proven = ranking.is_best_proven();
   out.is_ratio = levels.is_ratio();

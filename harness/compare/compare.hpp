@@ -29,8 +29,6 @@ struct CompareOptions {
   Over over = Over::groups;
   double alpha = 0.05;          ///< significance level of one comparison; intervals have 1 - alpha
   double relevant = kRelevant;  ///< relative difference up to which values count as equal
-  std::size_t resamples = 1999;
-  std::uint64_t seed = 1;
 };
 
 struct MethodVerdict {
@@ -41,6 +39,7 @@ struct MethodVerdict {
   std::string why_fails;          ///< "failed 2, declined 1"
   std::optional<Interval> ratio;  ///< geometric mean of value / baseline over groups
   bool has_interval = false;      ///< ratio.low and ratio.high are valid
+  std::string why_no_interval;    ///< reason for a ratio without an interval
   std::size_t wins = 0;           ///< groups better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;

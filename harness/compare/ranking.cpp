@@ -31,8 +31,7 @@ bool mean_agrees(Test& test, bool is_ratio, const RankingOptions& options) {
   const double gain = a_is_better ? -*middle : *middle;
   if (std::abs(gain) <= least) return has_failure(test.pair);  // equal where both have a value
   if (gain < 0.0) return false;
-  const auto interval =
-      mean_interval(test.pair.common, {1.0 - options.alpha, options.resamples, options.seed});
+  const auto interval = mean_interval(test.pair.common, 1.0 - options.alpha);
   if (interval) test.p = std::max(test.p, interval->p);
   return test.p <= options.alpha;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "harness/compare/compare.hpp"
 
@@ -65,7 +66,8 @@ Lines about_methods(const Comparison& c) {
     out.push_back("not ranked, shown the reference (oracle): " + comma_list(c.oracles));
   }
   if (!c.oracle_closures.empty()) {
-    out.push_back("closures measured in the reference (oracle): " + comma_list(c.oracle_closures));
+    out.push_back("closures measured in the reference or selected by it (oracle): " +
+                  comma_list(c.oracle_closures));
   }
   return out;
 }
@@ -74,20 +76,19 @@ Lines about_ratios(const Comparison& c) {
   if (!c.is_ratio) return {"some values are negative: no ratio, tests on plain differences"};
   Lines out;
   Lines zero;
-  bool is_short = false;
+  std::map<std::string, Lines> without;  // by reason
   for (const MethodVerdict& m : c.methods) {
     if (!m.ratio && m.runs > 0) zero.push_back(m.method);
-    is_short = is_short || (m.ratio && !m.has_interval && m.wins + m.losses > 0);
+    if (m.ratio && !m.has_interval && m.wins + m.losses > 0) {
+      without[m.why_no_interval].push_back(m.method);
+    }
   }
   if (!zero.empty()) {
     out.push_back("no ratio to " + c.options.baseline +
                   " where an error is zero (or no run is common): " + comma_list(zero));
   }
-  if (is_short) {
-    out.push_back(
-        fmt::format("no interval from fewer than {} observations that differ, or from "
-                    "too few distinct values",
-                    kFewestForInterval));
+  for (const auto& [why, methods] : without) {
+    out.push_back("no interval for " + comma_list(methods) + ": " + why);
   }
   return out;
 }
@@ -99,15 +100,16 @@ Lines remarks(const Comparison& c) {
   for (std::string& line : about_methods(c)) out.push_back(std::move(line));
   if (c.methods.empty()) return out;
   const double level = 100.0 * (1.0 - c.options.alpha);
-  out.push_back(
-      fmt::format("ratio: geometric mean of value / {}, {:g} % interval (studentised bootstrap of "
-                  "the logarithms, each by itself); effect: rank-biserial, positive is better",
-                  c.options.baseline,
-                  level));
+  out.push_back(fmt::format(
+      "ratio: geometric mean of value / {}, {:g} % interval (Student's, corrected for "
+      "the skewness of the logarithms, each by itself); effect: rank-biserial, positive is better",
+      c.options.baseline,
+      level));
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
-      "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the interval of the "
-      "ratio agrees; rank: what the claims leave open; group: methods that share a letter are not "
+      "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "
+      "ratio agrees, with its interval where there is one; rank: what the claims leave open; "
+      "group: methods that share a letter are not "
       "proven different; differences up to {:g} of a value are ties",
       c.options.baseline,
       c.pairs,

@@ -10,17 +10,9 @@
 
 namespace loopbench {
 
-/// Whether the option holds text or one of a list of words. An optional number also has the default
-/// `none`, but no list of words as its rule.
-inline bool takes_text(const OptionInfo& option) {
-  const std::string* text = std::get_if<std::string>(&option.value);
-  if (text == nullptr) return false;
-  return *text != "none" || option.rule.find(" | ") != std::string::npos;
-}
-
 /// The value for `option`, where `text` is the scalar as written (empty: computed).
 inline Param value_for(const OptionInfo& option, const Param& value, const std::string& text) {
-  return takes_text(option) && !text.empty() ? Param(text) : value;
+  return option.is_text && !text.empty() ? Param(text) : value;
 }
 
 /// Replaces the values of text options; the option check reports unknown names.

@@ -47,7 +47,8 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
   }
   std::string names;
   for (const std::string& name : measured) names += (names.empty() ? "" : ", ") + name;
-  if (!names.empty()) out.push_back("closures are oracle (measured in the reference): " + names);
+  if (!names.empty())
+    out.push_back("closures are oracle (measured in the reference or selected by it): " + names);
   return out;
 }
 

@@ -54,6 +54,7 @@ std::string scripts() {
                            "cut",
                            "spread",
                            "sweeps",
+                           "front",
                            "pareto",
                            "detection",
                            "tables",
@@ -68,7 +69,7 @@ std::string scripts() {
 std::string report_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
   const std::string scores = "{\"scores\":" + scores_json(content) +
-                             ",\"comparisons\":" + json(content.comparisons) + ",\"traces\":";
+                             ",\"comparisons\":" + json(content.comparisons, -1) + ",\"traces\":";
   Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
                       {"style", asset_text("page/report.css")},
                       {"summary", summary_html(content)},

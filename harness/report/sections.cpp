@@ -42,7 +42,7 @@ std::string key_figure(const Comparison& c) {
                        percent(best.ratio->low),
                        percent(best.ratio->high));
   } else {
-    out += "<br>no interval, ";
+    out += "<br>no interval (" + html_text(best.why_no_interval) + "), ";
   }
   out += unit_text(c);
   if (best.fails > 0) out += fmt::format(", {} failed", best.fails);

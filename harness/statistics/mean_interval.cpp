@@ -1,75 +1,84 @@
 #include "harness/statistics/mean_interval.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "harness/statistics/average.hpp"
+#include "harness/statistics/student.hpp"
 
 namespace loopbench {
 namespace {
 
-struct Moments {
-  double mean = 0.0;
-  double error = 0.0;  // standard error of the mean
-};
-
-Moments moments(std::span<const double> values) {
-  const auto n = static_cast<double>(values.size());
-  return {mean(values), sample_deviation(values) / std::sqrt(n)};
-}
-
-/// In [0, count); std::uniform_int_distribution differs between standard libraries.
-std::size_t random_index(std::mt19937_64& bits, std::size_t count) {
-  return static_cast<std::size_t>(static_cast<double>(bits() >> 11) * 0x1p-53 *
-                                  static_cast<double>(count));
-}
-
-/// |mean* - mean| / error* of every resample, ascending; infinite where a resample has no spread.
-std::vector<double> studentised(std::span<const double> values,
-                                const Moments& all,
-                                const ResamplingOptions& options) {
-  std::mt19937_64 bits(options.seed);
-  std::vector<double> resample(values.size());
-  std::vector<double> out(options.resamples);
-  for (double& t : out) {
-    for (double& value : resample) value = values[random_index(bits, values.size())];
-    const Moments own = moments(resample);
-    const bool has_spread = own.error > 1e-9 * all.error;
-    t = has_spread ? std::abs(own.mean - all.mean) / own.error
-                   : std::numeric_limits<double>::infinity();
+/// Number of values that differ, by more than rounding, from the most frequent one.
+std::size_t differing(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const double rounding = 1e-9 * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
+  std::size_t most = 0;
+  for (std::size_t first = 0, i = 0; i < sorted.size(); ++i) {
+    if (sorted[i] - sorted[first] > rounding) first = i;
+    most = std::max(most, i - first + 1);
   }
-  std::ranges::sort(out);
-  return out;
+  return sorted.size() - most;
+}
+
+/// Three quarters of the bias-corrected sample skewness.
+double applied_skewness(std::span<const double> values, double middle, double deviation) {
+  double cubes = 0.0;
+  for (const double value : values) cubes += std::pow((value - middle) / deviation, 3);
+  const auto n = static_cast<double>(values.size());
+  return 0.75 * n / ((n - 1.0) * (n - 2.0)) * cubes;
+}
+
+/// Hall's transformation of (mean - expectation) / deviation, about Student's t for skewed values.
+double symmetrised(double ratio, double skewness, double n) {
+  const double cubic =
+      ratio + skewness * ratio * ratio / 3.0 + skewness * skewness * ratio * ratio * ratio / 27.0;
+  return std::sqrt(n) * (cubic + skewness / (6.0 * n));
+}
+
+/// Inverse of symmetrised.
+double skewed(double t, double skewness, double n) {
+  const double cubic = t / std::sqrt(n) - skewness / (6.0 * n);
+  if (std::abs(skewness) < 1e-8) return cubic;
+  return 3.0 / skewness * (std::cbrt(1.0 + skewness * cubic) - 1.0);
 }
 
 }  // namespace
 
-std::optional<MeanInterval> mean_interval(std::span<const double> values,
-                                          const ResamplingOptions& options) {
-  if (options.resamples == 0 || !(options.level > 0.0 && options.level < 1.0)) {
-    throw std::invalid_argument("a bootstrap needs resamples and a level within (0, 1)");
+std::string why_no_interval(std::span<const double> values) {
+  if (values.size() < kFewestForInterval) {
+    return fmt::format("{} observation{}, {} are needed",
+                       values.size(),
+                       values.size() == 1 ? "" : "s",
+                       kFewestForInterval);
   }
-  const auto differing = static_cast<std::size_t>(
-      std::ranges::count_if(values, [](double value) { return value != 0.0; }));
-  if (differing < kFewestForInterval) return std::nullopt;
-  const Moments all = moments(values);
-  const auto count = static_cast<double>(options.resamples + 1);
-  if (!(all.error > 1e-12 * std::abs(all.mean))) {  // all values are the same
-    return MeanInterval{{all.mean, all.mean, all.mean}, 1.0 / count};
+  const std::size_t count = differing(values);
+  if (count >= kFewestThatDiffer) return "";
+  return fmt::format("{} of {} observations differ from the most frequent value, {} must",
+                     count,
+                     values.size(),
+                     kFewestThatDiffer);
+}
+
+std::optional<MeanInterval> mean_interval(std::span<const double> values, double level) {
+  if (!(level > 0.0 && level < 1.0)) {
+    throw std::invalid_argument("an interval needs a level within (0, 1)");
   }
-  const std::vector<double> sorted = studentised(values, all, options);
-  // The epsilon keeps 0.95 * 2000 from being rounded up to 1901.
-  const auto place = static_cast<std::size_t>(std::ceil(options.level * count - 1e-9));
-  if (place > sorted.size() || !std::isfinite(sorted[place - 1])) return std::nullopt;
-  const double half = sorted[place - 1] * all.error;
-  const double own = std::abs(all.mean) / all.error;
-  const auto beyond = sorted.end() - std::ranges::lower_bound(sorted, own);
-  return MeanInterval{{all.mean, all.mean - half, all.mean + half},
-                      (1.0 + static_cast<double>(beyond)) / count};
+  if (!why_no_interval(values).empty()) return std::nullopt;
+  const auto n = static_cast<double>(values.size());
+  const double middle = mean(values);
+  const double deviation = sample_deviation(values);
+  const double skewness = applied_skewness(values, middle, deviation);
+  const double t = student_quantile(1.0 - level, values.size() - 1);
+  return MeanInterval{{middle,
+                       middle - deviation * skewed(t, skewness, n),
+                       middle - deviation * skewed(-t, skewness, n)},
+                      student_p(symmetrised(middle / deviation, skewness, n), values.size() - 1)};
 }
 
 }  // namespace loopbench

@@ -1,8 +1,8 @@
 /// The numbers that are aggregated in one cell of a table.
 #pragma once
 
-#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +19,13 @@ class CellNumbers {
   void add(const Record& record, double value);
 
   /// Number of added records.
-  std::size_t size() const { return values_.size(); }
+  std::size_t size() const { return added_; }
+  /// Number of averaged records: added and kept.
+  std::size_t averaged() const { return values_.size(); }
+  /// Names of the runs with a value.
+  std::set<std::string> finished() const;
+  /// Restricts the average to the records of these runs.
+  void keep(const std::set<std::string>& runs);
 
   /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
   /// is not a number.
@@ -32,10 +38,17 @@ class CellNumbers {
   bool is_gain() const { return is_gain_; }
 
  private:
+  struct Value {
+    std::string run;
+    std::string group;
+    std::string method;
+    double value = 0.0;
+  };
+
   double gain() const;
 
-  std::vector<double> values_;
-  std::map<std::string, std::map<std::string, double>> by_group_;  // by method and run
+  std::vector<Value> values_;
+  std::size_t added_ = 0;
   ByRun runs_;
   std::string method_;
   Better better_ = Better::neither;

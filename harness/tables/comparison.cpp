@@ -125,7 +125,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
   return out;
 }
 
-std::string json(const std::vector<Comparison>& comparisons) {
+std::string json(const std::vector<Comparison>& comparisons, int indent) {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
   for (const Comparison& c : comparisons) {
@@ -164,6 +164,7 @@ std::string json(const std::vector<Comparison>& comparisons) {
                                   {"fails", m.fails},
                                   {"ratio", ratio},
                                   {"interval", interval},
+                                  {"why_no_interval", m.why_no_interval},
                                   {"better", m.wins},
                                   {"worse", m.losses},
                                   {"equal", m.ties},
@@ -180,7 +181,7 @@ std::string json(const std::vector<Comparison>& comparisons) {
     }
     out.push_back(std::move(entry));
   }
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace loopbench

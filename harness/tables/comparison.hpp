@@ -18,6 +18,7 @@ Sheet sheet(const Comparison& comparison);
 std::string csv(const std::vector<Comparison>& comparisons);
 
 /// Array with one object per comparison: its score, verdict, remarks, methods, gaps.
-std::string json(const std::vector<Comparison>& comparisons);
+/// `indent` below zero writes one line.
+std::string json(const std::vector<Comparison>& comparisons, int indent = 2);
 
 }  // namespace loopbench

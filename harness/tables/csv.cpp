@@ -21,18 +21,19 @@ bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "inco
 }  // namespace
 
 std::string csv(const std::vector<Table>& tables) {
-  std::string out = "table,row,column,value,records,status,mark\n";
+  std::string out = "table,row,column,value,records,averaged,status,mark\n";
   for (const Table& table : tables) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
         const TableCell& cell = table.cells[r][c];
         if (!cell.value && cell.status.empty()) continue;
-        out += fmt::format("{},{},{},{},{},{},{}\n",
+        out += fmt::format("{},{},{},{},{},{},{},{}\n",
                            quoted(table.title),
                            quoted(table.rows[r]),
                            quoted(table.columns[c]),
                            cell.value ? fmt::format("{}", *cell.value) : "",
                            cell.records,
+                           cell.averaged,
                            cell.value ? "ok" : cell.status,
                            mark_name(cell.mark));
       }

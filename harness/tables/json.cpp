@@ -21,6 +21,7 @@ std::string json(const std::vector<Table>& tables) {
       for (const TableCell& cell : row) {
         line.push_back({{"value", cell.value ? Json(*cell.value) : Json(nullptr)},
                         {"records", cell.records},
+                        {"averaged", cell.averaged},
                         {"possible", std::max(cell.records, cell.possible)},
                         {"status", cell.value ? "ok" : cell.status},
                         {"mark", mark_name(cell.mark)}});

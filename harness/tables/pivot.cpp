@@ -1,15 +1,11 @@
 #include "harness/tables/pivot.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/compare/name_order.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/tables/cell_numbers.hpp"
-#include "harness/tables/error_counts.hpp"
 #include "harness/tables/notes.hpp"
+#include "harness/tables/table_numbers.hpp"
 
 namespace loopbench {
 namespace {
@@ -31,30 +27,7 @@ std::string kind(const Record& r) {
          "]";
 }
 
-using Place = std::pair<std::size_t, std::size_t>;  // row, column
-
-struct Builder {
-  NameOrder rows;
-  NameOrder columns;
-  std::map<Place, CellNumbers> numbers;
-  std::map<Place, std::string> status;  // of cells with a record that has no value
-  std::map<Place, std::string> kinds;
-  std::map<Place, std::set<std::string>> lost;               // runs on which a score failed
-  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
-  std::map<std::string, std::set<std::string>> lost_by_method;
-  std::map<std::string, std::string> groups;  // of runs
-  ErrorCounts counts;
-  std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
-  std::set<std::string> oracle_sequences;         // whose closures are measured in the reference
-  std::vector<Missing> missing;
-  std::vector<std::string> notes;
-
-  void note(const std::string& text) {
-    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
-  }
-};
-
-void add(Builder& table, const Record& record, const TableSpec& spec) {
+void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   std::string name = fields_joined(record, spec.rows, ", ");
   if (record.oracle) {
     name += " (oracle)";
@@ -86,6 +59,7 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
     throw InputError("a cell of this table would average '" + other + "' with '" + own +
                      "'; add the column that tells them apart");
   }
+  table.tried[{row, column}].insert(run_key(record));
   if (record.status != "ok") {
     table.status[{row, column}] = record.status;
     if (is_loss(record)) table.lost[{row, column}].insert(run_key(record));
@@ -95,72 +69,29 @@ void add(Builder& table, const Record& record, const TableSpec& spec) {
   table.numbers[{row, column}].add(record, value(record, spec.value));
 }
 
-/// The cells of a column (or a row) that compete, with the runs on which they failed.
-Lane lane(const Builder& table, const std::vector<Place>& places, bool along_columns) {
-  Lane out{{}, table.groups, Better::neither, 0.0};
-  std::set<std::string> runs;
-  for (const Place& place : places) {
-    ByRun& own = out.competitors.emplace_back();
-    const auto found = table.numbers.find(place);
-    if (found == table.numbers.end() || found->second.runs().empty()) continue;
-    own = found->second.runs();
-    out.better = found->second.better();
-    out.target = found->second.target();
-    for (const auto& [run, value] : own) runs.insert(run);
-  }
-  const auto lose = [&](ByRun& own, const auto& losses, const auto& key) {
-    const auto found = losses.find(key);
-    if (own.empty() || found == losses.end()) return;
-    for (const std::string& run : found->second) {
-      if (runs.contains(run)) own.emplace(run, std::nullopt);
-    }
-  };
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    ByRun& own = out.competitors[i];
-    if (own.empty()) continue;
-    lose(own, table.lost, places[i]);
-    if (along_columns) lose(own, table.lost_by_row, places[i].first);
-    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(places[i]).method());
-  }
-  return out;
-}
-
-/// Runs of the competitors that share one with competitor `i`: what its number could be over.
-std::size_t possible(const Lane& lane, std::size_t i) {
-  std::set<std::string> out;
-  for (const ByRun& other : lane.competitors) {
-    const bool shares = std::ranges::any_of(
-        other, [&](const auto& run) { return lane.competitors[i].contains(run.first); });
-    if (!shares) continue;
-    for (const auto& [run, value] : other) out.insert(run);
-  }
-  return out.size();
-}
-
 /// Marks the best along every column (or every row) of the finished table.
-void mark(Table& out, const Builder& table, bool along_columns, const RankingOptions& options) {
+void mark(Table& out,
+          const TableNumbers& table,
+          bool along_columns,
+          const RankingOptions& options) {
   const std::size_t lanes = along_columns ? out.columns.size() : out.rows.size();
-  const std::size_t entries = along_columns ? out.rows.size() : out.columns.size();
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
-    std::vector<Place> places;
-    for (std::size_t i = 0; i < entries; ++i) {
-      places.push_back(along_columns ? Place{i, l} : Place{l, i});
-    }
-    const Lane all = lane(table, places, along_columns);
+    const std::vector<Place> cells = places(table, l, along_columns);
+    const Lane all = lane(table, cells, along_columns);
     const Marks marks = all.better == Better::neither
-                            ? Marks{std::vector<Mark>(entries, Mark::none), ""}
+                            ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
-    for (std::size_t i = 0; i < entries; ++i) {
-      TableCell& cell = out.cells[places[i].first][places[i].second];
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      TableCell& cell = out.cells[cells[i].first][cells[i].second];
       cell.mark = marks.marks[i];
       is_marked = is_marked || cell.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
       const std::size_t most = possible(all, i);
-      if (cell.value && values < most) cell.possible = cell.records + most - values;
+      if (cell.records > 0 && values < most) cell.possible = cell.records + most - values;
     }
   }
   if (is_marked) {
@@ -173,11 +104,11 @@ void mark(Table& out, const Builder& table, bool along_columns, const RankingOpt
 }
 
 /// What a reader must know of the averages.
-void explain_averages(Table& out, const Builder& table) {
+void explain_averages(Table& out, const TableNumbers& table) {
   std::size_t most = 1;
   bool has_gain = false;
   for (const auto& [place, numbers] : table.numbers) {
-    most = std::max(most, numbers.size());
+    most = std::max(most, numbers.averaged());
     has_gain = has_gain || numbers.is_gain();
   }
   if (most < 2) return;
@@ -186,10 +117,13 @@ void explain_averages(Table& out, const Builder& table) {
   out.notes.insert(out.notes.begin(), text);
 }
 
-Table finish(const Builder& table,
+Table finish(TableNumbers& table,
              const std::string& title,
              const TableSpec& spec,
              const RankingOptions& options) {
+  // Methods compete; a best sequence means nothing.
+  const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
+  const bool along_rows = spec.columns == std::vector<std::string>{"method"};
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
@@ -200,7 +134,13 @@ Table finish(const Builder& table,
     std::string names;
     for (const std::string& name : table.oracle_sequences)
       names += (names.empty() ? "" : ", ") + name;
-    out.notes.push_back("closures are oracle, measured in the reference: " + names);
+    out.notes.push_back("closures are oracle, measured in the reference or selected by it: " +
+                        names);
+  }
+  for (const bool along_columns : {true, false}) {
+    if (!(along_columns ? down_columns : along_rows)) continue;
+    const std::string text = keep_common_runs(table, along_columns);
+    if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
   explain_averages(out, table);
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
@@ -217,13 +157,13 @@ Table finish(const Builder& table,
       if (found == table.numbers.end()) continue;
       line[c].value = found->second.average();
       line[c].records = found->second.size();
-      if (!line[c].value) line[c].status = "undefined";
+      line[c].averaged = found->second.averaged();
+      if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";
     }
     out.cells.push_back(std::move(line));
   }
-  // Methods compete; a best sequence means nothing.
-  if (std::ranges::count(spec.rows, "method") > 0) mark(out, table, true, options);
-  if (spec.columns == std::vector<std::string>{"method"}) mark(out, table, false, options);
+  if (down_columns) mark(out, table, true, options);
+  if (along_rows) mark(out, table, false, options);
   return out;
 }
 
@@ -251,8 +191,8 @@ std::vector<Table> pivot(const std::vector<Record>& records,
                          const RankingOptions& options) {
   const TableSpec spec = telling_protocols_apart(given, records);
   NameOrder titles;
-  std::vector<Builder> builders;
-  const auto builder = [&](const std::string& title) -> Builder& {
+  std::vector<TableNumbers> builders;
+  const auto builder = [&](const std::string& title) -> TableNumbers& {
     const std::size_t index = titles.index(title);
     if (index == builders.size()) builders.emplace_back();
     return builders[index];

@@ -9,11 +9,10 @@ namespace loopbench {
 namespace {
 
 std::string shown(const TableCell& cell, int digits) {
-  if (cell.value) {
-    const std::string over =
-        cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
-    return fixed(*cell.value, digits) + over;
-  }
+  const std::string over =
+      cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
+  if (cell.value) return fixed(*cell.value, digits) + over;
+  if (cell.status == kNoCommonRun) return "-" + over;
   return cell.status.empty() ? "-" : cell.status;
 }
 

@@ -42,6 +42,17 @@ std::string why(const Params& given) {
   return "";
 }
 
+TEST(Fields, TellTextFromAnOptionalNumber) {
+  Options defaults;
+  defaults.label = "none";
+  defaults.turn = Turn::none;
+  std::string text;
+  for (const OptionInfo& option : describe(defaults)) {
+    if (option.is_text) text += option.name + " ";
+  }
+  EXPECT_EQ(text, "label turn ");  // and not band, whose default is the word none too
+}
+
 TEST(Fields, EchoNamesEveryFieldWithItsDefault) {
   EXPECT_EQ(to_text(echo(Options{})),
             "band=none, count=3, label=a, robust=true, share=0.5, turn=slerp");

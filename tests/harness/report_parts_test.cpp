@@ -1,11 +1,16 @@
-// Building blocks of the report page: escaped text, packed numbers.
+// Building blocks of the report page: escaped text, packed numbers, the rule of the Pareto front.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "harness/profile/profile.hpp"
+#include "harness/report/assets.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 namespace {
@@ -45,6 +50,41 @@ TEST(Packed, ThinsWithBothEndsKept) {
   EXPECT_EQ(thinned_places(101, 3), (std::vector<std::size_t>{0, 50, 100}));
   EXPECT_EQ(thinned_places(9, 1), (std::vector<std::size_t>{0}));
   EXPECT_TRUE(thinned_places(0, 5).empty());
+}
+
+/// The page's script front.js on these points, as node runs it: "1" on the front, "0" off it.
+std::string front_of_the_page(const std::vector<double>& errors, const std::vector<double>& times) {
+  const auto script = std::ranges::find(assets(), "page/front.js", &Asset::name);
+  const TemporaryFolder folder;
+  const auto file = folder.file("front.js",
+                                "const window = {R: {}};\n" + std::string(script->text) +
+                                    "const ms = " + nlohmann::json(times).dump() +
+                                    ", all = " + nlohmann::json(errors).dump() +
+                                    ".map((error, i) => ({error, ms: ms[i]}));\n"
+                                    "const front = window.R.front(all);\n"
+                                    "require('fs').writeFileSync(process.argv[2], all.map((p) => "
+                                    "(front.includes(p) ? '1' : '0')).join(''));\n");
+  const auto out = folder.path() / "out";
+  const std::string line = "node '" + file.string() + "' '" + out.string() + "'";
+  EXPECT_EQ(std::system(line.c_str()), 0);
+  std::string text;
+  std::ifstream(out) >> text;
+  return text;
+}
+
+TEST(ReportPage, HasTheSameFrontAsTheProfile) {
+  if (std::system("command -v node >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs node";
+  const auto expect = [](const std::vector<double>& errors,
+                         const std::vector<double>& times,
+                         const std::string& front) {
+    EXPECT_EQ(front_of_the_page(errors, times), front);
+    const std::vector<bool> own = pareto_front(errors, times);
+    for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(own[i], front[i] == '1') << i;
+  };
+  expect({1, 2, 3, 2, 4}, {4, 2, 3, 3, 1}, "11001");
+  expect({1, 1, 1}, {2, 2, 3}, "110");   // equals stay
+  expect({1, 1 - 1e-7}, {1, 15}, "10");  // a relative difference that counts as none
+  expect({1, 1 - 1e-5}, {1, 15}, "11");
 }
 
 }  // namespace

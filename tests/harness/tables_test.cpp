@@ -1,4 +1,4 @@
-/// Row filters, marks and output formats of tables.
+/// Row filters, marks and output formats of tables. Averages: pivot_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -187,72 +187,16 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
 TEST(Formats, KeepNamesAndNumbersForMachines) {
   const std::string text = csv(marked());
   EXPECT_NE(text.find("\ndense,\"a|b_&%<\"\"x\"\"\n_c\",ate [m],0.135"), std::string::npos) << text;
-  EXPECT_NE(text.find(",8,ok,best\n"), std::string::npos);
+  EXPECT_NE(text.find(",8,8,ok,best\n"), std::string::npos);
   const std::string object = json(marked());
   EXPECT_NE(object.find("\"a|b_&%<\\\"x\\\"\\n_c\""), std::string::npos) << object;
   EXPECT_NE(object.find("\"mark\": \"second\""), std::string::npos);
 }
 
-TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 6; ++repeat) {
-    records.push_back(ate("raw", 2.0, repeat));
-    records.push_back(ate("dm", 1.0, repeat));
-  }
-  const TableSpec spec{
-      .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
-  const std::vector<Table> tables = pivot(records, spec);
-  ASSERT_EQ(tables[0].cells.size(), 1u);
-  EXPECT_EQ(tables[0].cells[0][0].mark, Mark::none);
-  EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
-  const std::vector<Table> sequences =
-      pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
-  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences are not competitors
-  EXPECT_EQ(sequences[0].notes.size(), 1u);
-}
-
-TEST(Pivot, AveragesGainsByTheirRatios) {
-  std::vector<Record> records;  // ratios 0.5 and 4: their geometric mean is sqrt 2
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    records.push_back(ate("raw", 1.0, repeat));
-    records.push_back(ate("dm", repeat == 0 ? 0.5 : 4.0, repeat));
-  }
-  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
-  const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  EXPECT_NEAR(*table.cells[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
-  EXPECT_EQ(*table.cells[0][1].value, 0.0);
-  EXPECT_EQ(table.notes[0],
-            "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
-            "baseline");
-}
-
-TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 4; ++repeat) {
-    records.push_back(ate("raw", 1.0 + repeat, repeat));
-    records.push_back(ate("dm", 1.0, repeat));
-    if (repeat == 0) continue;
-    records.back().status = "failed";
-    records.back().metric.clear();
-  }
-  const std::vector<Table> tables =
-      pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
-  EXPECT_EQ(sheet(tables[0]).lines[0][1].text, "2.500");
-  EXPECT_EQ(sheet(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
-  EXPECT_NE(json(tables).find("\"possible\": 4"), std::string::npos);
-}
-
-TEST(Pivot, MarksNothingAmongDescriptions) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 6; ++repeat) {
-    for (const char* method : {"raw", "dm"}) {
-      records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
-      records.back().metric = "pairs";
-      records.back().better = Better::neither;
-    }
-  }
-  const std::vector<Table> tables = pivot(records, TableSpec{});
-  for (const auto& row : tables[0].cells) EXPECT_EQ(row[0].mark, Mark::none);
+TEST(Formats, KeepLessOrEqualReadable) {
+  EXPECT_NE(
+      markdown(Sheet{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, &lt;b>"),
+      std::string::npos);
 }
 
 }  // namespace

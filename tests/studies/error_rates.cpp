@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/tables/pivot.hpp"
+#include "harness/store/read.hpp"
+#include "harness/tables/all_records.hpp"
+#include "tests/studies/synthetic_store.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::synthetic {
 namespace {
@@ -49,15 +52,29 @@ std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
   return methods;
 }
 
+/// Comparison and records of one draw.
+struct Drawn {
+  Comparison comparison;
+  std::vector<Record> records;
+};
+
+Drawn drawn(const std::vector<Record>& all, Through through, const TemporaryFolder& folder) {
+  if (through == Through::memory) return {compare(all, {.baseline = "m0"}).at(0), all};
+  write_store(all, folder.path());
+  std::vector<Record> read = read_records(folder.path());
+  return {compare_store(folder.path(), "ate", {}, {}).at(0), std::move(read)};
+}
+
 }  // namespace
 
-ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
+ErrorRates error_rates(
+    const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed, Through through) {
   std::mt19937_64 bits(seed);
+  const TemporaryFolder folder;
   ErrorRates out;
   const std::size_t best = truly_best(truth);
   for (int i = 0; i < repeats; ++i) {
-    const std::vector<Record> all = records(truth, shape, bits);
-    const Comparison c = compare(all, {.baseline = "m0"}).at(0);
+    const auto [c, all] = drawn(records(truth, shape, bits), through, folder);
     const bool is_right = c.is_best_proven && c.methods[0].method == "m" + std::to_string(best);
     out.found += is_right ? 1.0 : 0.0;
     out.false_best += c.is_best_proven && !is_right ? 1.0 : 0.0;
@@ -71,13 +88,15 @@ ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std:
   return out;
 }
 
-Coverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
+IntervalCoverage coverage(
+    const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed, Through through) {
   std::mt19937_64 bits(seed);
+  const TemporaryFolder folder;
   const double ratio = std::exp(truth.effects[1] - truth.effects[0]);
   int given = 0;
   int held = 0;
   for (int i = 0; i < repeats; ++i) {
-    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
+    const Comparison c = drawn(records(truth, shape, bits), through, folder).comparison;
     const MethodVerdict* method = verdict_of(c, 1);
     if (method == nullptr || !method->has_interval) continue;
     ++given;

@@ -13,15 +13,27 @@ struct ErrorRates {
   double marked_wrong = 0.0;  ///< a table marks a method as best that is not
 };
 
-/// Over `repeats` draws. Effects that are equal are true ties: none of them is best.
-ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
+/// Whether records are compared as drawn, or written to a store and read as the command `compare`
+/// reads it.
+enum class Through { memory, store };
 
-struct Coverage {
+/// Over `repeats` draws. Effects that are equal are true ties: none of them is best.
+ErrorRates error_rates(const Truth& truth,
+                       const Shape& shape,
+                       int repeats,
+                       std::uint64_t seed,
+                       Through through = Through::memory);
+
+struct IntervalCoverage {
   double covered = 0.0;   ///< share of the given intervals that hold the true ratio
   double declined = 0.0;  ///< share of comparisons without an interval
 };
 
 /// Of the interval of method 1 against the baseline.
-Coverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
+IntervalCoverage coverage(const Truth& truth,
+                          const Shape& shape,
+                          int repeats,
+                          std::uint64_t seed,
+                          Through through = Through::memory);
 
 }  // namespace loopbench::synthetic

@@ -32,6 +32,10 @@ double gamma4(std::mt19937_64& bits) {
   return sum;
 }
 
+double lognormal(std::mt19937_64& bits) { return std::exp(normal(bits)); }
+
+double mild_lognormal(std::mt19937_64& bits) { return std::exp(0.5 * normal(bits)); }
+
 double half_ties(std::mt19937_64& bits) {
   const bool is_tie = uniform(bits) < 0.5;
   return is_tie ? 0.0 : 1.0 + 0.6 * normal(bits);
@@ -59,6 +63,8 @@ std::vector<Shape> shapes() {
           {"student 3", 0.0, student},
           {"gamma 4", 4.0, gamma4},
           {"exponential", 1.0, exponential},
+          {"lognormal 0.5", 1.1331484530668263, mild_lognormal},
+          {"lognormal 1", 1.6487212707001282, lognormal},
           {"half ties", 0.5, half_ties}};
 }
 

@@ -18,7 +18,8 @@ struct Shape {
 };
 
 /// normal, uniform, Laplace, Student's t with 3 degrees of freedom, gamma with skewness 1,
-/// exponential (skewness 2), and half ties with normal effects.
+/// exponential (skewness 2), lognormal with sigma 0.5 (skewness 1.8) and 1 (skewness 6.2), and half
+/// ties with normal effects.
 std::vector<Shape> shapes();
 
 /// How the errors of several methods are drawn. Method 0 is the baseline.

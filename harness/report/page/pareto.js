@@ -1,12 +1,9 @@
 // Accuracy against time; the Pareto front contains methods that no other beats in both, among those that have
-// every run and do not use the reference. Relative differences below 1e-6 are ignored.
+// every run and do not use the reference.
 (() => {
   "use strict";
   const R = window.R;
   const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
-
-  const less = (a, b) => b - a > 1e-6 * Math.max(Math.abs(a), Math.abs(b));
-  const beats = (p, q) => !less(q.ms, p.ms) && !less(q.error, p.error) && (less(p.ms, q.ms) || less(p.error, q.error));
 
   // Of one sequence, or (s null) of all together.
   const points = (s) => {
@@ -32,7 +29,7 @@
     const all = points(s);
     if (!all.length) return R.nothing(host, "No method has a positive value of this score.");
     const fair = all.filter((p) => !p.m.oracle);
-    const front = d3.sort(fair.filter((p) => !fair.some((q) => beats(q, p))), (p) => p.ms);
+    const front = d3.sort(R.front(fair), (p) => p.ms);
     const isNamed = (p) => front.includes(p) || R.state.shown.has(p.m.place);
     R.chart(host, {
       label: `${R.kindLabel(kind)} against time`, height: 400, zoom: true, margin: { left: 66, right: 24 },

@@ -1,0 +1,63 @@
+#include "harness/tables/common_runs.hpp"
+
+#include <algorithm>
+
+namespace loopbench {
+namespace {
+
+bool meet(const std::set<std::string>& a, const std::set<std::string>& b) {
+  return std::ranges::any_of(a, [&](const std::string& run) { return b.contains(run); });
+}
+
+std::string runs_text(const std::set<std::size_t>& runs) {
+  std::string out;
+  for (const std::size_t count : runs) {
+    out += (out.empty() ? "" : " or ") + (count == 0 ? "none (-)" : std::to_string(count));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::set<std::string>> common_runs(const std::vector<CellRuns>& cells) {
+  std::vector<std::set<std::string>> out(cells.size());
+  std::vector<bool> is_done(cells.size());
+  for (std::size_t first = 0; first < cells.size(); ++first) {
+    if (is_done[first] || cells[first].finished.empty()) continue;
+    std::vector<std::size_t> compared{first};
+    is_done[first] = true;
+    std::set<std::string> common = cells[first].finished;
+    for (std::size_t i = 0; i < compared.size(); ++i) {
+      for (std::size_t other = 0; other < cells.size(); ++other) {
+        if (is_done[other] || cells[other].finished.empty()) continue;
+        if (!meet(cells[compared[i]].tried, cells[other].tried)) continue;
+        compared.push_back(other);
+        is_done[other] = true;
+        std::erase_if(common,
+                      [&](const auto& run) { return !cells[other].finished.contains(run); });
+      }
+    }
+    for (const std::size_t i : compared) out[i] = common;
+  }
+  return out;
+}
+
+std::string CommonRunsNote::text() const {
+  if (runs_.empty()) return "";
+  const std::set<std::size_t>& first = runs_.begin()->second;
+  const bool is_one = std::ranges::all_of(
+      runs_, [&](const auto& lane) { return first.size() == 1 && lane.second == first; });
+  if (is_one && *first.begin() == 0)
+    return "no means (-): no run is one that every method finished";
+  if (is_one) {
+    return "means over the " + std::to_string(*first.begin()) +
+           (*first.begin() == 1 ? " run" : " runs") + " that every method finished";
+  }
+  std::string out;
+  for (const auto& [lane, runs] : runs_) {
+    out += (out.empty() ? "" : ", ") + lane + ": " + runs_text(runs);
+  }
+  return "means over the runs that every method finished (" + out + ")";
+}
+
+}  // namespace loopbench

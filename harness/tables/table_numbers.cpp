@@ -1,0 +1,97 @@
+#include "harness/tables/table_numbers.hpp"
+
+#include "harness/tables/common_runs.hpp"
+
+namespace loopbench {
+namespace {
+
+/// What the cells of a column (or a row) tried and finished.
+std::vector<CellRuns> cell_runs(const TableNumbers& table,
+                                const std::vector<Place>& places,
+                                bool along_columns) {
+  std::vector<CellRuns> out;
+  for (const Place& place : places) {
+    CellRuns& own = out.emplace_back();
+    const auto found = table.numbers.find(place);
+    if (found == table.numbers.end()) continue;
+    own.finished = found->second.finished();
+    own.tried = table.tried.at(place);
+    const auto add = [&](const auto& losses, const auto& key) {
+      if (const auto lost = losses.find(key); lost != losses.end()) {
+        own.tried.insert(lost->second.begin(), lost->second.end());
+      }
+    };
+    if (along_columns) add(table.lost_by_row, place.first);
+    if (!along_columns) add(table.lost_by_method, found->second.method());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Place> places(const TableNumbers& table, std::size_t lane, bool along_columns) {
+  const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
+  std::vector<Place> out;
+  for (std::size_t i = 0; i < entries; ++i) {
+    out.push_back(along_columns ? Place{i, lane} : Place{lane, i});
+  }
+  return out;
+}
+
+Lane lane(const TableNumbers& table, const std::vector<Place>& cells, bool along_columns) {
+  Lane out{{}, table.groups, Better::neither, 0.0};
+  std::set<std::string> runs;
+  for (const Place& place : cells) {
+    ByRun& own = out.competitors.emplace_back();
+    const auto found = table.numbers.find(place);
+    if (found == table.numbers.end() || found->second.runs().empty()) continue;
+    own = found->second.runs();
+    out.better = found->second.better();
+    out.target = found->second.target();
+    for (const auto& [run, value] : own) runs.insert(run);
+  }
+  const auto lose = [&](ByRun& own, const auto& losses, const auto& key) {
+    const auto found = losses.find(key);
+    if (own.empty() || found == losses.end()) return;
+    for (const std::string& run : found->second) {
+      if (runs.contains(run)) own.emplace(run, std::nullopt);
+    }
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ByRun& own = out.competitors[i];
+    if (own.empty()) continue;
+    lose(own, table.lost, cells[i]);
+    if (along_columns) lose(own, table.lost_by_row, cells[i].first);
+    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(cells[i]).method());
+  }
+  return out;
+}
+
+std::string keep_common_runs(TableNumbers& table, bool along_columns) {
+  const std::vector<std::string> names = (along_columns ? table.columns : table.rows).names();
+  CommonRunsNote note;
+  for (std::size_t l = 0; l < names.size(); ++l) {
+    const std::vector<Place> lane_places = places(table, l, along_columns);
+    const std::vector<CellRuns> cells = cell_runs(table, lane_places, along_columns);
+    const auto common = common_runs(cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (cells[i].finished == common[i]) continue;
+      note.add(names[l], common[i].size());
+      table.numbers.at(lane_places[i]).keep(common[i]);
+    }
+  }
+  return note.text();
+}
+
+std::size_t possible(const Lane& lane, std::size_t i) {
+  std::set<std::string> out;
+  for (const ByRun& other : lane.competitors) {
+    const bool shares = std::ranges::any_of(
+        other, [&](const auto& run) { return lane.competitors[i].contains(run.first); });
+    if (!shares) continue;
+    for (const auto& [run, value] : other) out.insert(run);
+  }
+  return out.size();
+}
+
+}  // namespace loopbench

@@ -1,0 +1,57 @@
+/// The numbers of a table before they are averaged, and what is compared in it.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/compare/name_order.hpp"
+#include "harness/tables/cell_numbers.hpp"
+#include "harness/tables/error_counts.hpp"
+#include "harness/tables/mark_best.hpp"
+#include "harness/tables/notes.hpp"
+
+namespace loopbench {
+
+using Place = std::pair<std::size_t, std::size_t>;  // row, column
+
+/// What a table is made from.
+struct TableNumbers {
+  NameOrder rows;
+  NameOrder columns;
+  std::map<Place, CellNumbers> numbers;
+  std::map<Place, std::string> status;  // of cells with a record that has no value
+  std::map<Place, std::string> kinds;
+  std::map<Place, std::set<std::string>> tried;              // runs with a score, whatever it is
+  std::map<Place, std::set<std::string>> lost;               // runs on which a score failed
+  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
+  std::map<std::string, std::set<std::string>> lost_by_method;
+  std::map<std::string, std::string> groups;  // of runs
+  ErrorCounts counts;
+  std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
+  std::set<std::string> oracle_sequences;         // whose closures the reference gave or chose
+  std::vector<Missing> missing;
+  std::vector<std::string> notes;
+
+  void note(const std::string& text) {
+    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  }
+};
+
+/// The cells of one column (or row).
+std::vector<Place> places(const TableNumbers& table, std::size_t lane, bool along_columns);
+
+/// The cells of a column (or a row) that compete, with the runs on which they failed.
+Lane lane(const TableNumbers& table, const std::vector<Place>& cells, bool along_columns);
+
+/// Leaves only runs to the means that the cells compared with them finished too. Returns the note
+/// on this; empty where all finished the same runs.
+std::string keep_common_runs(TableNumbers& table, bool along_columns);
+
+/// Runs of the competitors that share one with competitor `i`: what its number could be over.
+std::size_t possible(const Lane& lane, std::size_t i);
+
+}  // namespace loopbench

@@ -1,0 +1,158 @@
+/// What a table averages, over which runs, and which notes say so.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/tables/derived.hpp"
+#include "harness/tables/text.hpp"
+
+namespace loopbench {
+namespace {
+
+Record ate(const std::string& method, double rmse, int repeat = 0) {
+  Record r;
+  r.sequence = "room";
+  r.repeat = repeat;
+  r.method = method;
+  r.protocol = "evo (align=se3, first=10)";
+  r.times = "dense";
+  r.metric = "ate";
+  r.relation = "translation";
+  r.axis = "3d";
+  r.unit = "m";
+  r.statistics.rmse = rmse;
+  return r;
+}
+
+TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 6; ++repeat) {
+    records.push_back(ate("raw", 2.0, repeat));
+    records.push_back(ate("dm", 1.0, repeat));
+  }
+  const TableSpec spec{
+      .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
+  const std::vector<Table> tables = pivot(records, spec);
+  ASSERT_EQ(tables[0].cells.size(), 1u);
+  EXPECT_EQ(tables[0].cells[0][0].mark, Mark::none);
+  EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
+  const std::vector<Table> sequences =
+      pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
+  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
+  EXPECT_EQ(sequences[0].notes.size(), 1u);
+}
+
+TEST(Pivot, AveragesGainsByTheirRatios) {
+  std::vector<Record> records;  // ratios 0.5 and 4: their geometric mean is sqrt 2
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    records.push_back(ate("raw", 1.0, repeat));
+    records.push_back(ate("dm", repeat == 0 ? 0.5 : 4.0, repeat));
+  }
+  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
+  const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+  EXPECT_NEAR(*table.cells[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
+  EXPECT_EQ(*table.cells[0][1].value, 0.0);
+  EXPECT_EQ(table.notes[0],
+            "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
+            "baseline");
+}
+
+TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 4; ++repeat) {
+    records.push_back(ate("raw", 1.5 + repeat, repeat));
+    records.push_back(ate("dm", 1.0, repeat));
+    if (repeat == 0) continue;
+    records.back().status = "failed";
+    records.back().metric.clear();
+  }
+  const std::vector<Table> tables =
+      pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
+  EXPECT_EQ(sheet(tables[0]).lines[0][1].text, "1.500");  // repeat 0, not 3.000
+  EXPECT_EQ(sheet(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
+  EXPECT_EQ(tables[0].notes[0], "means over the 1 run that every method finished");
+  EXPECT_NE(json(tables).find("\"averaged\": 1"), std::string::npos);
+  EXPECT_NE(json(tables).find("\"possible\": 4"), std::string::npos);
+  EXPECT_NE(csv(tables).find("dense,raw,ate [m],1.5,4,1,ok,"), std::string::npos) << csv(tables);
+}
+
+/// Errors by method and repeat; nan: the method failed there.
+std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
+  std::vector<Record> out;
+  for (const auto& [method, values] : all) {
+    for (std::size_t repeat = 0; repeat < values.size(); ++repeat) {
+      out.push_back(ate(method, values[repeat], static_cast<int>(repeat)));
+      if (!std::isnan(values[repeat])) continue;
+      out.back().status = "failed";
+      out.back().metric.clear();
+    }
+  }
+  return out;
+}
+
+Table table_of(const std::vector<Record>& records) {
+  return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+}
+
+TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
+  const double none = std::nan("");
+  const Table table = table_of(errors({{"raw", {1.0, 2.0, 3.0, 40.0}},
+                                       {"dm", {0.5, 1.5, 1.0, none}},
+                                       {"gp", {none, 1.0, 4.0, 9.0}},
+                                       {"bad", {none, none, none, none}}}));
+  EXPECT_EQ(*table.cells[0][0].value, 2.5);  // repeats 1 and 2 only
+  EXPECT_EQ(*table.cells[1][0].value, 1.25);
+  EXPECT_EQ(*table.cells[2][0].value, 2.5);
+  EXPECT_EQ(table.cells[0][0].averaged, 2u);
+  EXPECT_EQ(table.cells[0][0].records, 4u);
+  EXPECT_EQ(sheet(table).lines[2][1].text, "2.500 (3 of 4)");
+  EXPECT_EQ(sheet(table).lines[3][1].text, "failed");  // and restricts nobody
+  EXPECT_EQ(table.notes[1], "means over the 2 runs that every method finished");
+}
+
+TEST(Pivot, HasNoMeanWithoutACommonRun) {
+  const double none = std::nan("");
+  const Table table = table_of(errors({{"raw", {1.0, none}}, {"dm", {none, 2.0}}}));
+  EXPECT_EQ(sheet(table).lines[0][1].text, "- (1 of 2)");
+  EXPECT_EQ(sheet(table).lines[1][1].text, "- (1 of 2)");
+  EXPECT_EQ(table.notes[0], "no means (-): no run is one that every method finished");
+  EXPECT_NE(csv({table}).find("dense,raw,ate [m],,1,0,no common run,"), std::string::npos)
+      << csv({table});
+}
+
+TEST(Pivot, AveragesGainsOverCommonRuns) {
+  const double none = std::nan("");  // ratios 0.5 and 0.125 of dm, 2 of gp
+  std::vector<Record> records =
+      errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, none}}});
+  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
+  const Table table = table_of(records);
+  EXPECT_NEAR(*table.cells[1][1].value, 75.0, 1e-12);
+  EXPECT_NEAR(*table.cells[2][1].value, -100.0, 1e-12);
+}
+
+TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
+  std::vector<Record> records =
+      errors({{"raw", {1.0, 3.0}}, {"dm", {2.0, std::nan("")}}, {"gp", {5.0, 7.0}}});
+  for (Record& r : records) {
+    if (r.method == "gp") r.sequence = "hall";
+  }
+  const Table table = table_of(records);
+  EXPECT_EQ(*table.cells[0][0].value, 1.0);
+  EXPECT_EQ(*table.cells[2][0].value, 6.0);  // of another sequence
+}
+
+TEST(Pivot, MarksNothingAmongDescriptions) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 6; ++repeat) {
+    for (const char* method : {"raw", "dm"}) {
+      records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
+      records.back().metric = "pairs";
+      records.back().better = Better::neither;
+    }
+  }
+  const std::vector<Table> tables = pivot(records, TableSpec{});
+  for (const auto& row : tables[0].cells) EXPECT_EQ(row[0].mark, Mark::none);
+}
+
+}  // namespace
+}  // namespace loopbench

@@ -1,0 +1,15 @@
+/// Synthetic records through a store, as a sweep writes and `compare` reads them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "harness/model/record.hpp"
+
+namespace loopbench::synthetic {
+
+/// Writes results.sqlite anew into the folder, a cell for every record: its sequence, method,
+/// group, content, status and RMSE. The baseline is m0.
+void write_store(const std::vector<Record>& records, const std::filesystem::path& folder);
+
+}  // namespace loopbench::synthetic
