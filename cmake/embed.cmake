@@ -12,7 +12,7 @@ endforeach()
 file(WRITE ${OUT} "// Written by cmake/embed.cmake.
 #include \"harness/report/assets.hpp\"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 ${bytes}}  // namespace
 
@@ -22,5 +22,5 @@ ${table}  };
   return all;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness
 ")

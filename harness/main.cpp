@@ -21,6 +21,7 @@
 #include "harness/text/printable.hpp"
 
 using namespace loopbench;
+using namespace loopbench::harness;
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/report.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Stage 1: corrects the keyframe poses.
 class Corrector {
@@ -100,4 +100,4 @@ MethodEntry method(std::string name, std::string summary) {
 /// Returns all built-in methods in the order in which tables list them.
 std::vector<MethodEntry> methods();
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -20,7 +20,7 @@
 #include "methods/smoothers/tracked_frames.hpp"
 #include "methods/smoothers/trend_filter.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// The article's equations y = f(x) and z = q(x, y) in world axes, without guards, and pieces that
@@ -172,4 +172,4 @@ std::vector<MethodEntry> methods() {
   };
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -8,7 +8,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 void require_same_stamps(const Trajectory& before, const Trajectory& after) {
@@ -84,4 +84,4 @@ std::unique_ptr<const Method> compose(std::unique_ptr<const Corrector> corrector
   return std::make_unique<Pipeline>(std::move(corrector), std::move(smoother));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

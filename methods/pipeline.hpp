@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns the problem with its keyframes replaced. Each tracked frame keeps its pose relative to
 /// the two keyframes around it, interpolated by time. Edges are copied unchanged. O(keyframes +
@@ -16,4 +16,4 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes);
 std::unique_ptr<const Method> compose(std::unique_ptr<const Corrector> corrector,
                                       std::unique_ptr<const Smoother> smoother);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Properties that must be equal in both binaries before they exchange our types.
 struct Abi {
@@ -29,12 +29,12 @@ struct Plugin {
   std::vector<MethodEntry> (*methods)();
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods
 
 /// Exports the methods of a plugin: LOOPBENCH_PLUGIN(method<Mine>("mine", "what it computes"))
-#define LOOPBENCH_PLUGIN(...)                                                 \
-  extern "C" const loopbench::Plugin* loopbench_plugin() {                    \
-    static const loopbench::Plugin plugin{                                    \
-        {}, [] { return std::vector<loopbench::MethodEntry>{__VA_ARGS__}; }}; \
-    return &plugin;                                                           \
+#define LOOPBENCH_PLUGIN(...)                                                          \
+  extern "C" const loopbench::methods::Plugin* loopbench_plugin() {                    \
+    static const loopbench::methods::Plugin plugin{                                    \
+        {}, [] { return std::vector<loopbench::methods::MethodEntry>{__VA_ARGS__}; }}; \
+    return &plugin;                                                                    \
   }

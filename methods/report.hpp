@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct Phase {
   std::string name;
@@ -45,4 +45,4 @@ struct Report {
   }
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

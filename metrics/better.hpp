@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 enum class Better {
   lower,    ///< errors and times
@@ -19,4 +19,4 @@ inline auto choices(Better) {
                     std::pair{"neither", Better::neither}};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

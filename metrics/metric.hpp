@@ -11,7 +11,7 @@
 #include "metrics/evaluation/undefined.hpp"
 #include "metrics/numerics/statistics.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct Score {
   std::string relation;  ///< "translation", "rotation"
@@ -89,4 +89,4 @@ MetricEntry metric_without_reference(std::string name, std::string summary, Func
 /// All built-in metrics.
 std::vector<MetricEntry> metrics();
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

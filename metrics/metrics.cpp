@@ -22,7 +22,7 @@
 #include "metrics/errors/segments.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 Score single(std::string relation, std::string axis, std::string unit, double value) {
   if (!std::isfinite(value)) throw std::runtime_error(relation + " is not finite");
@@ -81,4 +81,4 @@ std::vector<MetricEntry> metrics() {
   };
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -10,7 +10,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 // Seed of the checksum; change it with the file layout.
@@ -66,4 +66,4 @@ std::filesystem::path cached_path(const std::filesystem::path& folder,
   return folder / fmt::format("{}-{:016x}", stage, key);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

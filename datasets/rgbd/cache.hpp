@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Binary serialisation of numbers, strings and vectors of numbers.
 class Pack {
@@ -105,4 +105,4 @@ std::filesystem::path cached_path(const std::filesystem::path& folder,
                                   const std::string& stage,
                                   std::uint64_t key);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -11,7 +11,7 @@
 
 #include "datasets/formats/text_file.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -146,4 +146,4 @@ Camera tum_camera(int freiburg) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Camera {
   int width = 640;                                          ///< [px]
@@ -36,4 +36,4 @@ Camera read_camera(const std::filesystem::path& file);
 /// Camera Calibration of the Kinect".
 Camera tum_camera(int freiburg);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

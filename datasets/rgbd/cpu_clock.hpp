@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// CPU time of the calling thread [s], independent of the load of the machine.
 inline double cpu_seconds() {
@@ -12,4 +12,4 @@ inline double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

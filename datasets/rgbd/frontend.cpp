@@ -10,7 +10,7 @@
 #include "datasets/rgbd/stage_cache.hpp"
 #include "datasets/rgbd/tracking/focal_check.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr std::size_t kMinGaps = 8;  // minimum number of gaps for a meaningful median
@@ -260,4 +260,4 @@ Sequence run_frontend(const RgbdSource& source,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -11,7 +11,7 @@
 #include "datasets/rgbd/rgbd_source.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct FrontendOptions {
   FeatureOptions features;
@@ -54,4 +54,4 @@ Sequence run_frontend(const RgbdSource& source,
                       const FrontendOptions& options,
                       const FrontendHooks& hooks);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Pixels in row-major order without padding.
 template <class Pixel>
@@ -38,4 +38,4 @@ struct RgbdFrame {
   DepthImage depth;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

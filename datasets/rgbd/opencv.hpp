@@ -1,7 +1,7 @@
 /// OpenCV finds and matches features. A build without it has every dataset but those of images.
 #pragma once
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 inline constexpr const char* kWithoutOpencv =
     "this build has no image front end: OpenCV was not found when loopbench was configured "
@@ -14,4 +14,4 @@ bool has_opencv();
 /// Frames are distributed over the cores by the front end, so OpenCV itself runs on one thread.
 void run_opencv_on_one_thread();
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -11,7 +11,7 @@
 
 #include "datasets/core/parallel.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Calls take(i, make(i)) for i = 0 .. count - 1. `make` runs on `workers` threads, at most `ahead`
 /// items before the next item to be taken; `take` runs on the calling thread, in order. Results do
@@ -74,4 +74,4 @@ void ordered_pipeline(
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

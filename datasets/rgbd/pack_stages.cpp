@@ -2,7 +2,7 @@
 
 #include "datasets/rgbd/cache.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 // Lists of members, used for both writing and reading: io(member) does either.
@@ -148,4 +148,4 @@ DetectedLoops unpacked_loops(const std::string& bytes) { return read<DetectedLoo
 std::string packed(const RefinedEdges& edges) { return serialised(edges); }
 RefinedEdges unpacked_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -8,7 +8,7 @@
 #include "datasets/rgbd/loops/detector.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Features of a frame, or the reason why it could not be read.
 struct FrameFeatures {
@@ -26,4 +26,4 @@ DetectedLoops unpacked_loops(const std::string& bytes);
 std::string packed(const RefinedEdges& edges);
 RefinedEdges unpacked_edges(const std::string& bytes);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

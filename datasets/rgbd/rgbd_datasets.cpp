@@ -3,7 +3,7 @@
 #include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/render/rendered_room.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks) {
   return run_frontend(*rendered_room(options.render), "rendered_room", options.frontend, hooks);
@@ -44,4 +44,4 @@ std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -9,7 +9,7 @@
 #include "datasets/rgbd/frontend.hpp"
 #include "datasets/rgbd/render/render_options.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct RenderedRoomOptions {
   RenderOptions render;
@@ -57,4 +57,4 @@ Sequence load_rgbd(const RgbdOptions& options,
 /// Entries of both datasets.
 std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

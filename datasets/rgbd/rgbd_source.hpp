@@ -9,7 +9,7 @@
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 class RgbdSource {
  public:
@@ -30,4 +30,4 @@ class RgbdSource {
   virtual Provenance provenance() const = 0;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -4,7 +4,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 // Increment with any change of the result of a stage for the same input.
@@ -31,4 +31,4 @@ std::filesystem::path StageCache::frame(std::size_t index) const {
   return frames_ / fmt::format("{:06}", index);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -7,7 +7,7 @@
 #include "datasets/rgbd/cache.hpp"
 #include "datasets/rgbd/frontend.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// The key of a stage depends on the images and on the options of this and all previous stages:
 /// features, tracking, loops, refinement by depth. An empty folder disables the cache.
@@ -46,4 +46,4 @@ class StageCache {
   std::filesystem::path refined_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

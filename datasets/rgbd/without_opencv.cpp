@@ -4,7 +4,7 @@
 #include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 bool has_opencv() { return false; }
 
@@ -24,4 +24,4 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>&,
   throw MissingPart(kWithoutOpencv);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

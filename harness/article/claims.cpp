@@ -8,7 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "harness/article/reported.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 const std::string kInput = "closed";
@@ -69,10 +69,10 @@ Claim ordering(const Judge& judge, const ReportedRow& row) {
   const PaperCell* ours = judge.cell(row.sequence, row.variant);
   const PaperCell* raw = judge.cell(row.sequence, kBaseline);
   if (ours == nullptr || raw == nullptr) return claim;
-  const auto a = axis_numbers(*ours, row.axis, Times::keyframes);
-  const auto b = axis_numbers(*raw, row.axis, Times::keyframes);
-  const auto a_dense = axis_numbers(*ours, row.axis, Times::dense);
-  const auto b_dense = axis_numbers(*raw, row.axis, Times::dense);
+  const auto a = axis_numbers(*ours, row.axis, metrics::Times::keyframes);
+  const auto b = axis_numbers(*raw, row.axis, metrics::Times::keyframes);
+  const auto a_dense = axis_numbers(*ours, row.axis, metrics::Times::dense);
+  const auto b_dense = axis_numbers(*raw, row.axis, metrics::Times::dense);
   if (!a || !b || !a_dense || !b_dense) return claim;
   const int at_keyframes = judge.compare(a->ate, b->ate);
   claim.verdict = at_keyframes == printed_order ? Verdict::holds : Verdict::does_not_hold;
@@ -100,7 +100,7 @@ Claim best(const Judge& judge,
   claim.because.clear();
   for (const std::string& variant : variants) {
     const PaperCell* cell = judge.cell(sequence, variant);
-    const auto numbers = cell ? axis_numbers(*cell, axis, Times::dense) : std::nullopt;
+    const auto numbers = cell ? axis_numbers(*cell, axis, metrics::Times::dense) : std::nullopt;
     if (!numbers) {
       claim.because = variant + " has no result";
       return claim;
@@ -119,11 +119,11 @@ Claim best(const Judge& judge,
 }
 
 /// Share of tenths of the time in which ours has the lower rmse.
-double better_tenths(const Evaluation& ours, const Evaluation& raw) {
+double better_tenths(const metrics::Evaluation& ours, const metrics::Evaluation& raw) {
   constexpr std::size_t kParts = 10;
   std::array<double, kParts> sum{};
   const std::size_t n = std::min(ours.estimate.size(), raw.estimate.size());
-  const auto square = [](const Evaluation& e, std::size_t i) {
+  const auto square = [](const metrics::Evaluation& e, std::size_t i) {
     return (e.estimate[i].world_from_body.translation - e.reference[i].world_from_body.translation)
         .squaredNorm();
   };
@@ -143,8 +143,8 @@ void whole(const Judge& judge,
   Claim smooth = judge.claim(sequence, variant + ": smoother than ORB_SLAM2's trajectory");
   const PaperCell* ours = judge.cell(sequence, variant);
   const PaperCell* raw = judge.cell(sequence, kBaseline);
-  const auto a = ours ? ate_3d(*ours, Times::dense) : std::nullopt;
-  const auto b = raw ? ate_3d(*raw, Times::dense) : std::nullopt;
+  const auto a = ours ? ate_3d(*ours, metrics::Times::dense) : std::nullopt;
+  const auto b = raw ? ate_3d(*raw, metrics::Times::dense) : std::nullopt;
   if (a && b) {
     const double change = 100.0 * (*a / *b - 1.0);
     level.verdict = std::abs(change) <= 5.0 ? Verdict::holds : Verdict::does_not_hold;
@@ -195,4 +195,4 @@ std::string claim_table(const std::vector<Claim>& claims) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/article/paper_run.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 enum class Verdict { holds, does_not_hold, cannot_be_judged };
 inline auto choices(Verdict) {
@@ -34,4 +34,4 @@ std::vector<Claim> judge_claims(const std::vector<PaperCell>& cells,
 /// A Markdown table.
 std::string claim_table(const std::vector<Claim>& claims);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

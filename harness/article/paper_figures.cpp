@@ -9,7 +9,7 @@
 #include "harness/plot/gnuplot.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr const char* kRed = "#d62728";
@@ -63,11 +63,11 @@ PlotPanel panel(const PaperCell& ours, const PaperCell& raw, const Span& span, b
 std::optional<Span> segment_like(const Trajectory& keyframes,
                                  const Printed& printed,
                                  const std::pair<double, double>& speeds) {
-  const manifold::Nodes nodes(keyframes);
+  const methods::manifold::Nodes nodes(keyframes);
   std::optional<Span> best;
   double best_overlap = -std::numeric_limits<double>::infinity();
-  for (const manifold::NodeRange& run :
-       manifold::segments(nodes, {printed.speed_band, printed.turn_max})) {
+  for (const methods::manifold::NodeRange& run :
+       methods::manifold::segments(nodes, {printed.speed_band, printed.turn_max})) {
     if (run.nodes() < 5) continue;
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
@@ -125,4 +125,4 @@ std::vector<std::string> paper_figures(const std::vector<PaperCell>& cells,
   return written;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/execution/run/run_cell.hpp"
 #include "metrics/trajectory/losses.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 const std::string kPaperBaseline = "ORB_SLAM2";
@@ -50,10 +50,10 @@ double roughness(const Trajectory& poses) {
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
 }
 
-const Statistics* find_score(const PaperCell& cell,
-                             const std::string& metric,
-                             const std::string& axis,
-                             Times times) {
+const metrics::Statistics* find_score(const PaperCell& cell,
+                                      const std::string& metric,
+                                      const std::string& axis,
+                                      metrics::Times times) {
   for (const ScoreResult& s : cell.result.scores) {
     if (s.status == Status::ok && s.times == times && s.metric == metric && s.score.axis == axis &&
         s.score.relation == "translation") {
@@ -78,17 +78,17 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
     PaperCell& paper = out[i];
     paper.result = run_cell(planned[i], sweep, *sequence, catalogue);
     if (paper.result.status == Status::ok) {
-      Report unused;
+      methods::Report unused;
       const auto curve =
           make_method(sweep.methods[planned[i].method], catalogue, sequence->reference)
               ->estimate(sequence->problem, unused);
-      paper.dense = evaluate(sequence->reference,
-                             *curve,
-                             stamps(sequence->problem.keyframes),
-                             Times::dense,
-                             sweep.protocols.front().rules,
-                             tracked_stamps(sequence->problem));
-      paper.keyframes = moved(paper.dense.alignment, sequence->problem.keyframes);
+      paper.dense = metrics::evaluate(sequence->reference,
+                                      *curve,
+                                      stamps(sequence->problem.keyframes),
+                                      metrics::Times::dense,
+                                      sweep.protocols.front().rules,
+                                      metrics::tracked_stamps(sequence->problem));
+      paper.keyframes = metrics::moved(paper.dense.alignment, sequence->problem.keyframes);
       paper.roughness = roughness(paper.dense.estimate);
     }
     sequences.done(planned[i]);
@@ -99,15 +99,15 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
 
 std::optional<AxisNumbers> axis_numbers(const PaperCell& cell,
                                         const std::string& axis,
-                                        Times times) {
-  const Statistics* errors = find_score(cell, "axis_error", axis, times);
-  const Statistics* relative = find_score(cell, "rpe", axis, times);
+                                        metrics::Times times) {
+  const metrics::Statistics* errors = find_score(cell, "axis_error", axis, times);
+  const metrics::Statistics* relative = find_score(cell, "rpe", axis, times);
   if (errors == nullptr || relative == nullptr) return std::nullopt;
   return AxisNumbers{errors->max, errors->min, errors->mean, errors->rmse, relative->rmse};
 }
 
-std::optional<double> ate_3d(const PaperCell& cell, Times times) {
-  const Statistics* errors = find_score(cell, "ate", "3d", times);
+std::optional<double> ate_3d(const PaperCell& cell, metrics::Times times) {
+  const metrics::Statistics* errors = find_score(cell, "ate", "3d", times);
   if (errors == nullptr) return std::nullopt;
   return errors->rmse;
 }
@@ -126,4 +126,4 @@ const PaperCell* find_cell(const std::vector<PaperCell>& cells,
   return nullptr;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/execution/run/sequences.hpp"
 #include "harness/model/result.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One method on one input, identified by config labels: "fr1_room closed", "robust N4".
 struct PaperCell {
@@ -18,9 +18,9 @@ struct PaperCell {
   std::string reading;   ///< interpretation of the article: literal, robust; empty for ORB_SLAM2
   std::string variant;   ///< ORB_SLAM2, N3..N5, M6..M8
   CellResult result;
-  Trajectory keyframes;  ///< keyframes of the input, aligned to the reference like `dense`
-  Evaluation dense;      ///< at the reference's stamps; empty if the cell failed
-  double roughness = 0;  ///< RMS second difference of the dense positions over dt^2 [m/s^2]
+  Trajectory keyframes;       ///< keyframes of the input, aligned to the reference like `dense`
+  metrics::Evaluation dense;  ///< at the reference's stamps; empty if the cell failed
+  double roughness = 0;       ///< RMS second difference of the dense positions over dt^2 [m/s^2]
 };
 
 /// One axis of the article's tables; all in metres.
@@ -42,10 +42,10 @@ std::vector<PaperCell> run_paper(const Sweep& sweep,
 /// nullopt if the cell has no such scores.
 std::optional<AxisNumbers> axis_numbers(const PaperCell& cell,
                                         const std::string& axis,
-                                        Times times);
+                                        metrics::Times times);
 
 /// 3-D rmse at `times` [m], or nullopt.
-std::optional<double> ate_3d(const PaperCell& cell, Times times);
+std::optional<double> ate_3d(const PaperCell& cell, metrics::Times times);
 
 /// The cell of the same input with this reading and variant, or null. The reading is ignored for
 /// ORB_SLAM2.
@@ -54,4 +54,4 @@ const PaperCell* find_cell(const std::vector<PaperCell>& cells,
                            const std::string& reading,
                            const std::string& variant);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

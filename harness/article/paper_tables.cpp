@@ -4,7 +4,7 @@
 
 #include "harness/article/reported.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string line(const std::string& variant,
@@ -30,8 +30,8 @@ std::string ours(const std::vector<PaperCell>& cells, const ReportedRow& row) {
     if (cell.sequence != row.sequence || cell.variant != row.variant) continue;
     const std::string source = cell.input + (cell.reading.empty() ? "" : ", " + cell.reading);
     const char* note = cell.result.oracle_method ? "oracle: uses the reference" : "";
-    const auto keyframes = axis_numbers(cell, row.axis, Times::keyframes);
-    const auto dense = axis_numbers(cell, row.axis, Times::dense);
+    const auto keyframes = axis_numbers(cell, row.axis, metrics::Times::keyframes);
+    const auto dense = axis_numbers(cell, row.axis, metrics::Times::dense);
     if (!keyframes || !dense) {
       out += fmt::format("| {} | {} | | | | | | | {} |\n", row.variant, source, cell.result.why);
       continue;
@@ -68,4 +68,4 @@ std::string paper_tables(const std::vector<PaperCell>& cells) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

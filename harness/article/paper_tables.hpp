@@ -6,9 +6,9 @@
 
 #include "harness/article/paper_run.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Markdown, four tables with headings; rows that are inconsistent as printed have a note.
 std::string paper_tables(const std::vector<PaperCell>& cells);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

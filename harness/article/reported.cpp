@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 const std::vector<ReportedRow>& reported_rows() {
   // The OCR scrambled the rows of table 3; they are assigned by the printed N.
@@ -38,4 +38,4 @@ std::string contradiction(const ReportedRow& row) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

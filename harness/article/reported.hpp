@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One printed row; all errors in metres, at one axis.
 struct ReportedRow {
@@ -25,4 +25,4 @@ const std::vector<ReportedRow>& reported_rows();
 /// RPE over the same axis is at most twice the ATE. Empty if it is consistent.
 std::string contradiction(const ReportedRow& row);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -12,17 +12,17 @@
 #include "methods/smoothers/manifold/window_fit.hpp"
 #include "metrics/numerics/median.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
-using manifold::Family;
-using manifold::Kappa;
-using manifold::Nodes;
-using manifold::NodeSpline;
-using manifold::PlanarPiece;
-using manifold::PlanarRule;
-using manifold::Window;
-using manifold::WindowFitter;
+using methods::manifold::Family;
+using methods::manifold::Kappa;
+using methods::manifold::Nodes;
+using methods::manifold::NodeSpline;
+using methods::manifold::PlanarPiece;
+using methods::manifold::PlanarRule;
+using methods::manifold::Window;
+using methods::manifold::WindowFitter;
 
 constexpr std::array kFamilies{Family::poly2, Family::poly3, Family::sin1, Family::rat02};
 constexpr const char* kNames[] = {"parabola", "cubic", "sine", "rational"};
@@ -96,8 +96,11 @@ struct Run {
       : truth(raw.dense.reference),
         nodes(keyframes),
         spline(nodes),
-        kappa(kappas(
-            nodes, raw.keyframes, Kappa::turn_per_kf, manifold::Plane::space, Vector3::UnitZ())) {}
+        kappa(kappas(nodes,
+                     raw.keyframes,
+                     Kappa::turn_per_kf,
+                     methods::manifold::Plane::space,
+                     Vector3::UnitZ())) {}
 
   double speed(std::size_t edge) const { return nodes.step(edge).norm() / nodes.duration(edge); }
 
@@ -110,7 +113,7 @@ struct Run {
   }
 
   void enter(std::size_t first, Contest& contest) const {
-    const manifold::NodeRange range{first, first + kNodes - 1};
+    const methods::manifold::NodeRange range{first, first + kNodes - 1};
     const Window window{range, range};
     const Vector3 up = Vector3::UnitZ();
     const PlanarRule rule{.size = kNodes};
@@ -127,7 +130,7 @@ struct Run {
     auto pose = std::ranges::lower_bound(truth, nodes.stamps[range.first], {}, &StampedPose::stamp);
     for (std::size_t edge = range.first; edge < range.last; ++edge) {
       for (; pose != truth.end() && pose->stamp <= nodes.stamps[edge + 1]; ++pose) {
-        const manifold::Place place = spline.at(edge, pose->stamp);
+        const methods::manifold::Place place = spline.at(edge, pose->stamp);
         const Vector3 reference_point = pose->world_from_body.translation - nodes.base;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
           contest.squares[k] += (asked(pieces[k], place) - reference_point).squaredNorm();
@@ -180,11 +183,11 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
               "too few joints"};
   Problem problem;
   problem.keyframes = raw.keyframes;
-  Report unused;
-  const auto curve = Dm({.planar = 3,
-                         .gap = {{}, {}},
-                         .up = manifold::Up::world_z,
-                         .joint = {.meet = manifold::Meet::none}})
+  methods::Report unused;
+  const auto curve = methods::Dm({.planar = 3,
+                                  .gap = {{}, {}},
+                                  .up = methods::manifold::Up::world_z,
+                                  .joint = {.meet = methods::manifold::Meet::none}})
                          .fit(problem, unused, {});
   if (!curve) return claim;
   const Nodes nodes(raw.keyframes);
@@ -197,7 +200,8 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
     if (piece[i - 1] == piece[i]) continue;
     const Vector3 before = curve->motion(i - 1, nodes.stamps[i]).first;
     const Vector3 after = curve->motion(i, nodes.stamps[i]).first;
-    joints.emplace_back(0.5 * (speed(i - 1) + speed(i)), manifold::turn_between(before, after));
+    joints.emplace_back(0.5 * (speed(i - 1) + speed(i)),
+                        methods::manifold::turn_between(before, after));
   }
   if (joints.size() < 4) return claim;
   std::ranges::sort(joints);
@@ -206,8 +210,8 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
     (2 * k < joints.size() ? slow : fast).push_back(joints[k].second);
   }
   const double degrees = 180.0 / std::numbers::pi;
-  const double slow_angle = degrees * median(slow);
-  const double fast_angle = degrees * median(fast);
+  const double slow_angle = degrees * metrics::median(slow);
+  const double fast_angle = degrees * metrics::median(fast);
   claim.verdict = fast_angle < 1.0 && slow_angle >= 1.0 ? Verdict::holds : Verdict::does_not_hold;
   claim.because = fmt::format(
       "median angle at {} joints: {:.2f} deg above {:.3f} m/s, {:.2f} deg below; C1 would be 0",
@@ -237,4 +241,4 @@ std::vector<Claim> judge_segment_claims(const std::vector<PaperCell>& cells) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "harness/article/claims.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Checked on the closed run of each sequence, in chord axes for any reading.
 ///
@@ -21,4 +21,4 @@ namespace loopbench {
 /// holds if the angle is less than a degree in the faster half and more in the slower.
 std::vector<Claim> judge_segment_claims(const std::vector<PaperCell>& cells);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

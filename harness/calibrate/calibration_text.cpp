@@ -7,7 +7,7 @@
 
 #include "harness/provenance/version.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Double-quoted YAML scalar.
@@ -65,12 +65,12 @@ std::string calibration_yaml(const Calibration& c) {
     out += "\n";
   }
   out += "# Correlations of the regressors; near 1, two of them cannot be separated.\n";
-  for (std::size_t a = 1; a < kGrowths.size(); ++a) {
-    for (std::size_t b = a + 1; b < kGrowths.size(); ++b) {
-      const double r = correlation(kGrowths[a], kGrowths[b], c.sequences);
+  for (std::size_t a = 1; a < methods::kGrowths.size(); ++a) {
+    for (std::size_t b = a + 1; b < methods::kGrowths.size(); ++b) {
+      const double r = correlation(methods::kGrowths[a], methods::kGrowths[b], c.sequences);
       out += fmt::format("#   {} {}: {}\n",
-                         name_of(kGrowths[a]),
-                         name_of(kGrowths[b]),
+                         methods::name_of(methods::kGrowths[a]),
+                         methods::name_of(methods::kGrowths[b]),
                          std::isfinite(r) ? fmt::format("{:.2f}", r) : "one is constant");
     }
   }
@@ -96,4 +96,4 @@ std::string calibration_yaml(const Calibration& c) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/calibrate/ladder.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Calibration {
   std::string config;  ///< as given
@@ -29,4 +29,4 @@ struct Calibration {
 /// the options that a config can use (`calibration: FILE`).
 std::string calibration_yaml(const Calibration& calibration);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,19 +4,19 @@
 #include <cmath>
 #include <random>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct Shape {
   const char* method;
-  std::vector<Growth> noise;
-  std::vector<Growth> drift[2];  ///< translation, rotation
+  std::vector<methods::Growth> noise;
+  std::vector<methods::Growth> drift[2];  ///< translation, rotation
 };
 
 /// The models of the catalogue's methods; translation drift, which motion_drift omits unless its
 /// size is given, is estimated here.
 std::vector<Shape> shapes() {
-  using enum Growth;
+  using enum methods::Growth;
   return {{"motion_drift_const", {edge}, {}},
           {"motion_drift_time", {time}, {}},
           {"motion_drift_distance", {time, distance}, {}},
@@ -25,7 +25,7 @@ std::vector<Shape> shapes() {
           {"motion_drift", {time, distance, rotation}, {{distance}, {time, distance, rotation}}}};
 }
 
-constexpr Half kHalves[] = {Half::translation, Half::rotation};
+constexpr methods::Half kHalves[] = {methods::Half::translation, methods::Half::rotation};
 
 std::vector<Residuals> redrawn(const std::vector<Residuals>& sequences,
                                std::size_t segment,
@@ -51,7 +51,7 @@ std::vector<Rung> climb(const std::vector<Residuals>& sequences) {
   std::vector<Rung> out;
   for (const Shape& shape : shapes()) {
     Rung rung{shape.method, {}, {}};
-    for (const Half half : kHalves) {
+    for (const methods::Half half : kHalves) {
       const auto h = static_cast<std::size_t>(half);
       rung.rates[h] = fit_rates(half, shape.noise, shape.drift[h], sequences);
       if (sequences.size() < 2) continue;
@@ -71,16 +71,16 @@ std::vector<Rung> climb(const std::vector<Residuals>& sequences) {
 
 std::vector<std::pair<std::string, double>> options_of(const Rung& rung) {
   std::vector<std::pair<std::string, double>> out;
-  for (const Half half : kHalves) {
+  for (const methods::Half half : kHalves) {
     const Rates& rates = rung.rates[static_cast<std::size_t>(half)];
     for (std::size_t j = 0; j < rates.noise.size(); ++j) {
       const double value = rates.noise_variance[j];
-      out.emplace_back(name_of(Term{Cause::noise, half, rates.noise[j]}),
+      out.emplace_back(methods::name_of(methods::Term{methods::Cause::noise, half, rates.noise[j]}),
                        value > 1e-20 ? value : 0.0);
     }
     for (std::size_t j = 0; j < rates.drift.size(); ++j) {
       const double value = std::sqrt(rates.drift_variance[j]);
-      out.emplace_back(name_of(Term{Cause::drift, half, rates.drift[j]}),
+      out.emplace_back(methods::name_of(methods::Term{methods::Cause::drift, half, rates.drift[j]}),
                        value > 1e-10 ? value : 0.0);
     }
   }
@@ -97,7 +97,7 @@ std::vector<RateInterval> bootstrap(const Rung& rung,
   for (int draw = 0; draw < draws; ++draw) {
     const std::vector<Residuals> drawn = redrawn(sequences, segment, random);
     Rung again = rung;
-    for (const Half half : kHalves) {
+    for (const methods::Half half : kHalves) {
       Rates& rates = again.rates[static_cast<std::size_t>(half)];
       rates = fit_rates(half, rates.noise, rates.drift, drawn);
     }
@@ -116,11 +116,11 @@ std::vector<RateInterval> bootstrap(const Rung& rung,
   return out;
 }
 
-double root_mean_square(Half half, const std::vector<Residuals>& sequences) {
+double root_mean_square(methods::Half half, const std::vector<Residuals>& sequences) {
   double sum = 0.0;
   for (const Residuals& s : sequences) {
     for (const EdgeResidual& edge : s.edges) {
-      if (half == Half::translation) {
+      if (half == methods::Half::translation) {
         sum += edge.error.head(s.planar ? 2 : 3).squaredNorm();
       } else {
         sum += edge.error.tail(s.planar ? 1 : 3).squaredNorm();
@@ -130,7 +130,7 @@ double root_mean_square(Half half, const std::vector<Residuals>& sequences) {
   return std::sqrt(sum / count(half, sequences));
 }
 
-double correlation(Growth a, Growth b, const std::vector<Residuals>& sequences) {
+double correlation(methods::Growth a, methods::Growth b, const std::vector<Residuals>& sequences) {
   double n = 0.0, sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
   for (const Residuals& s : sequences) {
     for (const EdgeResidual& edge : s.edges) {
@@ -147,4 +147,4 @@ double correlation(Growth a, Growth b, const std::vector<Residuals>& sequences) 
   return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

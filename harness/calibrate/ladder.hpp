@@ -9,7 +9,7 @@
 
 #include "harness/calibrate/rates.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct RateInterval {
   double low = 0.0;
@@ -41,9 +41,9 @@ std::vector<RateInterval> bootstrap(const Rung& rung,
                                     std::uint64_t seed);
 
 /// Root mean square of the translation or rotation errors over all axes. [m], [rad]
-double root_mean_square(Half half, const std::vector<Residuals>& sequences);
+double root_mean_square(methods::Half half, const std::vector<Residuals>& sequences);
 
 /// Pearson correlation over all edges; NaN if one of them is constant.
-double correlation(Growth a, Growth b, const std::vector<Residuals>& sequences);
+double correlation(methods::Growth a, methods::Growth b, const std::vector<Residuals>& sequences);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

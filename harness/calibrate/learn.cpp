@@ -5,7 +5,7 @@
 #include "harness/execution/run/sequences.hpp"
 #include "harness/text/pattern.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kStretches[] = {1, 5, 20, 50};
@@ -42,7 +42,8 @@ Calibration learn(const Sweep& sweep,
     }
   }
   if (wanted.empty()) {
-    throw InputError(sweep.config.string() + ": no dataset's label matches '" + options.train + "'");
+    throw InputError(sweep.config.string() + ": no dataset's label matches '" + options.train +
+                     "'");
   }
 
   Sequences sequences(sweep, catalogue, root, wanted);
@@ -62,8 +63,9 @@ Calibration learn(const Sweep& sweep,
   for (const std::size_t edges : kStretches) {
     const std::vector<Residuals> at = residuals_of(loaded, labels, edges);
     if (at.size() < out.sequences.size()) break;
-    out.stretches.push_back(
-        {edges, {root_mean_square(Half::translation, at), root_mean_square(Half::rotation, at)}});
+    out.stretches.push_back({edges,
+                             {root_mean_square(methods::Half::translation, at),
+                              root_mean_square(methods::Half::rotation, at)}});
   }
   out.rungs = climb(out.sequences);
   for (const Rung& rung : out.rungs) {
@@ -72,4 +74,4 @@ Calibration learn(const Sweep& sweep,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

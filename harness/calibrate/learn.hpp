@@ -7,7 +7,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct LearnOptions {
   std::string train;       ///< a Pattern: only datasets whose label contains a match
@@ -21,4 +21,4 @@ Calibration learn(const Sweep& sweep,
                   const DataRoot& root,
                   const LearnOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,11 +6,11 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
-std::vector<Eigen::Index> axes(Half half, bool planar) {
-  if (half == Half::translation) {
+std::vector<Eigen::Index> axes(methods::Half half, bool planar) {
+  if (half == methods::Half::translation) {
     return planar ? std::vector<Eigen::Index>{0, 1} : std::vector<Eigen::Index>{0, 1, 2};
   }
   return planar ? std::vector<Eigen::Index>{5} : std::vector<Eigen::Index>{3, 4, 5};
@@ -31,7 +31,7 @@ Design design(const Rates& rates, const Residuals& sequence) {
              Eigen::MatrixXd(n, static_cast<Eigen::Index>(on.size()))};
   for (Eigen::Index i = 0; i < n; ++i) {
     const EdgeResidual& edge = sequence.edges[static_cast<std::size_t>(i)];
-    const auto fill = [&](Eigen::MatrixXd& matrix, const std::vector<Growth>& terms) {
+    const auto fill = [&](Eigen::MatrixXd& matrix, const std::vector<methods::Growth>& terms) {
       for (std::size_t j = 0; j < terms.size(); ++j) {
         matrix(i, static_cast<Eigen::Index>(j)) = edge.grown[static_cast<std::size_t>(terms[j])];
       }
@@ -89,7 +89,7 @@ std::vector<Design> designs(const Rates& rates, const std::vector<Residuals>& se
 
 }  // namespace
 
-double count(Half half, const std::vector<Residuals>& sequences) {
+double count(methods::Half half, const std::vector<Residuals>& sequences) {
   double out = 0.0;
   for (const Residuals& s : sequences) {
     out += static_cast<double>(s.edges.size() * axes(half, s.planar).size());
@@ -109,9 +109,9 @@ double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequence
   return -0.5 * sum;
 }
 
-Rates fit_rates(Half half,
-                const std::vector<Growth>& noise,
-                const std::vector<Growth>& drift,
+Rates fit_rates(methods::Half half,
+                const std::vector<methods::Growth>& noise,
+                const std::vector<methods::Growth>& drift,
                 const std::vector<Residuals>& sequences,
                 int iterations) {
   Rates out{half, noise, drift, {}, {}};
@@ -166,4 +166,4 @@ Rates fit_rates(Half half,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,13 +6,13 @@
 #include "harness/calibrate/residuals.hpp"
 #include "methods/correctors/motion_drift/model.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Regressors of the translation or rotation error, with their variances.
 struct Rates {
-  Half half = Half::translation;
-  std::vector<Growth> noise;
-  std::vector<Growth> drift;
+  methods::Half half = methods::Half::translation;
+  std::vector<methods::Growth> noise;
+  std::vector<methods::Growth> drift;
   std::vector<double> noise_variance;  ///< [m^2/unit] or [rad^2/unit]
   std::vector<double> drift_variance;  ///< of a rate on one axis [(m/unit)^2] or [(rad/unit)^2]
 };
@@ -22,7 +22,7 @@ struct Rates {
 double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequences);
 
 /// Number of errors: edges times axes of the component.
-double count(Half half, const std::vector<Residuals>& sequences);
+double count(methods::Half half, const std::vector<Residuals>& sequences);
 
 /// Increases log_likelihood in each of `iterations` iterations with non-negative coefficients: with
 /// C the covariance of an axis, Q_j the contribution of a term and alpha = C^-1 e,
@@ -32,10 +32,10 @@ double count(Half half, const std::vector<Residuals>& sequences);
 /// Without drift these are the Itakura-Saito updates of nonnegative matrix factorisation. C is
 /// inverted through the drift terms (Woodbury). O(iterations edges terms^2). Sources: Zhou et al.,
 /// MM algorithms for variance components models, 2019; Fevotte, Bertin, Durrieu, 2009.
-Rates fit_rates(Half half,
-                const std::vector<Growth>& noise,
-                const std::vector<Growth>& drift,
+Rates fit_rates(methods::Half half,
+                const std::vector<methods::Growth>& noise,
+                const std::vector<methods::Growth>& drift,
                 const std::vector<Residuals>& sequences,
                 int iterations = 500);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

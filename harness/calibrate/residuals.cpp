@@ -4,20 +4,20 @@
 #include "methods/correctors/chain.hpp"
 #include "metrics/trajectory/position_only.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every) {
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty())
     throw InputError(label + ": has no reference for the calibration");
-  if (const std::string fault = chain_fault(problem); !fault.empty()) {
+  if (const std::string fault = methods::chain_fault(problem); !fault.empty()) {
     throw InputError(label + ": " + fault);
   }
-  if (is_position_only(sequence.reference)) {
+  if (metrics::is_position_only(sequence.reference)) {
     throw InputError(label + ": the reference has only positions, expected orientations as well");
   }
   const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), Reach{});
-  const std::vector<EdgeMotion> moved = motions(problem);
+  const std::vector<methods::EdgeMotion> moved = methods::motions(problem);
   Residuals out{label, problem.planar, {}};
   for (std::size_t begin = 0; begin + every <= moved.size(); begin += every) {
     const std::size_t end = begin + every;
@@ -26,8 +26,8 @@ Residuals residuals(const Sequence& sequence, const std::string& label, std::siz
     Pose measured;
     for (std::size_t i = begin; i < end; ++i) {
       measured = normalized(measured * problem.odometry[i].from_from_to);
-      for (const Growth growth : kGrowths) {
-        edge.grown[static_cast<std::size_t>(growth)] += grown(growth, moved[i]);
+      for (const methods::Growth growth : methods::kGrowths) {
+        edge.grown[static_cast<std::size_t>(growth)] += methods::grown(growth, moved[i]);
       }
     }
     edge.error = log_se3(measured.inverse() * (truth[begin]->inverse() * *truth[end]));
@@ -36,4 +36,4 @@ Residuals residuals(const Sequence& sequence, const std::string& label, std::siz
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

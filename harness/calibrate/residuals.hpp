@@ -7,11 +7,12 @@
 #include "datasets/core/sequence.hpp"
 #include "methods/correctors/motion_drift/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct EdgeResidual {
-  std::array<double, kGrowths.size()> grown{};  ///< regressors of the edge's error, by Growth
-  Twist error;                                  ///< Log(measured^-1 true), in the end frame
+  std::array<double, methods::kGrowths.size()>
+      grown{};  ///< regressors of the edge's error, by Growth
+  Twist error;  ///< Log(measured^-1 true), in the end frame
 };
 
 struct Residuals {
@@ -25,4 +26,4 @@ struct Residuals {
 /// chain. O(keyframes + reference).
 Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

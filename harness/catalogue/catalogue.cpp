@@ -9,7 +9,7 @@
 #include "harness/text/hash.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 template <class Entry>
@@ -35,15 +35,16 @@ std::string version_of(const std::filesystem::path& plugin) {
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
-  Catalogue out{datasets(), methods(), metrics(), oracles(), {}};
-  for (DatasetEntry& entry : rgbd_datasets(loading_hooks())) {
+  Catalogue out{datasets(), methods::methods(), metrics::metrics(), oracles(), {}};
+  for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_hooks())) {
     out.datasets.push_back(std::move(entry));
   }
   for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const std::filesystem::path& plugin : plugins) {
     std::string version;
-    for (MethodEntry& entry : load_plugin(plugin)) {
-      if (std::ranges::find(out.methods, entry.name, &MethodEntry::name) != out.methods.end()) {
+    for (methods::MethodEntry& entry : load_plugin(plugin)) {
+      if (std::ranges::find(out.methods, entry.name, &methods::MethodEntry::name) !=
+          out.methods.end()) {
         throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
                          "' is already in the catalogue");
       }
@@ -58,7 +59,7 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.datasets, "dataset", name);
 }
-const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
+const methods::MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.methods, "method", name);
 }
 const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name) {
@@ -66,8 +67,8 @@ const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& na
       catalogue.oracles, name, [](const OracleEntry& entry) { return entry.listed.name; });
   return found == catalogue.oracles.end() ? nullptr : &*found;
 }
-const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
+const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.metrics, "metric", name);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -11,12 +11,12 @@
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Catalogue {
   std::vector<DatasetEntry> datasets;
-  std::vector<MethodEntry> methods;
-  std::vector<MetricEntry> metrics;
+  std::vector<methods::MethodEntry> methods;
+  std::vector<metrics::MetricEntry> metrics;
   std::vector<OracleEntry> oracles = {};  ///< those of `methods` with access to the reference
   std::map<std::string, std::string> versions = {};  ///< of plugin methods: hashes of their file
                                                      ///< and of the libraries that it loads
@@ -28,9 +28,9 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 
 /// The entry of that name. Throws InputError with a suggestion.
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);
-const MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
+const methods::MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
 /// The oracle of that name, or null.
 const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name);
-const MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
+const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Objects = std::set<const link_map*>;
@@ -88,4 +88,4 @@ std::vector<std::filesystem::path> plugin_libraries(const std::filesystem::path&
   return files_of(all, without);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

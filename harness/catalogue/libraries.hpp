@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Files of the shared libraries that the program needs directly or indirectly, sorted, with
 /// symbolic links resolved (so that their names contain the versions).
@@ -14,4 +14,4 @@ std::vector<std::filesystem::path> program_libraries();
 /// plugin is not loaded.
 std::vector<std::filesystem::path> plugin_libraries(const std::filesystem::path& plugin);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

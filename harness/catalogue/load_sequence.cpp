@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// `seed`, and seeds of components (`false_closures.seed`).
@@ -65,4 +65,4 @@ Sequence load_sequence(const Cell& cell,
   return sequence;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
@@ -23,4 +23,4 @@ Sequence load_sequence(const Cell& cell,
 /// The dataset's options in full, defaults included, with the seed of this repeat.
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

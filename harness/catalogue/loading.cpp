@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::filesystem::path cache_folder() {
@@ -29,8 +29,8 @@ void draw(const std::string& stage, std::size_t done, std::size_t total) {
 
 }  // namespace
 
-FrontendHooks loading_hooks() {
-  FrontendHooks out;
+rgbd::FrontendHooks loading_hooks() {
+  rgbd::FrontendHooks out;
   if (isatty(STDERR_FILENO) == 1) out.progress = draw;
   out.cache = cache_folder();
   return out;
@@ -49,4 +49,4 @@ void tell(const std::string& label, const std::vector<std::string>& notes) {
   fmt::print(stderr, "{}", out);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,11 +6,11 @@
 
 #include "datasets/rgbd/frontend.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Progress bar on stderr if that is a terminal. Stages are cached in $LOOPBENCH_CACHE (empty: no
 /// cache), otherwise in $XDG_CACHE_HOME/loopbench, otherwise in ~/.cache/loopbench.
-FrontendHooks loading_hooks();
+rgbd::FrontendHooks loading_hooks();
 
 /// Prints the notes of a sequence to stderr, each prefixed with `label`.
 void tell(const std::string& label, const std::vector<std::string>& notes);
@@ -18,4 +18,4 @@ void tell(const std::string& label, const std::vector<std::string>& notes);
 /// "[####......] 120/415  tracking".
 std::string loading_line(const std::string& stage, std::size_t done, std::size_t total);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,9 +5,9 @@
 #include "datasets/core/error.hpp"
 #include "methods/plugin.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
-std::vector<MethodEntry> load_plugin(const std::filesystem::path& object) {
+std::vector<methods::MethodEntry> load_plugin(const std::filesystem::path& object) {
   const auto refuse = [&](const std::string& why) {
     return InputError("plugin " + object.string() + ": " + why);
   };
@@ -15,13 +15,14 @@ std::vector<MethodEntry> load_plugin(const std::filesystem::path& object) {
   const std::string path = std::filesystem::absolute(object).string();
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed, see the header
   if (handle == nullptr) throw refuse(dlerror());
-  auto* describe = reinterpret_cast<const Plugin* (*)()>(dlsym(handle, "loopbench_plugin"));
+  auto* describe =
+      reinterpret_cast<const methods::Plugin* (*)()>(dlsym(handle, "loopbench_plugin"));
   if (describe == nullptr) throw refuse("has no LOOPBENCH_PLUGIN line");
-  const Plugin& plugin = *describe();
-  if (plugin.abi != Abi{}) {
+  const methods::Plugin& plugin = *describe();
+  if (plugin.abi != methods::Abi{}) {
     throw refuse("was built with another compiler, Eigen, alignment or loopbench interface");
   }
   return plugin.methods();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct CalibrateArguments {
@@ -56,4 +56,4 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/store/open.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct CheckArguments {
@@ -113,4 +113,4 @@ void add_check(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 CLI::Validator finite_number() {
   const auto check = [](std::string& text) {
@@ -15,4 +15,4 @@ CLI::Validator finite_number() {
   return CLI::Validator(check, "");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A number that is neither NaN nor infinite (CLI11's own ranges let NaN pass).
 CLI::Validator finite_number();
@@ -31,4 +31,4 @@ CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>
   return CLI::Validator(translate, all);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

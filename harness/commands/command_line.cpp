@@ -5,7 +5,7 @@
 
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::vector<std::string> long_options(const CLI::App& command) {
@@ -65,4 +65,4 @@ std::string unknown_word(const CLI::App& app, const CLI::ParseError& error) {
          "\nRun with --help for more information.\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@ class App;
 class ParseError;
 }  // namespace CLI
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// `words` after the program's name, with hyphens and underscores in long options replaced by the
 /// declared spelling: --all-pairs and --all_pairs are equivalent. O(words * options).
@@ -19,4 +19,4 @@ std::vector<std::string> spelt_as_declared(const CLI::App& app, std::vector<std:
 /// `error` has another cause.
 std::string unknown_word(const CLI::App& app, const CLI::ParseError& error);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace loopbench {
+namespace loopbench::harness {
 
 inline constexpr int kExitOk = 0;
 inline constexpr int kExitSomeCellsFailed = 1;
@@ -33,4 +33,4 @@ void add_profile(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct CompareArguments {
@@ -102,4 +102,4 @@ void add_compare(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

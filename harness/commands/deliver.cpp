@@ -8,7 +8,7 @@
 #include "harness/tables/origin.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 void deliver(const std::string& text,
              ExportFormat format,
@@ -43,4 +43,4 @@ void deliver(const std::string& text,
              made_by(origin.provenance));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 enum class ExportFormat { markdown, terminal, latex, csv, json };
 
@@ -19,4 +19,4 @@ void deliver(const std::string& text,
              const std::filesystem::path& store,
              const std::string& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

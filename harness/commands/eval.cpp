@@ -10,7 +10,7 @@
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 int eval(const EvalArguments& a) {
@@ -41,4 +41,4 @@ void add_eval(CLI::App& app, int& exit_code) {
   command->callback([a, &exit_code] { exit_code = eval(*a); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "harness/commands/checks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void declare_files(CLI::App& command, EvalArguments& a) {
@@ -52,7 +52,9 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
   command
-      .add_option("--align", a.align, "Alignment: " + choice_list<Align>() + "; without value: se3")
+      .add_option("--align",
+                  a.align,
+                  "Alignment: " + choice_list<metrics::Align>() + "; without value: se3")
       ->expected(0, 1)
       ->default_str("se3")
       ->type_name("HOW");
@@ -67,8 +69,10 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   const auto word = [&](const char* name, std::string& value, const std::string& help) {
     return command.add_option(name, value, help)->type_name("WORD");
   };
-  word("--association", a.association, "Association in time: " + choice_list<Association>());
-  word("--project_to_plane", a.project, "Plane to project onto: " + choice_list<Plane>());
+  word("--association",
+       a.association,
+       "Association in time: " + choice_list<metrics::Association>());
+  word("--project_to_plane", a.project, "Plane to project onto: " + choice_list<metrics::Plane>());
   const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
     command.add_option(name, value, help)->type_name("S")->check(finite_number());
   };
@@ -119,4 +123,4 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("FILE");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,9 +6,9 @@ namespace CLI {
 class App;
 }
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Declares the options; values are checked later, by the functions of eval/arguments.hpp.
 void declare(CLI::App& command, EvalArguments& arguments);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::atomic<bool> interruption = false;
@@ -17,4 +17,4 @@ const std::atomic<bool>& catch_interruption() {
   return interruption;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

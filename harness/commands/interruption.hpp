@@ -2,10 +2,10 @@
 
 #include <atomic>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Installs handlers for SIGINT and SIGTERM that only set the returned flag, which has static
 /// lifetime.
 const std::atomic<bool>& catch_interruption();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/text/suggest.hpp"
 #include "metrics/protocols/protocols.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -41,7 +41,7 @@ std::vector<Item> items(const Catalogue& known, const std::string& subject) {
   } else if (subject == "metrics") {
     for (const auto& e : known.metrics) out.push_back({e.name, "", e.summary, e.options, false});
   } else {
-    for (const auto& e : protocols()) {
+    for (const auto& e : metrics::protocols()) {
       out.push_back({e.name, e.version, e.summary, describe(e.protocol), false});
     }
   }
@@ -134,4 +134,4 @@ void add_list(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 void add_merge(CLI::App& app, int& exit_code) {
   struct Arguments {
@@ -36,4 +36,4 @@ void add_merge(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

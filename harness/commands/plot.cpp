@@ -11,7 +11,7 @@
 #include "harness/text/suggest.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kUsualMethods = 5;  // more lines are hard to distinguish
@@ -109,4 +109,4 @@ void add_plot(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/store/read.hpp"
 #include "harness/text/pattern.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct ProfileArguments {
@@ -73,4 +73,4 @@ void add_profile(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

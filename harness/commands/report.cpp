@@ -9,7 +9,7 @@
 #include "harness/store/open.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 void add_report(CLI::App& app, int& exit_code) {
   struct Arguments {
@@ -44,4 +44,4 @@ void add_report(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -14,7 +14,7 @@
 #include "harness/execution/run/progress.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct ReproduceArguments {
@@ -91,4 +91,4 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = reproduce(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

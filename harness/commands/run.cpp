@@ -26,7 +26,7 @@
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct RunArguments {
@@ -75,7 +75,7 @@ bool has_failure(const CellResult& result) {
 
 std::string protocol_names(const Sweep& sweep) {
   std::string out;
-  for (const NamedProtocol& protocol : sweep.protocols) {
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
     out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
   }
   return out;
@@ -227,4 +227,4 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->callback([arguments, source, &exit_code] { exit_code = run(*arguments, source); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 enum class TableFormat { markdown, terminal, latex, csv, json, rows };
@@ -127,4 +127,4 @@ void add_table(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

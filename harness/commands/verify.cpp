@@ -11,7 +11,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/progress.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct VerifyArguments {
@@ -79,4 +79,4 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

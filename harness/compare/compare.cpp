@@ -9,13 +9,13 @@
 #include "harness/text/suggest.hpp"
 #include "metrics/numerics/median.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void add_ratio(MethodVerdict& method, const PairedMethods& pair, const Comparison& of) {
   const std::optional<double> middle = mean_difference(pair);
   if (!of.is_ratio || !middle) return;
-  const double sign = of.kind.better == Better::higher ? -1.0 : 1.0;
+  const double sign = of.kind.better == metrics::Better::higher ? -1.0 : 1.0;
   const double estimate = std::exp(sign * *middle);
   method.ratio = Interval{estimate, estimate, estimate};
   method.why_no_interval = why_no_interval(pair.common);
@@ -45,7 +45,7 @@ MethodVerdict counts_of(const Observations& all, const Selection& kept, std::siz
     if (one.value) values.push_back(*one.value);
     if (!one.value) reasons.push_back(one.status);
   }
-  out.median = values.empty() ? std::nan("") : median(values);
+  out.median = values.empty() ? std::nan("") : metrics::median(values);
   out.runs = values.size();
   out.fails = reasons.size();
   out.why_fails = counted(reasons);
@@ -115,7 +115,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   }
   std::vector<Comparison> out;
   for (Observations& table : all) {
-    if (table.kind.better == Better::neither) continue;
+    if (table.kind.better == metrics::Better::neither) continue;
     const std::size_t copies = drop_copies(table);
     out.push_back(compare_one(table, copies, options));
     out.back().oracles = oracles;
@@ -127,4 +127,4 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

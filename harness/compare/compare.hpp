@@ -14,7 +14,7 @@
 #include "harness/compare/observations.hpp"
 #include "harness/compare/ranking.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Unit of observation.
 enum class Over {
@@ -97,4 +97,4 @@ std::string verdict(const Comparison& comparison);
 /// Information needed to interpret the results: observations, gaps, tests, limitations.
 std::vector<std::string> remarks(const Comparison& comparison);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

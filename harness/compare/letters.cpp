@@ -2,7 +2,7 @@
 
 #include "harness/compare/ranking.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using LetterColumn = std::vector<std::size_t>;  // indices in the ranking, ascending
@@ -57,4 +57,4 @@ std::vector<std::string> letters(const Ranking& ranking) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

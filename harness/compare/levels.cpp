@@ -5,7 +5,7 @@
 
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 double zero_floor(double largest) {
   constexpr double kRounding = 1e-12;  // relative rounding of coordinates
   return std::max(kRounding, 1e-9 * largest);
@@ -15,12 +15,12 @@ Levels::Levels(const GroupedValues& all, double relevant)
     : values_(all.values),
       costs_(all.values),
       floor_(all.group.size(), zero_floor(0.0)),
-      sign_(all.better == Better::higher ? -1.0 : 1.0),
+      sign_(all.better == metrics::Better::higher ? -1.0 : 1.0),
       relevant_(relevant) {
   for (auto& row : costs_) {
     for (std::size_t run = 0; run < row.size(); ++run) {
       if (!row[run]) continue;
-      if (all.better == Better::target) *row[run] = std::abs(*row[run] - all.target);
+      if (all.better == metrics::Better::target) *row[run] = std::abs(*row[run] - all.target);
       is_ratio_ = is_ratio_ && *row[run] >= 0.0;
       floor_[run] = std::max(floor_[run], zero_floor(std::abs(*row[run])));
     }
@@ -73,4 +73,4 @@ double Levels::standing(std::size_t method) const {
   return sum / static_cast<double>(groups());
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

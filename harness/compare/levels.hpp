@@ -7,12 +7,12 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct GroupedValues {
   std::vector<std::vector<std::optional<double>>> values;  ///< [method][run]; none: failed, a loss
   std::vector<std::size_t> group;                          ///< of each run, numbered from 0
-  Better better = Better::lower;
+  metrics::Better better = metrics::Better::lower;
   double target = 0.0;
 };
 
@@ -61,4 +61,4 @@ class Levels {
   bool is_ratio_ = true;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

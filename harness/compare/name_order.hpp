@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Numbers names in the order they first appear. O(log n) each.
 class NameOrder {
@@ -22,4 +22,4 @@ class NameOrder {
   std::vector<std::string> names_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/compare/name_order.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 auto table_kind(const Record& r) {
@@ -99,4 +99,4 @@ std::size_t drop_copies(Observations& all) {
   return dropped;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

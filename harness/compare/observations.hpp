@@ -8,7 +8,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// "room" or "room (repeat 2)": name of a record's run.
 std::string run_name(const Record& record);
@@ -53,4 +53,4 @@ std::vector<Observations> observations(const std::vector<Record>& records,
 /// run. Returns the number of dropped runs.
 std::size_t drop_copies(Observations& all);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

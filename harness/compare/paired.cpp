@@ -5,7 +5,7 @@
 
 #include "harness/statistics/average.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second) {
   PairedMethods out;
@@ -40,4 +40,4 @@ std::optional<double> mean_difference(const PairedMethods& pair) {
   return mean(pair.common);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/statistics/mean_interval.hpp"
 #include "harness/statistics/signed_rank.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One entry per group on which either method has a value; negative: the first is better.
 struct PairedMethods {
@@ -31,4 +31,4 @@ PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second
 /// Mean over the groups of `common`; nullopt if it is empty.
 std::optional<double> mean_difference(const PairedMethods& pair);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

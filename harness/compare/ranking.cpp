@@ -6,7 +6,7 @@
 
 #include "harness/statistics/holm.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct Test {
@@ -127,4 +127,4 @@ std::size_t Ranking::highest_rank(std::size_t method) const {
   return order.size() - static_cast<std::size_t>(std::ranges::count(beats[method], true));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

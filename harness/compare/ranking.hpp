@@ -17,7 +17,7 @@
 #include "harness/compare/paired.hpp"
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct RankingOptions {
   double alpha = 0.05;          ///< chance of any false claim among all pairs
@@ -52,4 +52,4 @@ Ranking rank_methods(const GroupedValues& values, const RankingOptions& options)
 /// order. Empty texts where that takes more than 100 letters.
 std::vector<std::string> letters(const Ranking& ranking);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

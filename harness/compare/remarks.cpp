@@ -5,7 +5,7 @@
 
 #include "harness/compare/compare.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -126,4 +126,4 @@ Lines remarks(const Comparison& c) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

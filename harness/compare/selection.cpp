@@ -6,7 +6,7 @@
 
 #include "harness/compare/name_order.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Methods with a value on any run; missing values are recorded in `gaps`.
@@ -103,4 +103,4 @@ Selection select_common(const Observations& all, Comparison& out) {
   return kept;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

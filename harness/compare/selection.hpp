@@ -6,7 +6,7 @@
 
 #include "harness/compare/compare.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Selection {
   std::vector<std::size_t> methods;  ///< indices into the observations: methods with any value
@@ -21,4 +21,4 @@ Selection select_common(const Observations& all, Comparison& out);
 /// "declined 1, failed 2": each reason with its count.
 std::string counted(const std::vector<std::string>& reasons);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

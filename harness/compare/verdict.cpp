@@ -5,7 +5,7 @@
 
 #include "harness/compare/compare.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string joined_names(const std::vector<std::string>& names, const char* last = " and ") {
@@ -156,4 +156,4 @@ std::string verdict(const Comparison& c) {
       c.groups_needed);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

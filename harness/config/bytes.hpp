@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Parses "2GiB", "1.5 GiB", "500MB" or "4096" into bytes (at least one); nullopt for anything
 /// else. KiB, MiB, GiB are powers of 1024; kB, MB, GB of 1000.
@@ -35,4 +35,4 @@ inline std::optional<std::int64_t> parse_bytes(const std::string& text) {
   return std::nullopt;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

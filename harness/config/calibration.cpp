@@ -6,7 +6,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// The list of strings under a key; empty without the key.
@@ -61,4 +61,4 @@ LearntSettings read_calibration(const std::string& calibration,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/config/grid.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct LearntSettings {
   TrainingData trained_on;
@@ -23,4 +23,4 @@ LearntSettings read_calibration(const std::string& calibration,
                                 const std::string& config,
                                 std::size_t line);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/config/source_text.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Runs `check`; adds file and line of the option to its errors.
@@ -91,7 +91,7 @@ const auto& found(Find find,
 /// The stage of a setting and its name in that stage: `uniform.rotation`, or `rotation` if only one
 /// stage has this option.
 std::pair<std::size_t, std::string> stage_of(const Setting& setting,
-                                             const std::vector<const MethodEntry*>& stages,
+                                             const std::vector<const methods::MethodEntry*>& stages,
                                              const std::string& file) {
   std::vector<std::size_t> having;
   std::vector<std::string> known;
@@ -140,9 +140,9 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
 std::vector<MetricChoice> metric_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue,
-                                         const std::vector<NamedProtocol>& protocols) {
+                                         const std::vector<metrics::NamedProtocol>& protocols) {
   const auto [name, label] = named(entry, "metric", file);
-  const MetricEntry& known = found(find_metric, catalogue, name, file, entry.line);
+  const metrics::MetricEntry& known = found(find_metric, catalogue, name, file, entry.line);
   std::vector<MetricChoice> out;
   for (GridPoint& point : spread(entry, {"metric", "label"}, file)) {
     keep_text(point.settings, known.options);
@@ -150,7 +150,8 @@ std::vector<MetricChoice> metric_choices(const YamlNode& entry,
     located(file, entry.line, name, point.settings, known.options, [&] {
       known.check(options);
       if (!known.check_protocol) return;
-      for (const NamedProtocol& protocol : protocols) known.check_protocol(options, protocol.rules);
+      for (const metrics::NamedProtocol& protocol : protocols)
+        known.check_protocol(options, protocol.rules);
     });
     out.push_back({label_of(name, label, point), {name, options}});
   }
@@ -161,7 +162,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue) {
   const auto [text, label] = named(entry, "method", file);
-  std::vector<const MethodEntry*> stages;
+  std::vector<const methods::MethodEntry*> stages;
   for (const std::string& name : split_stages(text)) {
     stages.push_back(&found(find_method, catalogue, name, file, entry.line));
   }
@@ -174,7 +175,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       throw input_error(file, node->line, "calibration: expected a file name");
     }
     std::vector<std::string> names;
-    for (const MethodEntry* stage : stages) names.push_back(stage->name);
+    for (const methods::MethodEntry* stage : stages) names.push_back(stage->name);
     calibrated = read_calibration(node->text, names, file, node->line);
   }
   std::vector<MethodChoice> out;
@@ -188,7 +189,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       by_stage[stage].push_back(own.front());
     }
     MethodChoice choice{label_of(text, label, point), {}, calibrated.trained_on};
-    for (const MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
+    for (const methods::MethodEntry* stage : stages) choice.stages.push_back({stage->name, {}});
     for (std::size_t i = 0; i < stages.size(); ++i) {
       for (const Setting& estimated :
            calibrated.by_method[stages[i]->name]) {  // the entry's own settings have priority
@@ -206,4 +207,4 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/config/yaml.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Each throws InputError `file:line:` for an unknown name or option, or an invalid value.
 std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
@@ -21,6 +21,6 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
 std::vector<MetricChoice> metric_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue,
-                                         const std::vector<NamedProtocol>& protocols);
+                                         const std::vector<metrics::NamedProtocol>& protocols);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

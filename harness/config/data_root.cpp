@@ -1,6 +1,6 @@
 #include "harness/config/data_root.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 DataRoot data_root(const Sweep& sweep, const std::string& data) {
   DataRoot root;
@@ -15,4 +15,4 @@ DataRoot data_root(const Sweep& sweep, const std::string& data) {
   return root;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

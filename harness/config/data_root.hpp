@@ -6,9 +6,9 @@
 #include "datasets/dataset.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Searches beside the config, then in `data` if given. Throws InputError if that is not a folder.
 DataRoot data_root(const Sweep& sweep, const std::string& data);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Limits far above real sweeps: a few lines can request more than fits into memory.
@@ -219,4 +219,4 @@ std::vector<GridPoint> spread(const YamlNode& entry,
   return points;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/config/yaml.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A setting and its line in the file.
 struct Setting {
@@ -33,4 +33,4 @@ std::vector<GridPoint> spread(const YamlNode& entry,
 /// are integers if every step is an integer.
 std::vector<Param> range(const YamlNode& node, const std::string& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -1,6 +1,6 @@
 #include "harness/config/method_text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::vector<std::string> split_stages(const std::string& text) {
   std::vector<std::string> out;
@@ -18,17 +18,17 @@ std::vector<std::string> split_stages(const std::string& text) {
   }
 }
 
-std::string refuses_stages(const std::vector<const MethodEntry*>& stages) {
+std::string refuses_stages(const std::vector<const methods::MethodEntry*>& stages) {
   if (stages.size() == 1) return "";
-  if (stages.size() == 2 && stages[0]->kind == Kind::corrector &&
-      stages[1]->kind == Kind::smoother) {
+  if (stages.size() == 2 && stages[0]->kind == methods::Kind::corrector &&
+      stages[1]->kind == methods::Kind::smoother) {
     return "";
   }
   std::string kinds;
-  for (const MethodEntry* stage : stages) {
+  for (const methods::MethodEntry* stage : stages) {
     kinds += (kinds.empty() ? "" : " + ") + to_text(stage->kind);
   }
   return "is " + kinds + "; stages compose as corrector + smoother";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

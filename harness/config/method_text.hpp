@@ -6,13 +6,13 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The names between the plus signs, trimmed.
 std::vector<std::string> split_stages(const std::string& text);
 
 /// Reason why these stages cannot be combined; empty for corrector, smoother, corrector + smoother,
 /// method.
-std::string refuses_stages(const std::vector<const MethodEntry*>& stages);
+std::string refuses_stages(const std::vector<const methods::MethodEntry*>& stages);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,17 +6,17 @@
 #include "harness/config/source_text.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
-NamedProtocol known_protocol(const std::string& name, const Params& changes) {
+metrics::NamedProtocol known_protocol(const std::string& name, const Params& changes) {
   std::vector<std::string> names;
-  for (const ProtocolEntry& entry : protocols()) names.push_back(entry.name);
+  for (const metrics::ProtocolEntry& entry : metrics::protocols()) names.push_back(entry.name);
   if (std::ranges::count(names, name) == 0) throw InputError(unknown_name("protocol", name, names));
-  return named_protocol(name, changes);
+  return metrics::named_protocol(name, changes);
 }
 
-NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
-  std::string base = NamedProtocol{}.name;
+metrics::NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
+  std::string base = metrics::NamedProtocol{}.name;
   std::size_t base_line = node.line;
   std::vector<Setting> settings;
   if (node.type == YamlNode::Type::scalar) {
@@ -33,7 +33,7 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
       base_line = given->line;
     }
     settings = spread(node, {"base"}, file).front().settings;
-    keep_text(settings, describe(Protocol{}));
+    keep_text(settings, describe(metrics::Protocol{}));
   } else {
     throw input_error(file, node.line, "protocol: expected a name or a map with 'base: NAME'");
   }
@@ -50,17 +50,18 @@ NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
   }
 }
 
-std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::string& file) {
+std::vector<metrics::NamedProtocol> protocol_choices(const YamlNode& node,
+                                                     const std::string& file) {
   if (node.type != YamlNode::Type::list) return {protocol_choice(node, file)};
   constexpr std::size_t kMost = 1'000;
   if (node.list.size() > kMost) {
     throw input_error(file, node.line, "protocol: more than 1000 entries");
   }
-  std::vector<NamedProtocol> out;
+  std::vector<metrics::NamedProtocol> out;
   for (const YamlNode& item : node.list) {
     out.push_back(protocol_choice(item, file));
     const std::string label = out.back().label();
-    if (std::ranges::count(out, label, &NamedProtocol::label) > 1) {
+    if (std::ranges::count(out, label, &metrics::NamedProtocol::label) > 1) {
       throw input_error(file, item.line, "protocol: '" + label + "' is listed twice");
     }
   }
@@ -68,4 +69,4 @@ std::vector<NamedProtocol> protocol_choices(const YamlNode& node, const std::str
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -12,7 +12,7 @@
 #include "harness/text/pattern.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 const std::vector<std::string> kKeys{"description",
@@ -194,14 +194,16 @@ class SweepReader {
     return out;
   }
 
-  std::vector<Times> times(const YamlNode& node) const {
-    std::vector<Times> out;
+  std::vector<metrics::Times> times(const YamlNode& node) const {
+    std::vector<metrics::Times> out;
     for (const std::string& name : words(node, "times")) {
-      const auto value = from_text<Times>(name);
-      if (!value) throw input_error(file_, node.line, "times: expected " + choice_list<Times>());
+      const auto value = from_text<metrics::Times>(name);
+      if (!value)
+        throw input_error(file_, node.line, "times: expected " + choice_list<metrics::Times>());
       if (std::ranges::count(out, *value) == 0) out.push_back(*value);
     }
-    if (out.empty()) throw input_error(file_, node.line, "times: expected " + choice_list<Times>());
+    if (out.empty())
+      throw input_error(file_, node.line, "times: expected " + choice_list<metrics::Times>());
     return out;
   }
 
@@ -293,4 +295,4 @@ Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue) 
   return parse_sweep(text, file, catalogue);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

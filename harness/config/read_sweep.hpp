@@ -6,7 +6,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Throws InputError `file:line: what` with a suggestion for misspelled names.
 Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue);
@@ -16,4 +16,4 @@ Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
                   const Catalogue& catalogue);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "datasets/core/params.hpp"
 #include "harness/config/grid.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The value for `option`, where `text` is the scalar as written (empty: computed).
 inline Param value_for(const OptionInfo& option, const Param& value, const std::string& text) {
@@ -23,4 +23,4 @@ inline void keep_text(std::vector<Setting>& settings, const std::vector<OptionIn
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 template <class Number>
@@ -165,4 +165,4 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

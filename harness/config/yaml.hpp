@@ -7,7 +7,7 @@
 
 #include "datasets/core/params.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct YamlEntry;
 
@@ -44,4 +44,4 @@ inline const YamlNode* YamlNode::find(const std::string& key) const {
 /// expanding aliases.
 YamlNode parse_yaml(const std::string& text, const std::string& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

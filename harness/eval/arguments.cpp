@@ -8,7 +8,7 @@
 #include "harness/config/source_text.hpp"
 #include "metrics/pairing/pairs/stretch.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Parses a word as boolean, number or text: true, 7, 0.5 or text.
@@ -53,7 +53,7 @@ std::string scaled(const std::string& align) {
   throw OptionError("align", "align = " + align + ": has no variant with scale; use se3 or none");
 }
 
-Params changes(const EvalArguments& a, const Protocol& base) {
+Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   Params out;
   const std::vector<OptionInfo> fields = describe(base);
   for (const std::string& setting : a.settings) {
@@ -107,10 +107,10 @@ std::string our_unit(const std::string& word) {
 
 }  // namespace
 
-std::vector<NamedProtocol> protocols(const EvalArguments& a) {
+std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   const bool is_rpg_folder = a.estimates.empty() && std::filesystem::is_directory(a.reference);
   const Params of_folder = is_rpg_folder ? rpg_settings(a.reference) : Params{};
-  std::vector<NamedProtocol> out;
+  std::vector<metrics::NamedProtocol> out;
   for (const std::string& name : a.protocols) {
     Params wanted = changes(a, known_protocol(name, {}).rules);
     // Command line options override the folder's configuration, which applies to rpg's protocols.
@@ -120,22 +120,22 @@ std::vector<NamedProtocol> protocols(const EvalArguments& a) {
   return out;
 }
 
-std::vector<Asked> questions(const EvalArguments& a, const Protocol& protocol) {
+std::vector<Asked> questions(const EvalArguments& a, const metrics::Protocol& protocol) {
   if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return usual_questions(protocol);
-  Relation relation = Relation::usual;
+  metrics::Relation relation = metrics::Relation::usual;
   if (!a.relation.empty()) {
-    FieldType<Relation>::assign("pose_relation", relation, our_relation(a.relation));
+    FieldType<metrics::Relation>::assign("pose_relation", relation, our_relation(a.relation));
   }
-  DeltaUnit unit = DeltaUnit::frames;
+  metrics::DeltaUnit unit = metrics::DeltaUnit::frames;
   if (!a.delta_unit.empty()) {
-    FieldType<DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
+    FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
   }
   Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
   std::vector<Asked> out;
-  if (relation != Relation::usual) {
+  if (relation != metrics::Relation::usual) {
     motion["relation"] = to_text(relation);
     // point_distance_error_ratio is defined only for relative errors.
-    if (relation != Relation::point_distance_error_ratio) {
+    if (relation != metrics::Relation::point_distance_error_ratio) {
       out.push_back({"ape", {{"relation", to_text(relation)}}});
     }
   }
@@ -172,4 +172,4 @@ std::vector<FilePair> file_pairs(const EvalArguments& a) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/eval/judgement.hpp"
 #include "harness/eval/layout.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Empty strings and optionals mean the protocol's value.
 struct EvalArguments {
@@ -44,11 +44,11 @@ struct EvalArguments {
 };
 
 /// Throws InputError for an unknown protocol or malformed setting, OptionError for an invalid one.
-std::vector<NamedProtocol> protocols(const EvalArguments& arguments);
+std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
 /// rpe. Otherwise the default metrics. Throws OptionError.
-std::vector<Asked> questions(const EvalArguments& arguments, const Protocol& protocol);
+std::vector<Asked> questions(const EvalArguments& arguments, const metrics::Protocol& protocol);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
@@ -57,4 +57,4 @@ ReferenceBody reference_body(const EvalArguments& arguments);
 /// and EST). Throws InputError.
 std::vector<FilePair> file_pairs(const EvalArguments& arguments);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

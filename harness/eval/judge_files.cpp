@@ -6,7 +6,7 @@
 #include "datasets/formats/kitti.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// A file's poses, and its matrices as printed when it holds some and they are wanted.
@@ -19,7 +19,7 @@ struct Loaded {
 
 Judgement failure(const EvalArguments& a,
                   const FilePair& pair,
-                  const NamedProtocol& protocol,
+                  const metrics::NamedProtocol& protocol,
                   const std::string& why) {
   Judgement out;
   out.reference_body = a.reference_body.value_or("");
@@ -66,10 +66,10 @@ struct Reader {
 
 /// Numbered poses beside stamped ones would be paired by chance. `one`, `other`: Loaded::unstamped.
 std::string why_two_clocks(const EvalArguments& a,
-                           const Protocol& protocol,
+                           const metrics::Protocol& protocol,
                            const std::string& one,
                            const std::string& other) {
-  const bool looks_at_stamps = protocol.association != Association::index;
+  const bool looks_at_stamps = protocol.association != metrics::Association::index;
   if (a.period || !looks_at_stamps || one.empty() == other.empty()) return "";
   return one + other +
          ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
@@ -86,12 +86,14 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 }  // namespace
 
 std::vector<Judgement> judge_files(const EvalArguments& a) {
-  const std::vector<NamedProtocol> rules = protocols(a);
-  for (const NamedProtocol& protocol : rules) questions(a, protocol.rules);  // refuses slips early
+  const std::vector<metrics::NamedProtocol> rules = protocols(a);
+  for (const metrics::NamedProtocol& protocol : rules)
+    questions(a, protocol.rules);  // refuses slips early
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
-      !is_elsewhere(body) && std::ranges::any_of(rules, [](const NamedProtocol& p) {
-        return p.rules.form == ErrorForm::kitti || p.rules.association == Association::evo;
+      !is_elsewhere(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
+        return p.rules.form == metrics::ErrorForm::kitti ||
+               p.rules.association == metrics::Association::evo;
       });
   const std::vector<FilePair> files = file_pairs(a);
   refuse_to_overwrite(all_files(a, files), a.per_pose);
@@ -102,7 +104,7 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
   Trajectory reference;
   ReadFindings mended;  // these two of the reference
   std::string unstamped;
-  PrintedPoses printed;
+  metrics::PrintedPoses printed;
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
       Loaded loaded = reader.read_reference(pair.reference);
@@ -117,12 +119,13 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
       loaded = reader.read(pair.estimate, a.format);
     } catch (const InputError& error) {
       if (is_alone) throw;
-      for (const NamedProtocol& each : rules) out.push_back(failure(a, pair, each, error.what()));
+      for (const metrics::NamedProtocol& each : rules)
+        out.push_back(failure(a, pair, each, error.what()));
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
-    for (const NamedProtocol& protocol : rules) {
+    for (const metrics::NamedProtocol& protocol : rules) {
       const JudgeOptions options{questions(a, protocol.rules),
                                  !a.per_pose.empty(),
                                  a.min_coverage.value_or(0.0),
@@ -155,4 +158,4 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,10 +6,10 @@
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/judgement.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One for each estimate and protocol, in that order. Where there are several, what cannot be read
 /// or judged is a Judgement with `why_failed`. Throws InputError, OptionError.
 std::vector<Judgement> judge_files(const EvalArguments& arguments);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

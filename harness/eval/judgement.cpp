@@ -11,18 +11,18 @@
 #include "metrics/checks/body_offset.hpp"
 #include "metrics/checks/diagnostics.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
-std::vector<Asked> usual_questions(const Protocol& protocol) {
+std::vector<Asked> usual_questions(const metrics::Protocol& protocol) {
   std::vector<Asked> out;
-  for (const MetricEntry& entry : metrics()) {
-    if (entry.name == "rpe" && protocol.pairs == PairRule::tum_random) {
+  for (const metrics::MetricEntry& entry : metrics::metrics()) {
+    if (entry.name == "rpe" && protocol.pairs == metrics::PairRule::tum_random) {
       out.push_back({entry.name, {}});
     } else if (entry.name == "rpe") {
       for (const char* unit : {"frames", "s", "m"}) {
         out.push_back({entry.name, {{"delta", 1.0}, {"unit", std::string(unit)}}});
       }
-    } else if (entry.name == "segments" && protocol.segments == SegmentRule{}) {
+    } else if (entry.name == "segments" && protocol.segments == metrics::SegmentRule{}) {
       out.push_back({entry.name, {{"each", false}}});
     } else if (entry.name == "ate" || entry.name == "axis_error" || entry.name == "segments") {
       out.push_back({entry.name, {}});
@@ -33,8 +33,8 @@ std::vector<Asked> usual_questions(const Protocol& protocol) {
 
 bool has_no_number(const Judgement& j) {
   return std::ranges::none_of(j.metrics, [](const JudgedMetric& metric) {
-    return std::ranges::any_of(metric.scores,
-                               [](const Score& score) { return score.why_undefined.empty(); });
+    return std::ranges::any_of(
+        metric.scores, [](const metrics::Score& score) { return score.why_undefined.empty(); });
   });
 }
 
@@ -73,9 +73,9 @@ std::string why_not_ok(const Judgement& j) {
 
 Judgement judge(const Trajectory& reference,
                 const Trajectory& estimate,
-                const NamedProtocol& protocol,
+                const metrics::NamedProtocol& protocol,
                 const JudgeOptions& options) {
-  Evaluation evaluation = evaluate(reference, estimate, protocol.rules);
+  metrics::Evaluation evaluation = metrics::evaluate(reference, estimate, protocol.rules);
   evaluation.context = {.reference = &reference,
                         .estimate = &estimate,
                         .protocol = protocol.rules,
@@ -87,20 +87,22 @@ Judgement judge(const Trajectory& reference,
   out.coverage = evaluation.coverage;
   out.why_incomplete = why_incomplete(evaluation.coverage, options.min_coverage);
   out.alignment = evaluation.alignment;
-  out.diagnosis = diagnostics(evaluation, {});
+  out.diagnosis = metrics::diagnostics(evaluation, {});
   out.notes = evaluation_notes(reference, evaluation);
-  for (Score& score : out.diagnosis) {  // readers normalise, so use the value from the files
-    if (score.relation == "off_unit") score = single("off_unit", "", "1", options.mended.off_unit);
+  for (metrics::Score& score :
+       out.diagnosis) {  // readers normalise, so use the value from the files
+    if (score.relation == "off_unit")
+      score = metrics::single("off_unit", "", "1", options.mended.off_unit);
   }
   out.diagnosis.push_back(
-      single("left_out", "", "1", static_cast<double>(options.mended.repeated)));
-  if (const auto offset = body_offset(evaluation, {})) {
-    out.other_body = other_body(*offset, options.body_from_reference);
+      metrics::single("left_out", "", "1", static_cast<double>(options.mended.repeated)));
+  if (const auto offset = metrics::body_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, options.body_from_reference);
   }
-  if (options.with_poses) out.poses = pose_errors(evaluation);
-  const std::vector<MetricEntry> known = metrics();
+  if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
+  const std::vector<metrics::MetricEntry> known = metrics::metrics();
   for (const Asked& asked : options.questions) {
-    for (const MetricEntry& entry : known) {
+    for (const metrics::MetricEntry& entry : known) {
       if (entry.name != asked.metric) continue;
       JudgedMetric& judged =
           out.metrics.emplace_back(JudgedMetric{asked.metric, asked.options, {}, {}});
@@ -114,4 +116,4 @@ Judgement judge(const Trajectory& reference,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

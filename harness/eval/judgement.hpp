@@ -8,7 +8,7 @@
 #include "metrics/errors/ape.hpp"
 #include "metrics/protocols/protocols.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A metric with its options.
 struct Asked {
@@ -20,21 +20,21 @@ struct Asked {
 /// the lengths), rpe over 1 frame, 1 s and 1 m (once for random pairs). Coverage and diagnostics
 /// are reported above the table. Metrics that need more than two files, or that need options, are
 /// available only in sweeps.
-std::vector<Asked> usual_questions(const Protocol& protocol);
+std::vector<Asked> usual_questions(const metrics::Protocol& protocol);
 
 struct JudgeOptions {
   std::vector<Asked> questions;
   bool with_poses = false;
-  double min_coverage = 0.0;              ///< below it an evaluation is incomplete, 0..1
-  const PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
-  ReadFindings mended = {};               ///< findings of the readers for both files
-  Pose body_from_reference = {};          ///< offset that was applied to the reference
+  double min_coverage = 0.0;                       ///< below it an evaluation is incomplete, 0..1
+  const metrics::PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
+  ReadFindings mended = {};                        ///< findings of the readers for both files
+  Pose body_from_reference = {};                   ///< offset that was applied to the reference
 };
 
 struct JudgedMetric {
   std::string name;
   Params options;
-  std::vector<Score> scores;
+  std::vector<metrics::Score> scores;
   std::string why_undefined;  ///< set instead of scores
 };
 
@@ -44,16 +44,16 @@ struct Judgement {
   std::string estimate;
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
-  NamedProtocol protocol;
-  Coverage coverage;
+  metrics::NamedProtocol protocol;
+  metrics::Coverage coverage;
   std::string why_incomplete;  ///< set if coverage is below the limit; the scores remain
-  Alignment alignment;
-  std::vector<Score> diagnosis;    ///< metric `diagnostics` with its defaults
-  std::string other_body;          ///< set if the reference seems to track another body
-  std::vector<std::string> notes;  ///< see evaluation_notes.hpp
+  metrics::Alignment alignment;
+  std::vector<metrics::Score> diagnosis;  ///< metric `diagnostics` with its defaults
+  std::string other_body;                 ///< set if the reference seems to track another body
+  std::vector<std::string> notes;         ///< see evaluation_notes.hpp
   std::vector<JudgedMetric> metrics;
-  std::vector<PoseError> poses;  ///< only on request
-  std::string why_failed;        ///< set if the evaluation failed: only names and protocol are set
+  std::vector<metrics::PoseError> poses;  ///< only on request
+  std::string why_failed;  ///< set if the evaluation failed: only names and protocol are set
 };
 
 /// The evaluation failed, or all requested metrics are undefined.
@@ -67,7 +67,7 @@ std::string why_not_ok(const Judgement& judgement);
 /// std::runtime_error if nothing can be evaluated.
 Judgement judge(const Trajectory& reference,
                 const Trajectory& estimate,
-                const NamedProtocol& protocol,
+                const metrics::NamedProtocol& protocol,
                 const JudgeOptions& options);
 
 /// Marks an evaluation as incomplete if its coverage is less than half of that of another estimate
@@ -98,4 +98,4 @@ std::string json(const std::vector<Judgement>& judgements);
 std::string csv(const std::vector<Judgement>& judgements);
 std::string pose_csv(const std::vector<Judgement>& judgements);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

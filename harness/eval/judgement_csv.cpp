@@ -3,7 +3,7 @@
 #include "harness/eval/judgement.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string head(const Judgement& j) {
@@ -80,4 +80,4 @@ std::string pose_csv(const std::vector<Judgement>& judgements) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

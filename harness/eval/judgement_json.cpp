@@ -2,7 +2,7 @@
 
 #include "harness/eval/judgement.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -15,8 +15,8 @@ Json to_json(const Params& params) {
   return out;
 }
 
-Json to_json(const JudgedMetric& metric, const Score& score) {
-  const Statistics& s = score.statistics;
+Json to_json(const JudgedMetric& metric, const metrics::Score& score) {
+  const metrics::Statistics& s = score.statistics;
   return {{"metric", metric.name},
           {"options", to_json(metric.options)},
           {"relation", score.relation},
@@ -35,9 +35,9 @@ Json to_json(const Judgement& j) {
   Json scores = Json::array();
   Json undefined = Json::array();
   Json diagnosis = Json::object();
-  for (const Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
+  for (const metrics::Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
   for (const JudgedMetric& metric : j.metrics) {
-    for (const Score& score : metric.scores) {
+    for (const metrics::Score& score : metric.scores) {
       if (score.why_undefined.empty()) {
         scores.push_back(to_json(metric, score));
       } else {
@@ -89,4 +89,4 @@ std::string json(const std::vector<Judgement>& judgements) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names can be any bytes
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

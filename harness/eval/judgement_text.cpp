@@ -7,7 +7,7 @@
 #include "harness/tables/notes.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string options_text(const Params& options) {
@@ -16,24 +16,24 @@ std::string options_text(const Params& options) {
   return out;
 }
 
-double quoted_statistic(const Protocol& protocol, const Statistics& s) {
-  if (protocol.statistic == Statistic::mean) return s.mean;
-  return protocol.statistic == Statistic::median ? s.median : s.rmse;
+double quoted_statistic(const metrics::Protocol& protocol, const metrics::Statistics& s) {
+  if (protocol.statistic == metrics::Statistic::mean) return s.mean;
+  return protocol.statistic == metrics::Statistic::median ? s.median : s.rmse;
 }
 
 std::string body_text(const Judgement& j) {
   return j.reference_body.empty() ? "" : ", body offset " + j.reference_body;
 }
 
-std::string protocol_text(const NamedProtocol& protocol) {
+std::string protocol_text(const metrics::NamedProtocol& protocol) {
   return fmt::format("{} [{}]", protocol.label(), protocol.version);
 }
 
 /// "largest_gap 0.25 s, repeated 0, ...", wrapped.
-std::string diagnosis_text(const std::vector<Score>& diagnosis) {
+std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis) {
   std::string out;
   int count = 0;
-  for (const Score& score : diagnosis) {
+  for (const metrics::Score& score : diagnosis) {
     const bool is_new_line = count++ % 4 == 0;
     out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
     out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
@@ -52,7 +52,7 @@ struct Widths {
   explicit Widths(const Judgement& j) {
     for (const JudgedMetric& judged : j.metrics) {
       metric = std::max(metric, label(judged).size());
-      for (const Score& score : judged.scores) {
+      for (const metrics::Score& score : judged.scores) {
         relation = std::max(relation, score.relation.size());
         axis = std::max(axis, score.axis.size());
         unit = std::max(unit, score.unit.size());
@@ -141,7 +141,7 @@ std::string comparison(const std::vector<Judgement>& judgements) {
   std::vector<std::map<std::string, std::size_t>> columns;  // per table
   std::vector<std::vector<Missing>> missing;                // per table
   for (const Judgement& j : judgements) {
-    const Protocol& rules = j.protocol.rules;
+    const metrics::Protocol& rules = j.protocol.rules;
     const std::string title = fmt::format("{}, {} against {}{}",
                                           protocol_text(j.protocol),
                                           to_text(rules.statistic),
@@ -202,4 +202,4 @@ std::string comparison(const std::vector<Judgement>& judgements) {
   return markdown(tables);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/config/yaml.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Path = std::filesystem::path;
@@ -126,4 +126,4 @@ std::vector<FilePair> ov_eval_layout(const Path& truths, const Path& algorithms)
                    ": found no ALGORITHM/DATASET/RUN.txt with a DATASET.txt in " + truths.string());
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

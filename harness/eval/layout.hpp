@@ -7,7 +7,7 @@
 
 #include "datasets/core/params.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A reference and one of its estimates.
 struct FilePair {
@@ -30,4 +30,4 @@ Params rpg_settings(const std::filesystem::path& folder);
 std::vector<FilePair> ov_eval_layout(const std::filesystem::path& truths,
                                      const std::filesystem::path& algorithms);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 Tolerance time_limit(double relative) {
   return {.where = {"metric=time"},
@@ -118,4 +118,4 @@ std::vector<GateCell> gate_cells(const std::vector<Record>& records,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

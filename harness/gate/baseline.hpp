@@ -9,7 +9,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Limit on the change of a number: it is a regression if worse by more than absolute + relative *
 /// |baseline|. With `alpha`, consistent small losses over all runs of a method are a regression,
@@ -40,7 +40,7 @@ struct GateScore {
   std::string relation;
   std::string axis;
   std::string unit;
-  Better better = Better::lower;
+  metrics::Better better = metrics::Better::lower;
   double target = 0.0;  ///< best value where `better` is target
   std::string status = "ok";
   std::int64_t pairs = 0;                ///< evaluated pose pairs
@@ -100,4 +100,4 @@ Record as_record(const GateCell& cell, const GateScore& score);
 std::vector<GateCell> gate_cells(const std::vector<Record>& records,
                                  const std::vector<Tolerance>& limits);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

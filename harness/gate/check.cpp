@@ -13,7 +13,7 @@
 #include "harness/gate/definitions.hpp"
 #include "harness/model/where.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Severity of what is missing: nothing, coverage, a number, a result.
@@ -26,13 +26,13 @@ int severity(const std::string& status) {
 /// Positive: worse.
 double loss(const GateScore& score, double before, double now) {
   switch (score.better) {
-    case Better::lower:
+    case metrics::Better::lower:
       return now - before;
-    case Better::higher:
+    case metrics::Better::higher:
       return before - now;
-    case Better::target:
+    case metrics::Better::target:
       return std::abs(now - score.target) - std::abs(before - score.target);
-    case Better::neither:
+    case metrics::Better::neither:
       return std::abs(now - before);
   }
   return 0.0;
@@ -46,8 +46,8 @@ std::string why_not_comparable(const GateScore& before, const GateScore& now) {
   if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
   if (now.better == before.better && now.target == before.target) return "";
   const auto direction = [](const GateScore& score) {
-    return score.better == Better::target ? fmt::format("target {}", score.target)
-                                          : to_text(score.better);
+    return score.better == metrics::Better::target ? fmt::format("target {}", score.target)
+                                                   : to_text(score.better);
   };
   return fmt::format("best value: {}, was: {}", direction(now), direction(before));
 }
@@ -219,4 +219,4 @@ GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent exten
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/gate/baseline.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Finding {
   enum class Kind {
@@ -42,4 +42,4 @@ GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::whole);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/statistics/differences.hpp"
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// A change below this share of the absolute limit is a rounding error.
@@ -41,14 +41,14 @@ void ConsistentLosses::add(const GateCell& cell,
                            const Tolerance& limit,
                            double before,
                            double now) {
-  if (!limit.alpha || score.better == Better::neither) return;
+  if (!limit.alpha || score.better == metrics::Better::neither) return;
   if (!std::isfinite(before) || !std::isfinite(now)) return;  // already reported as a regression
   const std::size_t group = groups_.try_emplace(gate_group(cell), groups_.size()).first->second;
   Series& series = series_[{cell.method, name(score), statistic}];
   if (!cell.content.empty() && std::ranges::count(series.contents, cell.content) > 0) return;
   const bool is_tie =
       tied(before, now, limit.tie) || std::abs(now - before) <= kSmallestChange * limit.absolute;
-  if (score.better == Better::target) {
+  if (score.better == metrics::Better::target) {
     before = std::abs(before - score.target);
     now = std::abs(now - score.target);
   }
@@ -65,7 +65,8 @@ ConsistentLosses::Moves ConsistentLosses::moves(const Series& series) {
   std::map<std::size_t, std::pair<double, std::size_t>> sums;
   for (std::size_t i = 0; i < differences.values.size(); ++i) {
     auto& [sum, count] = sums[series.groups[i]];
-    sum += series.better == Better::higher ? -differences.values[i] : differences.values[i];
+    sum +=
+        series.better == metrics::Better::higher ? -differences.values[i] : differences.values[i];
     ++count;
   }
   Moves out;
@@ -158,4 +159,4 @@ std::vector<std::string> ConsistentLosses::notes() const {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

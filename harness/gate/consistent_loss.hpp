@@ -9,7 +9,7 @@
 #include "harness/gate/check.hpp"
 #include "harness/gate/sign_flips.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Collects old and new numbers of every method on every run, and tests whether a method became
 /// worse. Runs of one group are one observation (their mean), and runs of equal content count once.
@@ -43,7 +43,7 @@ class ConsistentLosses {
     std::vector<std::string> contents;  // per run; can be empty
     std::vector<double> before;
     std::vector<double> now;
-    Better better = Better::lower;
+    metrics::Better better = metrics::Better::lower;
     Tolerance limit;
   };
   /// Changes of one score of one method.
@@ -58,4 +58,4 @@ class ConsistentLosses {
   std::map<std::string, std::size_t> groups_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// The parts of `text` ("name: a=1, b=2; file bytes hash") that are not in `other`.
@@ -76,4 +76,4 @@ std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {
          baseline.machine + ")";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

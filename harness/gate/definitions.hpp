@@ -3,7 +3,7 @@
 
 #include "harness/gate/baseline.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Throws InputError if a sequence, protocol, metric or method of the baseline has the same label
 /// in `now` but other options, stages, files or content; the message names the difference. Labels
@@ -15,4 +15,4 @@ void require_same_definitions(const Snapshot& baseline, const Snapshot& now);
 /// "contents are not compared ..." if this applies, otherwise empty.
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/gate/check.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Incremented when the contents of a baseline change.
 inline constexpr int kBaselineFormat = 3;
@@ -31,4 +31,4 @@ std::string markdown(const GateReport& report, const std::string& sweep);
 /// for each regression over all runs. Escaped for XML 1.0.
 std::string junit(const GateReport& report, const std::string& sweep);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

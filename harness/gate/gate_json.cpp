@@ -7,7 +7,7 @@
 #include "datasets/core/fields.hpp"
 #include "harness/gate/formats.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +22,7 @@ Json question(const GateScore& s) {
            {"axis", s.axis},
            {"unit", s.unit},
            {"better", to_text(s.better)}};
-  if (s.better == Better::target) out["target"] = s.target;
+  if (s.better == metrics::Better::target) out["target"] = s.target;
   return out;
 }
 
@@ -136,4 +136,4 @@ std::string json(const Baseline& baseline) {
   return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

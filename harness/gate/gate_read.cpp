@@ -10,7 +10,7 @@
 #include "harness/gate/formats.hpp"
 #include "harness/model/where.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -150,8 +150,8 @@ class BaselineReader {
     out.relation = text(node, "relation", at);
     out.axis = text(node, "axis", at);
     out.unit = text(node, "unit", at);
-    const auto better = from_text<Better>(text(node, "better", at));
-    if (!better) refuse(at + ".better", "expected " + choice_list<Better>());
+    const auto better = from_text<metrics::Better>(text(node, "better", at));
+    if (!better) refuse(at + ".better", "expected " + choice_list<metrics::Better>());
     out.better = *better;
     const auto target = node.find("target");
     if (target != node.end() && target->is_number()) out.target = target->get<double>();
@@ -276,4 +276,4 @@ std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
   return BaselineReader(file.string()).limits(parsed(baseline_text(file), file.string()));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include "harness/gate/formats.hpp"
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 const char* name(Finding::Kind kind) {
@@ -95,4 +95,4 @@ std::string junit(const GateReport& report, const std::string& sweep) {
       cases);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostExact = 14;  // runs; 16384 sign flips
@@ -94,4 +94,4 @@ std::vector<double> sign_flip_test(const std::vector<RunDifferences>& comparison
 
 double least_sign_flip_p(std::size_t runs) { return std::pow(0.5, static_cast<double>(runs)); }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

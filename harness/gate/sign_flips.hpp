@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Paired differences of one comparison: the run index and the difference, positive: worse.
 using RunDifferences = std::vector<std::pair<std::size_t, double>>;
@@ -23,4 +23,4 @@ std::vector<double> sign_flip_test(const std::vector<RunDifferences>& comparison
 /// The smallest probability that a comparison over this many runs can reach.
 double least_sign_flip_p(std::size_t runs);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include "harness/store/read.hpp"
 #include "harness/tables/derived.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Format of a stored list of definitions, one per line: the delimiter after the label, and how
@@ -102,4 +102,4 @@ std::map<std::string, std::string> made_by(const std::filesystem::path& store) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 
 #include "harness/gate/baseline.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The numbers of a store that have `limits`, with all options of its sequences, the hashes of
 /// their files, and the rules of its protocols. Throws InputError if it is not a store or has no
@@ -15,4 +15,4 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
 /// Provenance of a baseline from this store.
 std::map<std::string, std::string> made_by(const std::filesystem::path& store);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "harness/text/pattern.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::vector<Cell> cells(const Sweep& sweep,
                         const std::vector<bool>& seeded,
@@ -56,4 +56,4 @@ std::int64_t derived_seed(std::int64_t seed, int repeat) {
   return static_cast<std::int64_t>(z >> 1);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

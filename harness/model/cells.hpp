@@ -7,7 +7,7 @@
 
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One method on one instance of one dataset.
 struct Cell {
@@ -28,4 +28,4 @@ std::vector<Cell> cells(const Sweep& sweep,
 /// or repeats do not share a random stream. Never negative.
 std::int64_t derived_seed(std::int64_t seed, int repeat);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string short_score(const Record& record) {
@@ -56,7 +56,7 @@ std::string field(const Record& record, const std::string& name) {
 }
 
 double value(const Record& record, const std::string& name) {
-  const Statistics& s = record.statistics;
+  const metrics::Statistics& s = record.statistics;
   if (name == "rmse") return s.rmse;
   if (name == "mean") return s.mean;
   if (name == "median") return s.median;
@@ -69,4 +69,4 @@ double value(const Record& record, const std::string& name) {
       "statistic", name, {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

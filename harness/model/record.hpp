@@ -10,7 +10,7 @@
 #include "metrics/better.hpp"
 #include "metrics/numerics/statistics.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
@@ -30,11 +30,11 @@ struct Record {
   std::string relation;
   std::string axis;
   std::string unit;
-  Better better = Better::lower;
+  metrics::Better better = metrics::Better::lower;
   double target = 0.0;  ///< best value where `better` is target
   std::string group;    ///< runs of one group are not independent; empty: a group of its own
   std::string content;  ///< hash of problem and reference, equal for equal inputs; can be empty
-  Statistics statistics;
+  metrics::Statistics statistics;
   std::int64_t pairs = 0;     ///< evaluated pose pairs
   std::int64_t possible = 0;  ///< possible pose pairs
   std::string status = "ok";
@@ -68,8 +68,8 @@ struct CellRecord {
   std::string status;
   std::string signal;
   std::string why;
-  std::vector<Phase> phases;
-  std::vector<Count> counts;
+  std::vector<methods::Phase> phases;
+  std::vector<methods::Count> counts;
   std::vector<std::string> notes;
 };
 
@@ -86,4 +86,4 @@ std::string field(const Record& record, const std::string& name);
 /// InputError with a suggestion for another name.
 double value(const Record& record, const std::string& name);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -14,7 +14,7 @@
 #include "methods/report.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 enum class Status {
   ok,
@@ -45,11 +45,11 @@ inline bool is_failure(Status status) {
 /// are set.
 struct ScoreResult {
   std::size_t protocol = 0;  ///< index into Sweep::protocols
-  Times times = Times::keyframes;
+  metrics::Times times = metrics::Times::keyframes;
   std::string metric;  ///< catalogue name
   std::string label;   ///< label in the config
-  Score score;
-  Coverage coverage;
+  metrics::Score score;
+  metrics::Coverage coverage;
   Status status = Status::ok;
   std::string why;
 };
@@ -72,11 +72,11 @@ struct CellResult {
   std::optional<std::int64_t> peak_memory;   ///< largest resident size of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   std::optional<std::int64_t> allocations;   ///< memory allocations in one run of the method
-  Report report;                             ///< of the last timed run
+  methods::Report report;                    ///< of the last timed run
   std::vector<ScoreResult> scores;
   bool oracle_method = false;  ///< it uses the reference, or was trained on it
   CellTrace trace;             ///< under the first protocol, dense if the sweep evaluates densely
   std::shared_ptr<const SequenceFacts> facts;  ///< null if its sequence could not be loaded
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/model/trace.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A file that a dataset reads.
 struct InputFile {
@@ -38,4 +38,4 @@ struct SequenceFacts {
   SequenceTrace trace;             ///< empty if the sweep keeps no traces
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

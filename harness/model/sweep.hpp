@@ -9,7 +9,7 @@
 #include "datasets/core/params.hpp"
 #include "metrics/protocols/protocols.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A catalogue name and the options that differ from its defaults.
 struct Choice {
@@ -71,17 +71,18 @@ struct Sweep {
   std::vector<DatasetChoice> datasets;
   std::vector<MethodChoice> methods;
   std::vector<MetricChoice> metrics;
-  std::vector<Times> times{Times::keyframes, Times::dense};
-  std::vector<NamedProtocol> protocols{NamedProtocol{}};  ///< at least one, with distinct labels
-  std::string baseline;       ///< label of the method that gain is relative to; empty: no gain
-  double min_coverage = 0.0;  ///< share and span below this are `incomplete`, 0..1
-  int repeats = 1;            ///< instances of each seeded dataset
-  int timing = 1;             ///< timed runs of each method
-  bool serial = false;        ///< runs one cell at a time, on one core, for reliable times
-  bool traces = true;         ///< stores subsampled trajectories of every cell for reports
+  std::vector<metrics::Times> times{metrics::Times::keyframes, metrics::Times::dense};
+  std::vector<metrics::NamedProtocol> protocols{
+      metrics::NamedProtocol{}};  ///< at least one, with distinct labels
+  std::string baseline;           ///< label of the method that gain is relative to; empty: no gain
+  double min_coverage = 0.0;      ///< share and span below this are `incomplete`, 0..1
+  int repeats = 1;                ///< instances of each seeded dataset
+  int timing = 1;                 ///< timed runs of each method
+  bool serial = false;            ///< runs one cell at a time, on one core, for reliable times
+  bool traces = true;             ///< stores subsampled trajectories of every cell for reports
   Limits limits;
   std::vector<Exclusion> exclude;
   TableSpec table;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

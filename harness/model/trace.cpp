@@ -4,7 +4,7 @@
 
 #include "metrics/numerics/angle.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// At most kTraceSamples evenly spaced indices of 0..count-1, including the first and the last.
@@ -64,7 +64,9 @@ SequenceTrace sequence_trace(const Sequence& sequence) {
   return out;
 }
 
-CellTrace cell_trace(const Evaluation& evaluation, Times times, const TraceOrigin& origin) {
+CellTrace cell_trace(const metrics::Evaluation& evaluation,
+                     metrics::Times times,
+                     const TraceOrigin& origin) {
   CellTrace out{times, {}};
   visit_thinned(evaluation.reference.size(), [&](std::size_t i) {
     const StampedPose& reference = evaluation.reference[i];
@@ -75,9 +77,9 @@ CellTrace cell_trace(const Evaluation& evaluation, Times times, const TraceOrigi
                            static_cast<float>(error.x()),
                            static_cast<float>(error.y()),
                            static_cast<float>(error.z()),
-                           static_cast<float>(angle * kDegrees)});
+                           static_cast<float>(angle * metrics::kDegrees)});
   });
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

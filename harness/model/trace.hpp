@@ -10,7 +10,7 @@
 #include "datasets/core/sequence.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Maximum number of stored samples; longer lists are subsampled evenly, including both ends.
 inline constexpr std::size_t kTraceSamples = 2000;
@@ -52,12 +52,14 @@ struct SequenceTrace {
 };
 
 struct CellTrace {
-  Times times = Times::dense;        ///< evaluation times
-  std::vector<TraceSample> samples;  ///< empty if nothing was evaluated
+  metrics::Times times = metrics::Times::dense;  ///< evaluation times
+  std::vector<TraceSample> samples;              ///< empty if nothing was evaluated
 };
 
 TraceOrigin trace_origin(const Sequence& sequence);
 SequenceTrace sequence_trace(const Sequence& sequence);
-CellTrace cell_trace(const Evaluation& evaluation, Times times, const TraceOrigin& origin);
+CellTrace cell_trace(const metrics::Evaluation& evaluation,
+                     metrics::Times times,
+                     const TraceOrigin& origin);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

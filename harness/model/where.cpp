@@ -6,7 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/text/pattern.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct Condition {
@@ -100,4 +100,4 @@ void keep_where(std::vector<Record>& records, const std::vector<std::string>& ru
   std::erase_if(records, [&](const Record& record) { return !kept(record); });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

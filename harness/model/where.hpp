@@ -7,7 +7,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Splits a list at commas outside brackets and quotes, and removes the quotes. Throws InputError
 /// for a missing closing quote.
@@ -23,4 +23,4 @@ std::function<bool(const Record&)> where(const std::vector<std::string>& rules);
 /// Drops the records that `where` rejects.
 void keep_where(std::vector<Record>& records, const std::vector<std::string>& rules);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,14 +9,16 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct OracleEntry {
-  MethodEntry listed;  ///< name, kind, options; it makes a method without reference that declines
-  std::function<Stage(const Params&, const Trajectory& reference)> make;  ///< throws OptionError
+  methods::MethodEntry
+      listed;  ///< name, kind, options; it makes a method without reference that declines
+  std::function<methods::Stage(const Params&, const Trajectory& reference)>
+      make;  ///< throws OptionError
 };
 
 /// All oracles, in table order.
 std::vector<OracleEntry> oracles();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

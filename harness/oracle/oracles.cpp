@@ -1,17 +1,18 @@
 #include "harness/oracle/oracle.hpp"
 #include "harness/oracle/paper_oracle.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Wraps a Smoother constructible from Options and a reference.
 template <class T>
 OracleEntry oracle(std::string name, std::string summary, typename T::Options defaults) {
-  const auto make = [defaults](const Params& given, const Trajectory& reference) -> Stage {
-    return std::unique_ptr<const Smoother>(std::make_unique<T>(with(defaults, given), reference));
+  const auto make = [defaults](const Params& given, const Trajectory& reference) -> methods::Stage {
+    return std::unique_ptr<const methods::Smoother>(
+        std::make_unique<T>(with(defaults, given), reference));
   };
   return {{std::move(name),
-           Kind::smoother,
+           methods::Kind::smoother,
            std::move(summary),
            describe(defaults),
            [make](const Params& given) { return make(given, {}); }},
@@ -33,4 +34,4 @@ std::vector<OracleEntry> oracles() {
   };
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

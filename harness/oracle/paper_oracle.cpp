@@ -4,16 +4,17 @@
 #include "harness/oracle/reference_abscissa.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
 Trajectory aligned_reference(const Trajectory& keyframes,
                              const Trajectory& reference,
-                             Align align) {
-  Protocol protocol;
+                             metrics::Align align) {
+  metrics::Protocol protocol;
   protocol.align = align;
-  const Alignment to_reference = evaluate(reference, keyframes, protocol).alignment;
+  const metrics::Alignment to_reference =
+      metrics::evaluate(reference, keyframes, protocol).alignment;
   const Pose estimate_from_reference = to_reference.reference_from_estimate.inverse();
   Trajectory out = reference;
   for (StampedPose& pose : out) {
@@ -24,11 +25,11 @@ Trajectory aligned_reference(const Trajectory& keyframes,
 }
 
 /// Mean squared distance to the reference over the edges of a window [m^2].
-manifold::PieceJudge nearest_to(const Polyline& reference) {
-  return [&reference](const manifold::PlanarPiece& piece,
-                      const manifold::Window& window,
-                      const manifold::Nodes& nodes,
-                      const manifold::NodeSpline& spline) {
+methods::manifold::PieceJudge nearest_to(const Polyline& reference) {
+  return [&reference](const methods::manifold::PlanarPiece& piece,
+                      const methods::manifold::Window& window,
+                      const methods::manifold::Nodes& nodes,
+                      const methods::manifold::NodeSpline& spline) {
     constexpr std::size_t parts = 8;  // of an edge
     double sum = 0.0;
     double count = 0.0;
@@ -56,15 +57,16 @@ std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
   return dm_.declines(problem);
 }
 
-std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem, Report& report) const {
+std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,
+                                                 methods::Report& report) const {
   Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
-  manifold::PieceJudge judge;
+  methods::manifold::PieceJudge judge;
   if (options_.reference_families) judge = nearest_to(reference);
-  std::shared_ptr<const manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
+  std::shared_ptr<const methods::manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
   report.notes.push_back("oracle: uses the reference");
   if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
   return std::make_unique<ReferenceAbscissa>(
       std::move(fitted), std::move(reference), options_.reference_abscissa);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,15 +8,15 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
-class PaperOracle final : public Smoother {
+class PaperOracle final : public methods::Smoother {
  public:
   struct Options {
-    DmOptions dm = {};
+    methods::DmOptions dm = {};
     bool reference_abscissa = true;
     bool reference_families = false;
-    Align reference_align = Align::se3;
+    metrics::Align reference_align = metrics::Align::se3;
   };
 
   /// Throws OptionError as Dm does. An empty reference is declined later.
@@ -26,11 +26,12 @@ class PaperOracle final : public Smoother {
 
   /// Aligns the keyframes to the reference as a protocol does, and transforms the reference to
   /// their world frame by the inverse. Throws std::runtime_error without a unique alignment.
-  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
+  std::unique_ptr<const Curve> smooth(const Problem& problem,
+                                      methods::Report& report) const override;
 
  private:
   Options options_;
-  Dm dm_;
+  methods::Dm dm_;
   Trajectory reference_;
 };
 
@@ -44,4 +45,4 @@ void fields(PaperOracle::Options& o, Visit visit) {
   fields(o.dm, visit);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -1,12 +1,12 @@
 #include "harness/oracle/reference_abscissa.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
-using manifold::Graph;
-using manifold::Height;
-using manifold::Parts;
-using manifold::PlanarPiece;
+using methods::manifold::Graph;
+using methods::manifold::Height;
+using methods::manifold::Parts;
+using methods::manifold::PlanarPiece;
 
 template <class Piece>
 constexpr bool is_function_of_x = false;
@@ -17,9 +17,9 @@ constexpr bool is_function_of_x<Graph<Function>> = true;
 
 Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& reference) const {
   const Parts& parts = curve_->parts();
-  const manifold::Place own = parts.spline.at(edge, time);
+  const methods::manifold::Place own = parts.spline.at(edge, time);
   const Vector3 projected = reference + parts.up.dot(own.point - reference) * parts.up;
-  const manifold::Place seen{projected, own.way, own.time};
+  const methods::manifold::Place seen{projected, own.way, own.time};
   const auto ask = [&](const PlanarPiece& piece) {
     return std::visit(
         [&](const auto& shape) {
@@ -55,4 +55,4 @@ void ReferenceAbscissa::sample(std::span<const double> times, std::span<Pose> po
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

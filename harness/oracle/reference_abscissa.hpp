@@ -6,12 +6,12 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/curve.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class ReferenceAbscissa final : public Curve {
  public:
   /// `reference` in the world frame of `curve`. If not `used`, the unchanged curve.
-  ReferenceAbscissa(std::shared_ptr<const manifold::ManifoldCurve> curve,
+  ReferenceAbscissa(std::shared_ptr<const methods::manifold::ManifoldCurve> curve,
                     Polyline reference,
                     bool used = true)
       : curve_(std::move(curve)), reference_(std::move(reference)), used_(used) {}
@@ -29,9 +29,9 @@ class ReferenceAbscissa final : public Curve {
  private:
   Vector3 point(std::size_t edge, double time, const Vector3& reference) const;
 
-  std::shared_ptr<const manifold::ManifoldCurve> curve_;
+  std::shared_ptr<const methods::manifold::ManifoldCurve> curve_;
   Polyline reference_;
   bool used_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -12,7 +12,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/text/write_file.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Single-quoted gnuplot string: quotes are doubled; line breaks are not possible in it.
@@ -135,4 +135,4 @@ std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t mos
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One curve of a panel. Points in metres; NaN breaks the line.
 struct PlotSeries {
@@ -36,4 +36,4 @@ void write_figure(const std::filesystem::path& file,
 /// Every k-th point such that at most `most` remain, including the last one; for drawing only.
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostPlotted = 800;  // points per curve: more are not visible on a page
@@ -121,4 +121,4 @@ std::string file_stem(const std::string& label) {
   return out.substr(0, 80);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

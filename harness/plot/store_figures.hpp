@@ -8,7 +8,7 @@
 #include "harness/plot/gnuplot.hpp"
 #include "harness/store/traces.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Panels for one sequence: `methods` on its first repeat, in their order; methods without a trace
 /// are skipped.
@@ -25,4 +25,4 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
 /// "closed, 180 keyframes" -> "closed_180_keyframes": a safe file name.
 std::string file_stem(const std::string& label);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

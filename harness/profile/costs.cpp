@@ -7,7 +7,7 @@
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr double kMegabyte = 1e6;
@@ -34,7 +34,7 @@ std::string largest_megabytes(const std::vector<const CellRecord*>& cells, Get g
 }
 
 std::optional<double> iterations(const CellRecord& cell) {
-  const auto found = std::ranges::find(cell.counts, "iterations", &Count::name);
+  const auto found = std::ranges::find(cell.counts, "iterations", &methods::Count::name);
   return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
 }
 
@@ -121,8 +121,8 @@ Listing reported(const std::vector<CellRecord>& cells) {
     ByName phases;
     ByName counts;
     for (const CellRecord* cell : timed_of(all)) {
-      for (const Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
-      for (const Count& count : cell->counts) counts.add(count.name, count.value);
+      for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
+      for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
     }
     phases.add_rows(out, shown_name(method, all), "phase [ms]", milliseconds);
     counts.add_rows(out, shown_name(method, all), "count", plain);
@@ -131,4 +131,4 @@ Listing reported(const std::vector<CellRecord>& cells) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include "harness/profile/profile.hpp"
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
@@ -53,4 +53,4 @@ std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<d
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Cells by method, methods in order of first appearance.
 inline std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_method(
@@ -64,4 +64,4 @@ inline double median_of(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/profile/profile.hpp"
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Geometric mean of non-negative values.
@@ -157,4 +157,4 @@ Listing pareto(const std::vector<CellRecord>& cells,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/model/record.hpp"
 #include "harness/tables/listing.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Least-squares line in log-log coordinates: y ~ x^exponent.
 struct PowerLaw {
@@ -55,4 +55,4 @@ Listing pareto(const std::vector<CellRecord>& cells,
                const std::vector<Record>& records,
                const Accuracy& accuracy);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 Listing scaling(const std::vector<CellRecord>& cells) {
   Listing out{"scaling: time ~ keyframes^exponent",
@@ -44,4 +44,4 @@ Listing scaling(const std::vector<CellRecord>& cells) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

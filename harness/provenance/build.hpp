@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Version, compiler, flags, versions of the libraries it was built with, by name.
 std::vector<std::pair<std::string, std::string>> build_facts();
@@ -16,4 +16,4 @@ std::vector<std::pair<std::string, std::string>> build_facts();
 /// call.
 const std::string& build_id();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/provenance/build.hpp"
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// A part of the program's file.
@@ -68,4 +68,4 @@ const std::string& build_id() {
   return id;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

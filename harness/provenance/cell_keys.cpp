@@ -6,7 +6,7 @@
 #include "harness/provenance/summarise_sequence.hpp"
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// All options including defaults, integers written as reals if the default is real: setting a
@@ -48,7 +48,7 @@ std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
 
 std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
-  for (const NamedProtocol& protocol : sweep.protocols) {
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
     fields.add(protocol.label()).add(protocol.version).add(to_text(echo(protocol.rules)));
   }
   for (const MetricChoice& metric : sweep.metrics) {
@@ -58,7 +58,7 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
         .add(hashed(
             in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)));
   }
-  for (const Times times : sweep.times) fields.add(to_text(times));
+  for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
   fields.add(sweep.serial ? "serial" : "").add(sweep.traces ? "traces" : "");
   return fields.hashed();
@@ -97,7 +97,7 @@ std::string CellKeys::dataset_in_full(const Cell& cell) const {
 std::string CellKeys::metrics_in_full() const {
   std::string out;
   for (const MetricChoice& metric : sweep_.metrics) {
-    const MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
+    const metrics::MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
     out += metric.label + "\t" + named_options(metric.metric, entry.options) + "\n";
   }
   return out;
@@ -151,4 +151,4 @@ std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs
   return fields.hashed();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

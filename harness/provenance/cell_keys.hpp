@@ -15,7 +15,7 @@
 #include "harness/model/sequence_facts.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class CellKeys {
  public:
@@ -59,4 +59,4 @@ class CellKeys {
   std::map<std::pair<std::size_t, int>, std::string> asked_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

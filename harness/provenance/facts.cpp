@@ -11,7 +11,7 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/provenance/build.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// The first "model name" of /proc/cpuinfo, which exists only on PCs.
@@ -77,4 +77,4 @@ std::map<std::string, std::string> provenance(const Source& source,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The commit that the program was built from, as compiled into the executable.
 struct Source {
@@ -22,4 +22,4 @@ std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::string made_by(const std::map<std::string, std::string>& provenance) {
   const auto fact = [&](const std::string& name, std::size_t most = std::string::npos) {
@@ -20,4 +20,4 @@ std::string made_by(const std::map<std::string, std::string>& provenance) {
          fact("kernel");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

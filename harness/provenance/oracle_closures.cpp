@@ -3,7 +3,7 @@
 #include "datasets/derive/poses_at.hpp"
 #include "metrics/trajectory/position_only.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr double kDistance = 1e-4;  // [m]; rounding of trajectory files is at most this
@@ -15,7 +15,7 @@ std::size_t closures_equal_to_reference(const Sequence& sequence) {
   const Problem& problem = sequence.problem;
   const bool measured = sequence.provenance.noise.empty();
   if (!measured || sequence.reference.empty() || problem.closures.empty()) return 0;
-  if (is_position_only(sequence.reference)) return 0;
+  if (metrics::is_position_only(sequence.reference)) return 0;
   const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), {});
   std::size_t equal = 0;
   for (const Edge& closure : problem.closures) {
@@ -32,4 +32,4 @@ bool are_oracle_closures(std::size_t equal, std::size_t all) {
   return equal > 0 && kOneIn * equal >= all;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

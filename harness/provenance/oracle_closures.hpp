@@ -5,7 +5,7 @@
 
 #include "datasets/core/sequence.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Number of closures that equal the reference's relative pose to within 0.1 mm and 0.1 mrad, far
 /// below sensor noise; the reference is interpolated at the keyframe stamps. Closures measured as
@@ -17,4 +17,4 @@ std::size_t closures_equal_to_reference(const Sequence& sequence);
 /// false closures.
 bool are_oracle_closures(std::size_t equal, std::size_t all);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

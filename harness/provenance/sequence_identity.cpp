@@ -4,7 +4,7 @@
 
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Serialises numbers, members one by one, because padding has undefined values.
@@ -80,4 +80,4 @@ std::string source_of(const Sequence& sequence, const std::string& reference_has
   return "estimate:" + hash_of_poses(sequence.problem.keyframes);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

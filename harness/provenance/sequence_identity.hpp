@@ -5,7 +5,7 @@
 
 #include "datasets/core/sequence.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Hash of the method's input and the reference: keyframes, frames, odometry, closures with
 /// information and scale, common_view, planar and the reference, bit by bit. Sequences with equal
@@ -30,4 +30,4 @@ std::string content_of(const Sequence& sequence);
 /// `reference_hash`: of the file in Provenance::reference; empty if there is none.
 std::string source_of(const Sequence& sequence, const std::string& reference_hash);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,14 +10,14 @@
 #include "metrics/correction/loop_detection.hpp"
 #include "metrics/trajectory/position_only.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Warning if the motion of the raw keyframes indicates another body than the reference's;
 /// otherwise empty.
 std::string reference_of_other_body(const Sequence& sequence) {
   const Trajectory& keyframes = sequence.problem.keyframes;
-  if (sequence.reference.empty() || is_position_only(sequence.reference)) return "";
+  if (sequence.reference.empty() || metrics::is_position_only(sequence.reference)) return "";
   const auto reference_poses = poses_at(sequence.reference, stamps(keyframes), {});
   Trajectory estimate, reference;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
@@ -25,9 +25,9 @@ std::string reference_of_other_body(const Sequence& sequence) {
     estimate.push_back(keyframes[i]);
     reference.push_back({keyframes[i].stamp, *reference_poses[i]});
   }
-  const auto offset = body_offset(reference, estimate, {});
+  const auto offset = metrics::body_offset(reference, estimate, {});
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
-  const std::string text = offset ? other_body(*offset, stated.value_or(Pose{})) : "";
+  const std::string text = offset ? metrics::other_body(*offset, stated.value_or(Pose{})) : "";
   return text.empty() || !stated ? text : text + "; see reference_body of the dataset";
 }
 
@@ -81,7 +81,7 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
   out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
-    out.notes.push_back(to_text(judge_detection(sequence, {})));
+    out.notes.push_back(to_text(metrics::judge_detection(sequence, {})));
   }
   if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
     out.notes.push_back(note);
@@ -90,4 +90,4 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

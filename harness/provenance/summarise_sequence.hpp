@@ -6,7 +6,7 @@
 #include "datasets/core/sequence.hpp"
 #include "harness/model/sequence_facts.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Reads the inputs again to hash them. `group` is the source. Throws InputError.
 SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
@@ -16,4 +16,4 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace);
 /// InputError for one that cannot be read.
 std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

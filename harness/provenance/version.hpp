@@ -1,8 +1,8 @@
 #pragma once
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Version of CMake's project().
 inline constexpr const char* kVersion = LOOPBENCH_VERSION;
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

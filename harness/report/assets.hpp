@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Asset {
   std::string_view name;  ///< "page/report.css": path relative to harness/report
@@ -14,4 +14,4 @@ struct Asset {
 /// Sorted by name within page/ and assets/.
 const std::vector<Asset>& assets();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

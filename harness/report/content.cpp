@@ -5,7 +5,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/tables/all_records.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void add_new(std::vector<std::string>& list, const std::string& text) {
@@ -57,4 +57,4 @@ ReportContent read_report_content(const std::filesystem::path& store) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

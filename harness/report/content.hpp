@@ -9,7 +9,7 @@
 #include "harness/compare/compare.hpp"
 #include "harness/store/read.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct ReportContent {
   std::filesystem::path store;
@@ -30,4 +30,4 @@ struct ReportContent {
 /// Throws InputError if it is not a store, or a store without cells.
 ReportContent read_report_content(const std::filesystem::path& store);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include "harness/report/data.hpp"
 #include "harness/report/packed.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostSections = 600;  // per kind; more are thinner than a pixel
@@ -17,7 +17,7 @@ struct CutKind {
   std::vector<std::string> names;
   std::vector<std::size_t> what;
 
-  void add(const Section& section, double origin) {
+  void add(const methods::Section& section, double origin) {
     ++all;
     if (begin.size() == kMostSections) return;
     begin.push_back(section.begin - origin);
@@ -34,10 +34,10 @@ std::string cut_text(const nlohmann::json& json) {
 
 }  // namespace
 
-std::string cut_json(const std::vector<Section>& sections, double origin) {
+std::string cut_json(const std::vector<methods::Section>& sections, double origin) {
   std::vector<std::string> order;
   std::map<std::string, CutKind> kinds;
-  for (const Section& section : sections) {
+  for (const methods::Section& section : sections) {
     const auto [found, is_new] = kinds.try_emplace(section.kind);
     if (is_new) order.push_back(section.kind);
     found->second.add(section, origin);
@@ -57,4 +57,4 @@ std::string cut_json(const std::vector<Section>& sections, double origin) {
   return "[" + out + "]";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

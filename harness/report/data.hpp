@@ -5,7 +5,7 @@
 
 #include "harness/report/content.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// {methods, oracle, sequences, baseline, statistics, kinds, cells}: every score of every cell to
 /// five digits. A cell is {s, m, n, st, ms, v}: indices of its sequence and method, repeat, status,
@@ -33,9 +33,9 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning);
 
 /// [{kind, all, b, e, names, w}], a list of sections for each kind: begin and end relative to
 /// `origin` [s], and indices into `names` of the choices. At most kMostSections per kind.
-std::string cut_json(const std::vector<Section>& sections, double origin);
+std::string cut_json(const std::vector<methods::Section>& sections, double origin);
 
 /// Maximum number of poses drawn per cell if `cells` share `bytes`.
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/store/traces.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostPointsOfACell = 400;  // per cell: screen resolution
@@ -168,7 +168,7 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning) 
     const auto [grid, is_new] =
         grid_of.emplace(std::pair{cell.sequence, e.reference.t}, grid_of.size());
     if (is_new) grids += (grids.empty() ? "{" : ",\n{") + json(e.reference) + "}";
-    const std::vector<Section> sections = traces.sections(cell.position);
+    const std::vector<methods::Section> sections = traces.sections(cell.position);
     const std::string cut = sections.empty() || sequence == nullptr
                                 ? ""
                                 : ",\"cut\":" + cut_json(sections, sequence->origin);
@@ -196,4 +196,4 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning) 
                      cells);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

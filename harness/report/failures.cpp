@@ -4,7 +4,7 @@
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string listed(const std::set<std::string>& names) {
@@ -81,4 +81,4 @@ std::string failures_html(const ReportContent& content) {
   return "<p>Every cell finished and every score has a value.</p>\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -1,6 +1,6 @@
 #include "harness/report/html.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string notes_list(const std::vector<std::string>& notes) {
@@ -107,4 +107,4 @@ std::string html_table(const Listing& listing) { return listing_table(listing, f
 
 std::string html_text_table(const Listing& listing) { return listing_table(listing, true); }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/tables/listing.hpp"
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// For element content and quoted attributes: & < > " ' replaced, control characters dropped.
 std::string html_text(std::string_view text);
@@ -22,4 +22,4 @@ std::string html_table(const Listing& listing);
 /// The same for columns of words instead of numbers.
 std::string html_text_table(const Listing& listing);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

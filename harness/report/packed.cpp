@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string base64(const std::string& bytes) {
@@ -58,4 +58,4 @@ std::vector<std::size_t> thinned_places(std::size_t count, std::size_t most) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

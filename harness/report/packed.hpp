@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The JSON object {lo, step, b}: value = lo + step * word, 16-bit little-endian words in base64;
 /// 65535 is NaN. The error is at most half a step: 1/131068 of the range, far below a pixel.
@@ -13,4 +13,4 @@ std::string packed(const std::vector<double>& values);
 /// At most `most` evenly spaced indices of 0..count-1, including both ends.
 std::vector<std::size_t> thinned_places(std::size_t count, std::size_t most);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

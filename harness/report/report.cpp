@@ -13,7 +13,7 @@
 #include "harness/report/sections.hpp"
 #include "harness/tables/comparison.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Placeholders = std::map<std::string, std::string, std::less<>>;
@@ -97,4 +97,4 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

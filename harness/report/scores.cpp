@@ -7,7 +7,7 @@
 
 #include "harness/report/data.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string text(const nlohmann::json& json) {
@@ -26,7 +26,7 @@ ScoreKind score_kind(const Record& r) {
 }
 
 std::string better_name(const Record& r) {
-  for (const auto& [name, value] : choices(Better())) {
+  for (const auto& [name, value] : choices(metrics::Better())) {
     if (value == r.better) return name;
   }
   return "neither";
@@ -72,7 +72,7 @@ std::string scores_json(const ReportContent& content) {
         values += "null";
         continue;
       }
-      const Statistics& s = found->second->statistics;
+      const metrics::Statistics& s = found->second->statistics;
       values += fmt::format(
           "[{},{},{},{}]", number(s.rmse), number(s.mean), number(s.median), number(s.max));
     }
@@ -97,4 +97,4 @@ std::string scores_json(const ReportContent& content) {
       cells);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/report/html.hpp"
 #include "harness/tables/comparison.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string fact(std::size_t number, const std::string& what, const std::string& kind = "") {
@@ -164,4 +164,4 @@ std::string provenance_html(const ReportContent& content) {
   return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(value_of("config")) + "</pre>\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 
 #include "harness/report/content.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Summary: number of cells by status, and the headline verdict in large type.
 std::string summary_html(const ReportContent& content);
@@ -28,4 +28,4 @@ std::string costs_html(const ReportContent& content);
 /// Protocols, provenance, input files, config.
 std::string provenance_html(const ReportContent& content);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 double mean(std::span<const double> values) {
   if (values.empty()) throw std::invalid_argument("mean of an empty list");
@@ -20,4 +20,4 @@ double sample_deviation(std::span<const double> values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Arithmetic mean. Throws std::invalid_argument for an empty list.
 double mean(std::span<const double> values);
@@ -11,4 +11,4 @@ double mean(std::span<const double> values);
 /// Standard deviation with divisor n - 1. Throws std::invalid_argument for fewer than two values.
 double sample_deviation(std::span<const double> values);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

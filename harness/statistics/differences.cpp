@@ -6,7 +6,7 @@
 
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 Differences paired_differences(std::span<const double> values,
                                std::span<const double> baseline,
@@ -26,4 +26,4 @@ Differences paired_differences(std::span<const double> values,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Relative difference below which two errors count as the same number computed in another order.
 inline constexpr double kTie = 1e-9;
@@ -21,4 +21,4 @@ Differences paired_differences(std::span<const double> values,
                                std::span<const double> baseline,
                                double tie = kTie);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

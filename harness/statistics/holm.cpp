@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::vector<double> holm(std::span<const double> p) {
   std::vector<std::size_t> order(p.size());
@@ -19,4 +19,4 @@ std::vector<double> holm(std::span<const double> p) {
   return adjusted;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/statistics/average.hpp"
 #include "harness/statistics/student.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Number of values that differ, by more than rounding, from the most frequent one.
@@ -81,4 +81,4 @@ std::optional<MeanInterval> mean_interval(std::span<const double> values, double
                       student_p(symmetrised(middle / deviation, skewness, n), values.size() - 1)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Fewest observations of which an interval is given.
 inline constexpr std::size_t kFewestForInterval = 8;
@@ -47,4 +47,4 @@ std::optional<MeanInterval> mean_interval(std::span<const double> values, double
 /// Why mean_interval returns none: "7 observations, 8 are needed"; empty where it returns one.
 std::string why_no_interval(std::span<const double> values);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

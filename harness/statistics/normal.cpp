@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -1,9 +1,9 @@
 /// The standard normal distribution.
 #pragma once
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// P(Z <= z), to a few ulp in both tails.
 double normal_cdf(double z);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 bool tied(double a, double b, double tie) {
   return std::abs(a - b) <= tie * std::max(std::abs(a), std::abs(b));
@@ -24,4 +24,4 @@ std::vector<double> midranks(std::span<const double> values, double tie) {
   return ranks;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Relative difference up to which two errors count as equal: smaller ones are due to rounding,
 /// summation order or solver, for any p value.
@@ -17,4 +17,4 @@ bool tied(double a, double b, double tie);
 /// a rank, also in chains; 0 ties only equal values. No NaN. O(n log n).
 std::vector<double> midranks(std::span<const double> values, double tie = 0.0);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

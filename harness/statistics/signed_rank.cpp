@@ -7,7 +7,7 @@
 #include "harness/statistics/normal.hpp"
 #include "harness/statistics/ranks.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct Tails {
@@ -92,4 +92,4 @@ double rank_biserial(const SignedRank& test) {
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

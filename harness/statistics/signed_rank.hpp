@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Treatment of differences that are exactly zero. Pratt (1959) ranks them with the others and then
 /// drops them, so that many ties make significance harder; Wilcoxon (1945) drops them first.
@@ -40,4 +40,4 @@ double rank_biserial(const SignedRank& test);
 /// The smallest two-sided p for n differences: 2^(1 - n), if all have one sign.
 double least_p(std::size_t n);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

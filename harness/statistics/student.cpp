@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 double student_p(double t, std::size_t freedom) {
   const auto nu = static_cast<double>(freedom);
@@ -33,4 +33,4 @@ double student_quantile(double p, std::size_t freedom) {
   return high;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

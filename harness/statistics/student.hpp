@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// P(|T| >= |t|) with `freedom` >= 1 degrees of freedom: two-sided p. Absolute error below 1e-14.
 /// The finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4. O(freedom).
@@ -12,4 +12,4 @@ double student_p(double t, std::size_t freedom);
 /// The t > 0 with student_p(t) = p, 0 < p < 1. By bisection, to rounding.
 double student_quantile(double p, std::size_t freedom);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include "harness/store/digest.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr const char* kDetailTables[] = {"score", "phase", "count", "note", "section", "trace"};
@@ -132,4 +132,4 @@ std::vector<std::size_t> in_order(const CellRows& rows) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -11,7 +11,7 @@
 #include "harness/model/record.hpp"
 #include "harness/store/sqlite.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct CellRow {
   std::int64_t id = 0;
@@ -54,4 +54,4 @@ std::string label_of(const CellRecord& cell);
 /// Indices in `rows.cells` of the cells of the current config, in sweep order.
 std::vector<std::size_t> in_order(const CellRows& rows);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

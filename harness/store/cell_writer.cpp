@@ -5,7 +5,7 @@
 #include "harness/store/traces.hpp"
 #include "metrics/numerics/median.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string option_text(const std::vector<Choice>& stages) {
@@ -73,10 +73,12 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   if (result.facts) write_facts(result.cell, keys, *result.facts);
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
-  for (const Phase& p : result.report.phases) phase_.bind(id).bind(p.name).bind(p.seconds).run();
-  for (const Count& c : result.report.counts) count_.bind(id).bind(c.name).bind(c.value).run();
+  for (const methods::Phase& p : result.report.phases)
+    phase_.bind(id).bind(p.name).bind(p.seconds).run();
+  for (const methods::Count& c : result.report.counts)
+    count_.bind(id).bind(c.name).bind(c.value).run();
   for (const std::string& text : result.report.notes) note_.bind(id).bind(text).run();
-  for (const Section& s : result.report.sections) {
+  for (const methods::Section& s : result.report.sections) {
     section_.bind(id).bind(s.kind).bind(s.begin).bind(s.end).bind(s.what).run();
   }
   if (!result.trace.samples.empty()) {
@@ -95,8 +97,9 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const SequenceFacts& facts = result.facts ? *result.facts : none;
   const auto [low, high] = std::ranges::minmax_element(result.seconds);
   const bool timed = !result.seconds.empty();
-  const auto cpu =
-      result.cpu_seconds.empty() ? std::nullopt : std::optional<double>(median(result.cpu_seconds));
+  const auto cpu = result.cpu_seconds.empty()
+                       ? std::nullopt
+                       : std::optional<double>(metrics::median(result.cpu_seconds));
   const auto failed_scores = std::ranges::count_if(result.scores, is_failure, &ScoreResult::status);
   cell_.bind(static_cast<std::int64_t>(result.cell.index))
       .bind(keys.key(result.cell, facts.inputs))
@@ -113,7 +116,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(std::int64_t{result.oracle_method})
       .bind(text_of(result.worker))
       .bind(static_cast<std::int64_t>(result.seconds.size()))
-      .bind(result.seconds.empty() ? 0.0 : median(result.seconds))
+      .bind(result.seconds.empty() ? 0.0 : metrics::median(result.seconds))
       .bind(timed ? *low : 0.0)
       .bind(timed ? *high : 0.0)
       .bind(cpu)
@@ -130,8 +133,8 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
 
 void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
   for (const ScoreResult& row : result.scores) {
-    const Statistics& s = row.score.statistics;
-    const NamedProtocol& protocol = sweep.protocols[row.protocol];
+    const metrics::Statistics& s = row.score.statistics;
+    const metrics::NamedProtocol& protocol = sweep.protocols[row.protocol];
     score_.bind(id)
         .bind(protocol.label())
         .bind(protocol.version)
@@ -212,4 +215,4 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
   facts_.insert(sequence_key);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/store/sqlite.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {
@@ -44,4 +44,4 @@ class CellWriter {
 /// Removes the cell with that id from every table, but not from the sum of digests.
 void remove_cell(Database& database, std::int64_t id);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

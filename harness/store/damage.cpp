@@ -9,7 +9,7 @@
 #include "harness/store/open.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void check_sequence_traces(Database& database, SequenceRows& sequences) {
@@ -120,4 +120,4 @@ void require_whole_texts(Database& database,
                    "keeps this store as previous.sqlite");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/sequence_rows.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Sound {
   CellRows cells;
@@ -30,4 +30,4 @@ void require_whole_texts(Database& database,
                          const std::string& table,
                          const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cstring>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 Hash parsed_digest(std::string_view digest) {
@@ -42,4 +42,4 @@ void SumOfDigests::remove(std::string_view digest) {
   sum_.high -= term.high;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/store/sqlite.hpp"
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Digest of rows in order. Chained MurmurHash3 x64 128.
 class RowsDigest {
@@ -39,4 +39,4 @@ class SumOfDigests {
   Hash sum_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

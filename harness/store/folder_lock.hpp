@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Locks a folder until destroyed or until the process ends; a killed process leaves no lock
 /// behind.
@@ -19,4 +19,4 @@ class FolderLock {
   int descriptor_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

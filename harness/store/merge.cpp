@@ -12,7 +12,7 @@
 #include "harness/store/schema.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct MergedCell {
@@ -245,4 +245,4 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

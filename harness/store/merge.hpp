@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Merged {
   std::size_t cells = 0;
@@ -22,4 +22,4 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     bool mixed_builds);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

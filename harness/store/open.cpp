@@ -3,7 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/store/schema.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::filesystem::path store_file(const std::filesystem::path& given) {
   const std::filesystem::path file =
@@ -32,4 +32,4 @@ Database open_store(const std::filesystem::path& given) {
   return database;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

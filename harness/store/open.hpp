@@ -5,7 +5,7 @@
 
 #include "harness/store/sqlite.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// `given`, or results.sqlite if it is a folder. Throws InputError if the file does not exist.
 std::filesystem::path store_file(const std::filesystem::path& given);
@@ -17,4 +17,4 @@ Database open_store(const std::filesystem::path& given);
 /// Throws InputError naming `file` if the schema differs from this program's.
 void check_schema(Database& database, const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -11,7 +11,7 @@
 #include "harness/store/sequence_rows.hpp"
 #include "harness/store/whole_failures.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Appends the lines of `more` that are not in `text`.
@@ -56,7 +56,7 @@ void add_score(const CellRecord& cell, Statement& row, std::vector<Record>& out)
   r.relation = row.text();
   r.axis = row.text();
   r.unit = row.text();
-  r.better = from_text<Better>(row.text()).value_or(Better::neither);
+  r.better = from_text<metrics::Better>(row.text()).value_or(metrics::Better::neither);
   r.target = row.real();
   r.statistics.count = static_cast<std::size_t>(row.integer());
   for (double* number : {&r.statistics.rmse,
@@ -198,4 +198,4 @@ std::map<std::string, std::string> read_dataset_options(const std::filesystem::p
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/model/record.hpp"
 #include "harness/model/sequence_facts.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// All records in sweep order. A metric that failed or was declined completely has a record for
 /// every score that it has elsewhere. `file` can be the folder with results.sqlite. Throws
@@ -33,4 +33,4 @@ std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem:
 /// "DATASET: all options including defaults" of each loaded sequence, by the same labels.
 std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// A cell in the store.
@@ -165,4 +165,4 @@ Resumed match(Database& database,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include "harness/store/sqlite.hpp"
 #include "harness/store/store.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// See Store::resume. `there`: cells of the store. Call within a transaction.
 Resumed match(Database& database,
@@ -16,4 +16,4 @@ Resumed match(Database& database,
               const std::vector<Cell>& planned,
               Retry retry);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

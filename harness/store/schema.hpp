@@ -1,6 +1,6 @@
 #pragma once
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Incremented when a table or column changes its meaning; stored as SQLite's user_version.
 inline constexpr int kSchemaVersion = 6;
@@ -125,4 +125,4 @@ inline constexpr const char* kSchema = R"sql(
   CREATE INDEX section_cell ON section(cell);
 )sql";
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include "harness/store/digest.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 SequenceRows read_sequence_rows(Database& database) {
   SequenceRows out;
@@ -57,4 +57,4 @@ void require_whole(const SequenceRows& rows, const std::filesystem::path& file) 
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 #include "harness/model/sequence_facts.hpp"
 #include "harness/store/sqlite.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct SequenceRow {
   std::string asked;    ///< CellKeys::asked
@@ -36,4 +36,4 @@ SequenceRows read_sequence_rows(Database& database);
 /// Throws InputError if a row is damaged or missing.
 void require_whole(const SequenceRows& rows, const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
@@ -156,4 +156,4 @@ std::string Statement::text() {
   return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

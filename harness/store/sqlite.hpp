@@ -11,7 +11,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class Statement;
 
@@ -104,4 +104,4 @@ class Transaction {
   bool open_ = true;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

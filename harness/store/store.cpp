@@ -11,7 +11,7 @@
 #include "harness/store/schema.hpp"
 #include "harness/store/write_digests.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -70,7 +70,7 @@ void write_run(Database& database, const CellKeys& keys) {
   set_value("sweep", sweep.name);
   set_value("config", sweep.text);
   std::string rules;  // in full, one protocol per line
-  for (const NamedProtocol& protocol : sweep.protocols) {
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
     rules +=
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
@@ -211,4 +211,4 @@ void Store::exported() {
   transaction.commit();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -18,7 +18,7 @@
 #include "harness/store/read.hpp"
 #include "harness/store/sqlite.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Stored cells to run again. Damaged cells are always recomputed; `damaged` also checks traces and
 /// indexes.
@@ -85,4 +85,4 @@ class Store {
   std::unique_ptr<Writer> writer_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -29,7 +29,7 @@ Traces::Traces(const std::filesystem::path& file)
       sequences_(read_sequence_rows(database_)),
       sections_(rows_.cells.size()) {
   read_details(database_, "section", rows_, [&](std::size_t cell, Statement& row) {
-    Section& section = sections_[cell].emplace_back();
+    methods::Section& section = sections_[cell].emplace_back();
     section.kind = row.text();
     section.begin = row.real();
     section.end = row.real();
@@ -58,14 +58,14 @@ std::optional<CellTrace> Traces::cell(std::int64_t position) {
   }
   CellTrace out;
   found.integer();  // cell
-  out.times = from_text<Times>(found.text()).value_or(Times::dense);
+  out.times = from_text<metrics::Times>(found.text()).value_or(metrics::Times::dense);
   out.samples = from_blob<TraceSample>(found.blob());
   return out;
 }
 
-std::vector<Section> Traces::sections(std::int64_t position) {
+std::vector<methods::Section> Traces::sections(std::int64_t position) {
   const auto found = by_position_.find(position);
-  return found == by_position_.end() ? std::vector<Section>{} : sections_[found->second];
+  return found == by_position_.end() ? std::vector<methods::Section>{} : sections_[found->second];
 }
 
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
@@ -90,4 +90,4 @@ std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -13,7 +13,7 @@
 #include "harness/store/sqlite.hpp"
 #include "methods/report.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Traces of one store, which stays open; not thread-safe.
 class Traces {
@@ -27,7 +27,7 @@ class Traces {
   std::optional<CellTrace> cell(std::int64_t position);
 
   /// Sections of the path as reported by the method; empty without a report. Stamps [s].
-  std::vector<Section> sections(std::int64_t position);
+  std::vector<methods::Section> sections(std::int64_t position);
 
   /// Trace of the sequence of the cell at that position; nullopt if none is stored.
   std::optional<SequenceTrace> sequence(std::int64_t position);
@@ -39,7 +39,7 @@ class Traces {
   Database database_;
   CellRows rows_;
   SequenceRows sequences_;
-  std::vector<std::vector<Section>> sections_;  ///< parallel to rows_
+  std::vector<std::vector<methods::Section>> sections_;  ///< parallel to rows_
   std::unordered_map<std::int64_t, std::size_t> by_position_;
 };
 
@@ -49,4 +49,4 @@ std::string_view bytes_of(const std::vector<Item>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using MetricKey = std::tuple<std::string, std::string, std::string, std::string>;
@@ -66,4 +66,4 @@ void name_failed_scores(std::vector<Record>& records) {
   records = std::move(out);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A metric that throws leaves one record without relation and axis. Replaces each such record by
 /// one for every score of the metric under the same protocol and times: of other methods on the
@@ -13,4 +13,4 @@ namespace loopbench {
 /// of metrics without any score remain unchanged. O(n log n).
 void name_failed_scores(std::vector<Record>& records);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

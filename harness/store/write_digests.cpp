@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void set_written(Database& database, const std::string& table, const std::string& value) {
@@ -109,4 +109,4 @@ void renew_texts(Database& database, const std::string& table) {
   set_written(database, table, digest_of_texts(database, table));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/store/digest.hpp"
 #include "harness/store/sqlite.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Digests of single rows and of their related rows, read back from the tables.
 class DigestWriter {
@@ -59,4 +59,4 @@ void renew_texts(Database& database, const std::string& table);
 /// Stored digest of a table: cell, sequence, run or provenance.
 std::string written_digest(Database& database, const std::string& table);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

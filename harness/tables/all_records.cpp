@@ -9,7 +9,7 @@
 #include "harness/tables/derived.hpp"
 #include "harness/text/suggest.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, where
@@ -62,4 +62,4 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   return compare(records, options);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

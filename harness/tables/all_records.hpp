@@ -8,7 +8,7 @@
 #include "harness/compare/compare.hpp"
 #include "harness/tables/pivot.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Stored records, then gains, pair counts and run times: columns in this order.
 std::vector<Record> all_records(const std::filesystem::path& store);
@@ -22,4 +22,4 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
                                       const std::vector<std::string>& rules,
                                       CompareOptions options);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

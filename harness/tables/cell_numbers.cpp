@@ -8,7 +8,7 @@
 #include "harness/compare/observations.hpp"
 #include "harness/statistics/average.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content; }
 
@@ -56,4 +56,4 @@ std::optional<double> CellNumbers::average() const {
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 #include "harness/model/record.hpp"
 #include "harness/tables/mark_best.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Key of a run within a cell: the content of its data if known, otherwise its name.
 std::string run_key(const Record& record);
@@ -33,7 +33,7 @@ class CellNumbers {
 
   const ByRun& runs() const { return runs_; }  ///< without oracles
   const std::string& method() const { return method_; }
-  Better better() const { return better_; }
+  metrics::Better better() const { return better_; }
   double target() const { return target_; }
   bool is_gain() const { return is_gain_; }
 
@@ -51,9 +51,9 @@ class CellNumbers {
   std::size_t added_ = 0;
   ByRun runs_;
   std::string method_;
-  Better better_ = Better::neither;
+  metrics::Better better_ = metrics::Better::neither;
   double target_ = 0.0;
   bool is_gain_ = false;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

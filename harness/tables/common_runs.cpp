@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 bool meet(const std::set<std::string>& a, const std::set<std::string>& b) {
@@ -60,4 +60,4 @@ std::string CommonRunsNote::text() const {
   return "means over the runs that every method finished (" + out + ")";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One cell of a column (or a row) of a table, by names of runs.
 struct CellRuns {
@@ -33,4 +33,4 @@ class CommonRunsNote {
   std::map<std::string, std::set<std::size_t>> runs_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string title(const Comparison& c) {
@@ -184,4 +184,4 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
   return out.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/compare/compare.hpp"
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One line per method, best first: median, ratio to the baseline with its interval, wins, losses
 /// and ties against it, p, effect size, range of possible ranks, and letters. The best method is
@@ -21,4 +21,4 @@ std::string csv(const std::vector<Comparison>& comparisons);
 /// `indent` below zero writes one line.
 std::string json(const std::vector<Comparison>& comparisons, int indent = 2);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -49,7 +49,7 @@ std::string csv(const std::vector<Record>& records) {
       "relation,axis,unit,better,target,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
   for (const Record& r : records) {
-    const Statistics& s = r.statistics;
+    const metrics::Statistics& s = r.statistics;
     out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
                        quoted(r.sequence),
                        r.repeat,
@@ -66,7 +66,7 @@ std::string csv(const std::vector<Record>& records) {
                        r.axis,
                        r.unit,
                        to_text(r.better),
-                       r.better == Better::target ? fmt::format("{}", r.target) : "");
+                       r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
     // An undefined score has empty fields, not zeros.
     const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
     out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
@@ -86,4 +86,4 @@ std::string csv(const std::vector<Record>& records) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

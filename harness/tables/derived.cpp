@@ -8,7 +8,7 @@
 
 #include "harness/compare/levels.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 auto place(const Record& r) {
@@ -32,7 +32,7 @@ template <class Number>
 std::vector<Record> one_per_cell(const std::vector<Record>& records,
                                  const std::string& metric,
                                  const std::string& unit,
-                                 Better better,
+                                 metrics::Better better,
                                  Number number) {
   std::vector<Record> out;
   std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
@@ -55,7 +55,7 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
 }  // namespace
 
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
-  std::map<RowPlace, const Statistics*> base;
+  std::map<RowPlace, const metrics::Statistics*> base;
   for (const Record& r : records) {
     if (is_gain_source(r) && r.method == baseline) base.emplace(place(r), &r.statistics);
   }
@@ -63,19 +63,19 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
   for (const Record& r : records) {
     const auto found = is_gain_source(r) ? base.find(place(r)) : base.end();
     if (found == base.end()) continue;
-    const Statistics& b = *found->second;
+    const metrics::Statistics& b = *found->second;
     Record g = r;
     g.metric = "gain";
     g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
-    g.better = Better::higher;
+    g.better = metrics::Better::higher;
     g.unit = "%";
-    for (double Statistics::*number : {&Statistics::rmse,
-                                       &Statistics::mean,
-                                       &Statistics::median,
-                                       &Statistics::std,
-                                       &Statistics::min,
-                                       &Statistics::max,
-                                       &Statistics::sse}) {
+    for (double metrics::Statistics::*number : {&metrics::Statistics::rmse,
+                                                &metrics::Statistics::mean,
+                                                &metrics::Statistics::median,
+                                                &metrics::Statistics::std,
+                                                &metrics::Statistics::min,
+                                                &metrics::Statistics::max,
+                                                &metrics::Statistics::sse}) {
       g.statistics.*number = gain(r.statistics.*number, b.*number);
     }
     if (!std::isfinite(g.statistics.rmse)) {
@@ -88,14 +88,15 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  return one_per_cell(
-      records, "time", "ms", Better::lower, [](const Record& r) { return r.milliseconds; });
+  return one_per_cell(records, "time", "ms", metrics::Better::lower, [](const Record& r) {
+    return r.milliseconds;
+  });
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  return one_per_cell(records, "pairs", "", Better::neither, [](const Record& r) {
+  return one_per_cell(records, "pairs", "", metrics::Better::neither, [](const Record& r) {
     return static_cast<double>(r.pairs);
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

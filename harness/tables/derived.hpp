@@ -6,7 +6,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// For every `ate` translation record with a baseline record of the same sequence, repeat, protocol
 /// and times: metric `gain`, unit %, each statistic 100 * (1 - value / baseline value). Positive is
@@ -22,4 +22,4 @@ std::vector<Record> run_times(const std::vector<Record>& records);
 /// One record per cell, protocol and times: metric `pairs`, number of pose pairs of the scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 void ErrorCounts::add(std::size_t column, const Record& record) {
   const std::size_t count = record.statistics.count;
@@ -22,4 +22,4 @@ std::string ErrorCounts::text(const std::vector<std::string>& columns) const {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

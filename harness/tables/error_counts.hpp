@@ -8,7 +8,7 @@
 
 #include "harness/model/record.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A relative error has fewer pairs than evaluated poses, a closure residual one error per closure.
 class ErrorCounts {
@@ -23,4 +23,4 @@ class ErrorCounts {
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> range_;  ///< min, max by column
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

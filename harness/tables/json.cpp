@@ -3,7 +3,7 @@
 
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::string json(const std::vector<Table>& tables) {
   using Json = nlohmann::ordered_json;
@@ -33,4 +33,4 @@ std::string json(const std::vector<Table>& tables) {
   return out.dump(2, ' ', false, replace) + "\n";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

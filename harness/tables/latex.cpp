@@ -2,7 +2,7 @@
 
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string escaped_latex(const std::string& text) {
@@ -67,4 +67,4 @@ std::string latex(const Sheet& sheet) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

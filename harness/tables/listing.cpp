@@ -6,7 +6,7 @@
 
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string escaped_cell(const std::string& text) {
@@ -62,4 +62,4 @@ std::string csv(const Listing& listing) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

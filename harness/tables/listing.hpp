@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Listing {
   std::string title;
@@ -20,4 +20,4 @@ std::string markdown(const Listing& listing);
 /// RFC 4180, with the title as first column.
 std::string csv(const Listing& listing);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 
 #include "harness/compare/name_order.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 struct MarkContest {
@@ -79,4 +79,4 @@ Marks mark_best(const Lane& lane, const RankingOptions& options) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

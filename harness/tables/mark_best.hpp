@@ -8,7 +8,7 @@
 
 #include "harness/compare/ranking.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 enum class Mark { none, second, best };
 
@@ -22,7 +22,7 @@ using ByRun = std::map<std::string, std::optional<double>>;
 struct Lane {
   std::vector<ByRun> competitors;
   std::map<std::string, std::string> group;  ///< group of each run; without entry, the run itself
-  Better better = Better::lower;
+  metrics::Better better = metrics::Better::lower;
   double target = 0.0;
 };
 
@@ -37,4 +37,4 @@ struct Marks {
 /// Competitors without values are ignored.
 Marks mark_best(const Lane& lane, const RankingOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

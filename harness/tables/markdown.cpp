@@ -2,7 +2,7 @@
 
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Escapes `_` only at word boundaries, and `<` and `&` only before a letter or a sign other than
@@ -74,4 +74,4 @@ std::string markdown(const std::vector<Table>& tables) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void add_once(std::vector<std::string>& list, const std::string& text) {
@@ -53,4 +53,4 @@ std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

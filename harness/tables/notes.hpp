@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// One missing value, or all values of a row if `what` is empty.
 struct Missing {
@@ -18,4 +18,4 @@ struct Missing {
 /// one row with the same reason, then rows with the same groups. O(n log n).
 std::vector<std::string> grouped(const std::vector<Missing>& missing);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

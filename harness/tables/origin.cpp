@@ -5,7 +5,7 @@
 
 #include "harness/store/read.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using OriginJson = nlohmann::ordered_json;
@@ -94,4 +94,4 @@ std::filesystem::path origin_file(const std::filesystem::path& file) {
   return out.replace_extension(".provenance.json");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

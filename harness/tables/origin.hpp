@@ -8,7 +8,7 @@
 
 #include "harness/model/sequence_facts.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Origin {
   std::map<std::string, std::string> run;                ///< config text, protocols, baseline
@@ -36,4 +36,4 @@ std::string origin_comment(const Origin& origin);
 /// "table.csv" -> "table.provenance.json".
 std::filesystem::path origin_file(const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/tables/notes.hpp"
 #include "harness/tables/table_numbers.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string fields_joined(const Record& record,
@@ -80,7 +80,7 @@ void mark(Table& out,
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<Place> cells = places(table, l, along_columns);
     const Lane all = lane(table, cells, along_columns);
-    const Marks marks = all.better == Better::neither
+    const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
@@ -225,4 +225,4 @@ std::vector<Table> pivot(const std::vector<Record>& records,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

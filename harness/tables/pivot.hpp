@@ -9,7 +9,7 @@
 #include "harness/model/sweep.hpp"
 #include "harness/tables/mark_best.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Status of a cell whose runs are not among those that every cell compared with it finished.
 inline constexpr const char* kNoCommonRun = "no common run";
@@ -45,4 +45,4 @@ std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
                          const RankingOptions& options = {});
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::string shown(const TableCell& cell, int digits) {
@@ -82,4 +82,4 @@ std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lin
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

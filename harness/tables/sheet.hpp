@@ -7,7 +7,7 @@
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/pivot.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct SheetEntry {
   std::string text;
@@ -55,4 +55,4 @@ std::string one_line(const std::string& text);
 /// and marks.
 std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lines);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include "harness/tables/common_runs.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// What the cells of a column (or a row) tried and finished.
@@ -39,7 +39,7 @@ std::vector<Place> places(const TableNumbers& table, std::size_t lane, bool alon
 }
 
 Lane lane(const TableNumbers& table, const std::vector<Place>& cells, bool along_columns) {
-  Lane out{{}, table.groups, Better::neither, 0.0};
+  Lane out{{}, table.groups, metrics::Better::neither, 0.0};
   std::set<std::string> runs;
   for (const Place& place : cells) {
     ByRun& own = out.competitors.emplace_back();
@@ -94,4 +94,4 @@ std::size_t possible(const Lane& lane, std::size_t i) {
   return out.size();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

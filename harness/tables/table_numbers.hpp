@@ -14,7 +14,7 @@
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 using Place = std::pair<std::size_t, std::size_t>;  // row, column
 
@@ -54,4 +54,4 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns);
 /// Runs of the competitors that share one with competitor `i`: what its number could be over.
 std::size_t possible(const Lane& lane, std::size_t i);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

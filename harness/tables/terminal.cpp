@@ -1,6 +1,6 @@
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::string terminal(const Sheet& sheet) {
   std::vector<std::vector<std::string>> grid(1);
@@ -46,4 +46,4 @@ std::string terminal(const Sheet& sheet) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

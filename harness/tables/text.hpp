@@ -7,7 +7,7 @@
 #include "harness/tables/pivot.hpp"
 #include "harness/tables/sheet.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A CSV field, quoted if necessary (RFC 4180).
 std::string quoted(const std::string& text);
@@ -26,4 +26,4 @@ std::string csv(const std::vector<Record>& records);
 /// mark}}; value is null unless status is ok.
 std::string json(const std::vector<Table>& tables);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

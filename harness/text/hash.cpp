@@ -10,7 +10,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -92,4 +92,4 @@ std::string hex(const Hash& hash) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 struct Hash {
   std::uint64_t low = 0;
@@ -41,4 +41,4 @@ class Fields {
   std::string bytes_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

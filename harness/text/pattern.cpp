@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kLongestPattern = 1'000;  // longer ones are no one's intention
@@ -40,4 +40,4 @@ bool Pattern::is_all_of(std::string_view text) const {
   return re2::RE2::FullMatch(piece(text), *compiled_);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@ namespace re2 {
 class RE2;
 }
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// A regular expression in RE2's syntax: O(text) time for a fixed pattern and bounded memory for
 /// any input; no look-ahead and no back-references. Copies share the compiled expression.
@@ -31,4 +31,4 @@ class Pattern {
   std::shared_ptr<const re2::RE2> compiled_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

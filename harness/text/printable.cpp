@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Length of the code point at the start of `text`; 0 if it is not UTF-8 or a control character.
@@ -42,4 +42,4 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Keeps newlines and UTF-8. Replaces other control characters (C0, DEL, C1) and bytes that are not
 /// UTF-8 by "\x1b", so that file names and contents cannot send terminal escape sequences.
 std::string printable(std::string_view text);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -49,4 +49,4 @@ std::string unknown_name(const std::string& kind,
   return what + " (known: " + all + ")";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// The closest known name if it is similar enough for a typing error, otherwise empty.
 /// Distance: Damerau-Levenshtein (optimal string alignment). O(names * length^2).
@@ -15,4 +15,4 @@ std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using FilePath = std::filesystem::path;
@@ -125,4 +125,4 @@ void refuse_to_overwrite(const std::vector<FilePath>& inputs, const FilePath& fi
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// "-" means standard output.
 bool is_dash(const std::filesystem::path& file);
@@ -23,4 +23,4 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 void refuse_to_overwrite(const std::vector<std::filesystem::path>& inputs,
                          const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
 
@@ -41,4 +41,4 @@ double anneal(const std::vector<Edge>& closures,
   return direct.cost_before;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

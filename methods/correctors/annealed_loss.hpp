@@ -7,7 +7,7 @@
 
 #include "methods/solvers/pose_graph_solver.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Whether the loss is bounded, so that closures with large errors have no influence.
 bool is_bounded(Loss loss);
@@ -25,4 +25,4 @@ double anneal(const std::vector<Edge>& closures,
               std::vector<ScaledPose>& poses,
               const std::function<PoseGraphSummary(const PoseGraphSettings&)>& solve);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

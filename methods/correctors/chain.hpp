@@ -5,7 +5,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns why the odometry is not a complete chain, or an empty string. Edge i must join keyframes
 /// i and i + 1. O(n).
@@ -44,4 +44,4 @@ inline double chain_cost(const Problem& problem, const std::vector<Pose>& poses)
   return 0.5 * sum;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include "methods/correctors/consistency.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 template <class Base>
 struct CheckedOptions {
@@ -66,4 +66,4 @@ class Checked final : public Corrector {
   Base base_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "methods/correctors/max_clique.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// The chain integrated from odometry alone, starting at the identity, with prefix sums of its
@@ -83,4 +83,4 @@ ConsistentClosures consistent_closures(const Problem& problem, const Consistency
   return {std::move(clique.members), clique.is_largest};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

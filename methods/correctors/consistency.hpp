@@ -8,7 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct Consistency {
   std::optional<double> chi2 = std::nullopt;
@@ -60,4 +60,4 @@ struct ConsistentClosures {
 /// consistent measurement set maximization, ICRA 2018.
 ConsistentClosures consistent_closures(const Problem& problem, const Consistency& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

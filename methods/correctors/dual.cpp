@@ -13,7 +13,7 @@
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 std::optional<std::string> Dual::declines(const Problem& problem) const {
   if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(options_.max_closures)) {
@@ -96,4 +96,4 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
   return best->keyframes();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Computes the corrections e_i of the odometry edges Z_i (X_i = X_{i-1} Z_i Exp(e_i)) that
 /// minimise
@@ -84,4 +84,4 @@ void fields(Dual::Options& o, Visit visit) {
         "the loops");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 #include <limits>
 #include <queue>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Graph of the chain 0 - 1 - ... - n-1 and the closures added so far, with edge lengths.
@@ -137,4 +137,4 @@ Trajectory Elch::correct(const Problem& problem, Report& report) const {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

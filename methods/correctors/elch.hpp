@@ -4,7 +4,7 @@
 #include "methods/correctors/shares.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Processes the closures a -> b in the order (to, from). For each, it finds the shortest path from
 /// a to b in the graph of odometry and earlier closures. A keyframe i on the path gets the share
@@ -43,4 +43,4 @@ void fields(Elch::Options& o, Visit visit) {
         "length of a step in the graph: 1 per step, duration, distance or rotation angle");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 double gnc_weight(Gnc kind, double squared, double c2, double mu) {
   if (kind == Gnc::gm) {
@@ -41,4 +41,4 @@ GncResult graduate(Gnc kind,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 enum class Gnc { off, tls, gm };
 inline auto choices(Gnc) {
@@ -36,4 +36,4 @@ GncResult graduate(Gnc kind,
                    std::optional<double> mu,
                    const std::function<std::vector<double>(const std::vector<double>&)>& solve);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

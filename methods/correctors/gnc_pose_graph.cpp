@@ -8,7 +8,7 @@
 #include "methods/correctors/consistency.hpp"
 #include "methods/solvers/initial_values.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Relative cost below which a solution replaces an earlier one; rough solutions of the same
@@ -147,4 +147,4 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "methods/method.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct GncProblem {
   const Problem& problem;
@@ -39,4 +39,4 @@ struct GncSolution {
 /// kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.
 GncSolution solve_gnc(const GncProblem& of, Report& report);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// The six entries of closure k.
@@ -119,4 +119,4 @@ Eigen::MatrixXd through_loops_once(const LoopJacobian& jacobian,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

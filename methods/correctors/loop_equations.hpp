@@ -7,7 +7,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/correctors/loop_sums.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Noise model of a chain. The error e_i of odometry edge i, in X_i = X_{i-1} Z_i Exp(e_i), is e_i
 /// = sum_j diag(f_ji) beta_j + w_i with w_i ~ N(0, S_i) and beta_j ~ N(0, diag(variance)); each
@@ -95,4 +95,4 @@ std::vector<Matrix6> running_sum(const LoopSums& sums, Of of) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

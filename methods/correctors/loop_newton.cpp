@@ -1,6 +1,6 @@
 #include "methods/correctors/loop_newton.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Twists = std::vector<Twist>;  // of the edges, then of the drift
@@ -159,4 +159,4 @@ Corrections newton_direction(const LoopEquations& equations,
   return {system.errors_of(d), Twists(drift, d.end())};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/correctors/loop_equations.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Gauss-Newton assumes that a loop's error eta is linear in the edge errors. With twists x_i =
 /// edge[i] e_i in the world frame, a loop closes by
@@ -29,4 +29,4 @@ Corrections newton_direction(const LoopEquations& equations,
                              const std::vector<Edge>& closures,
                              const ChainBelief& belief);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

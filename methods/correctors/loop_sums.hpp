@@ -8,7 +8,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Stores running sums only at loop begins and ends, so memory is O(loops) instead of O(edges).
 class LoopSums {
@@ -54,4 +54,4 @@ class LoopSums {
   std::vector<std::size_t> end_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/loop_newton.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr double kRounding = 1e-12;  // relative rounding error of a cost summed over a chain
@@ -217,4 +217,4 @@ Trajectory LoopedChain::keyframes() const {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

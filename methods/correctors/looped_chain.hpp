@@ -6,7 +6,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/correctors/loop_equations.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns the stated covariances of the problem's edges and closures, without drift.
 ChainBelief stated_belief(const Problem& problem);
@@ -73,4 +73,4 @@ class LoopedChain {
   bool is_near_minimum_ = false;  ///< the last step did not halve the cost
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

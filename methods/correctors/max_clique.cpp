@@ -4,7 +4,7 @@
 #include <bit>
 #include <numeric>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Bits = std::vector<std::uint64_t>;
@@ -114,4 +114,4 @@ Clique max_clique(const BitGraph& graph, std::size_t most_steps) {
   return Search(graph, most_steps).run();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Undirected graph stored as an adjacency matrix of bits.
 class BitGraph {
@@ -38,4 +38,4 @@ struct Clique {
 /// steps; exponential in the worst case. Deterministic: the same graph gives the same clique.
 Clique max_clique(const BitGraph& graph, std::size_t most_steps);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

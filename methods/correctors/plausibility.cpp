@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr double kNormalQuantile = 3.2905;  // 99.95 %
@@ -48,4 +48,4 @@ void report_chi2(double chi2, std::size_t freedom, Report& report) {
                   is_high ? "small, or some closures are false" : "large"));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

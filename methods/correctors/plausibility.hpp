@@ -7,7 +7,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/report.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Degrees of freedom of the residuals: `dimensions` per edge beyond a spanning tree, or 0 when
 /// there are no such edges.
@@ -25,4 +25,4 @@ bool is_too_large(double chi2, std::size_t freedom);
 /// wrong by a factor of 2). Adds nothing without degrees of freedom.
 void report_chi2(double chi2, std::size_t freedom, Report& report);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -10,7 +10,7 @@
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Poses = PoseGraphOptimizer::Poses;
@@ -160,4 +160,4 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include "methods/method.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Maximum likelihood estimate of all keyframes of any connected graph, with odometry and closures
 /// weighted by their information (solve_pose_graph()). Poses are in SE(2) when the problem is
@@ -132,4 +132,4 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         "the loops (chains only)");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

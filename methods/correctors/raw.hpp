@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 class Raw final : public Corrector {
  public:
@@ -16,4 +16,4 @@ class Raw final : public Corrector {
 template <class Visit>
 void fields(Raw::Options&, Visit) {}
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

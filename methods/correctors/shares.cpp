@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 std::vector<double> step_shares(const Trajectory& keyframes, StepWeights weights) {
   std::vector<double> shares(keyframes.size(), 1.0);
@@ -55,4 +55,4 @@ void check_closures(const Problem& problem, const char* method) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -8,7 +8,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 enum class StepWeights { index, time, distance, rotation };
 inline auto choices(StepWeights) {
@@ -45,4 +45,4 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
 /// refer to a missing keyframe.
 void check_closures(const Problem& problem, const char* method);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr double kStiffest = 1e6;
@@ -42,4 +42,4 @@ Problem with_bounded_stiffness(const Problem& problem) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

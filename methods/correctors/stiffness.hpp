@@ -3,7 +3,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Whether a closure's information exceeds 1e6 times the largest information of the odometry, for
 /// translation or rotation. A closure with a thousandth of an odometry edge's deviation takes a
@@ -15,4 +15,4 @@ bool is_stiff(const Problem& problem);
 /// are scaled alike, so correlations do not change. O(edges).
 Problem with_bounded_stiffness(const Problem& problem);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Similarity transform x -> scale * rotation * x + translation.
@@ -131,4 +131,4 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   return std::move(chain).take();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

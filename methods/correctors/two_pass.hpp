@@ -5,7 +5,7 @@
 #include "methods/correctors/shares.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// For a closure a -> b with measured L, cumulative shares w (rotation) and v (translation):
 ///
@@ -56,4 +56,4 @@ void fields(TwoPass::Options& o, Visit visit) {
   visit("scale", o.scale, "also distribute the closures' scale change (Sim(3) chains)");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Poses during correction. Those after the last closed loop share one rigid motion, which is
@@ -95,4 +95,4 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   return std::move(chain).take();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 #include "methods/correctors/shares.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// For a closure a -> b with measured pose X_a L of b and cumulative share w_i (w_a = 0, w_b = 1):
 ///
@@ -60,4 +60,4 @@ void fields(Uniform::Options& o, Visit visit) {
         "open: only steps that no earlier loop encloses, so every loop stays closed");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 
 #include "methods/correctors/looped_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 bool changes_unit(const std::vector<Edge>& edges) {
@@ -244,4 +244,4 @@ Problem in_one_unit(const Problem& problem) {
   return std::move(at.rigid);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

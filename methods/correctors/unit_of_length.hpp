@@ -3,7 +3,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Whether an edge changes the scale (a Sim(3) problem).
 bool changes_unit(const Problem& problem);
@@ -29,4 +29,4 @@ bool changes_unit(const Problem& problem);
 /// SLAM, RSS 2010 (the problem); generalised least squares with few constraints (the solution).
 Problem in_one_unit(const Problem& problem);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 
 #include "methods/correctors/looped_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr double kLattice = 0.25;             // spacing of the factors [octaves]
@@ -148,4 +148,4 @@ Problem rescaled(const Problem& problem, Report& report) {
   return with_factors(problem, factors);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

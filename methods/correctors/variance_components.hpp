@@ -4,7 +4,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/report.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Factors on the stated variances of all odometry edges [-].
 struct VarianceFactors {
@@ -32,4 +32,4 @@ Problem with_factors(Problem problem, const VarianceFactors& factors);
 /// factors on standard deviations.
 Problem rescaled(const Problem& problem, Report& report);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include "methods/smoothers/spline/knots.hpp"
 #include "methods/solvers/spline_solver.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 std::optional<std::string> SplineFit::declines(const Problem& problem) const {
   if (problem.keyframes.size() < static_cast<std::size_t>(options_.order)) {
@@ -42,4 +42,4 @@ std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report&
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

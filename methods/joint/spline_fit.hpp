@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Cumulative B-spline of order k on SO(3) x R^3 (spline/curve.hpp) whose controls minimise
 ///
@@ -47,4 +47,4 @@ void fields(SplineFit::Options& o, Visit visit) {
         Between{1, 1000});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "methods/smoothers/stretches.hpp"
 #include "methods/smoothers/two_curves.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 std::optional<std::string> BSplineThrough::declines(const Problem& problem) const {
   if (problem.keyframes.empty()) return "no keyframes";
@@ -45,4 +45,4 @@ std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Repo
                                      attitudes_apart(keyframes, report, spline_through));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Positions: sum of N_j(t) c_j through every keyframe. Inner knots are means of k - 1 stamps, so
 /// no end condition is needed and polynomials of degree k - 1 are reproduced. Rotation: the
@@ -33,4 +33,4 @@ void fields(BSplineThrough::Options& o, Visit visit) {
   visit("order", o.order, "order of the spline (degree plus one)", Between{2, 6});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// n >= 2 stamps have n + 2 basis functions N_0..N_{n+1}. Between stamps[i] and stamps[i+1] only
 /// N_i..N_{i+3} are nonzero. Source: de Boor, A Practical Guide to Splines, ch. IX-X.
@@ -59,4 +59,4 @@ class CubicBasis {
   std::vector<double> stamps_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

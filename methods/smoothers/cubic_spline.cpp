@@ -10,7 +10,7 @@
 #include "methods/smoothers/stretches.hpp"
 #include "methods/smoothers/two_curves.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Coefficients of one basis function; an interval reads four consecutive ones.
@@ -97,4 +97,4 @@ std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report&
                                      attitudes_apart(keyframes, report, rotation_spline));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Positions: the interpolating cubic B-spline with natural ends (zero acceleration) and knots at
 /// the keyframes. Rotation: a cumulative cubic B-spline on SO(3) through the keyframes with zero
@@ -41,4 +41,4 @@ void fields(CubicSpline::Options& o, Visit visit) {
         "interpolation of rotation; slerp: great arcs; spline: C2 cumulative spline");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -8,7 +8,7 @@
 #include "methods/smoothers/gp/evidence.hpp"
 #include "methods/smoothers/stretches.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 template <int P>
@@ -142,4 +142,4 @@ std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Rep
                         });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

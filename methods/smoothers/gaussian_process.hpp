@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// The motion prior is driven by white noise on acceleration (prior velocity: constant velocity is
 /// expected, WNOA) or on jerk (prior acceleration, WNOJ). Keyframes are pose measurements with
@@ -76,4 +76,4 @@ void fields(GaussianProcess::Options& o, Visit visit) {
         Above{0.0});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 inline std::vector<Vector3> places(const Trajectory& poses) {
   std::vector<Vector3> out;
@@ -21,4 +21,4 @@ inline std::vector<Rotation> attitudes(const Trajectory& poses) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 class PolylineSmoother final : public Smoother {
  public:
@@ -24,4 +24,4 @@ class PolylineSmoother final : public Smoother {
 template <class Visit>
 void fields(PolylineSmoother::Options&, Visit) {}
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr std::size_t kMostTerms = SavitzkyGolay::kMostDegree + 1;
@@ -199,4 +199,4 @@ std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Repor
   return std::make_unique<LocalCurve>(stamps(keyframes), std::move(pieces));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// For each keyframe c, fits a polynomial of degree d in time by least squares to the keyframes of
 /// a window: positions, and rotations as Log(R_c^T R_j) in the tangent space of the centre. Stamps
@@ -50,4 +50,4 @@ void fields(SavitzkyGolay::Options& o, Visit visit) {
         Above{0.0});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

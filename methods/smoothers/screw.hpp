@@ -7,7 +7,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// X(t) = X_i Exp(u Log(X_i^-1 X_{i+1})), u = (t - t_i) / (t_{i+1} - t_i). The body twist is
 /// constant in every interval, so a circular arc or a helix is exact. Position and rotation are
@@ -66,4 +66,4 @@ class Screw final : public Smoother {
 template <class Visit>
 void fields(Screw::Options&, Visit) {}
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -8,7 +8,7 @@
 #include "methods/smoothers/penalised/unrolled.hpp"
 #include "methods/smoothers/two_curves.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Knot of a natural cubic spline: value and second derivative.
@@ -158,4 +158,4 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
       std::make_unique<RotationSpline>(times, rotation.path, knots(rotation.fit)));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

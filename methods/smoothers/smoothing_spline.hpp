@@ -4,7 +4,7 @@
 #include "methods/method.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises sum |y_i - f(t_i)|^2 + lambda int |f''|^2 over positions, and the same over rotations
 /// with geodesic distance and angular acceleration (unrolled.hpp: unrolled to R^3, smoothed, rolled
@@ -70,4 +70,4 @@ void fields(SmoothingSpline::Options& o, Visit visit) {
         "slerp: rotations not smoothed, great arcs between keyframes; spline: smoothed");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/tridiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Residual below which Newton has converged [rad]; rounding is about 1e-15.
@@ -142,4 +142,4 @@ std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "datasets/core/so3.hpp"
 #include "methods/smoothers/cubic_basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns the n + 2 control points of the natural cubic spline through n points, one per stamp of
 /// the basis. O(n).
@@ -39,4 +39,4 @@ struct ControlRotations {
 std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
                                                         const std::vector<Rotation>& rotations);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 #include "methods/smoothers/spline/knots.hpp"
 #include "methods/solvers/spline_solver.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 std::optional<std::string> SplineRegression::declines(const Problem& problem) const {
   if (problem.keyframes.size() >= static_cast<std::size_t>(options_.order)) return std::nullopt;
@@ -35,4 +35,4 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
   return std::make_unique<CumulativeCurve>(basis, controls);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises sum |p(t_i) - p_i|^2 and sum |Log(R_i' R(t_i))|^2 over the controls of the spline of
 /// order k on SO(3) x R^3 (spline/curve.hpp). Smoothing is determined only by the number of knots,
@@ -37,4 +37,4 @@ void fields(SplineRegression::Options& o, Visit visit) {
         Between{0.01, 1.0});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

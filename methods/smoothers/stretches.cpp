@@ -10,7 +10,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 class JoinedCurve final : public Curve {
@@ -162,4 +162,4 @@ std::unique_ptr<const Curve> attitudes_apart(const Trajectory& poses,
   return joined(std::move(parts));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

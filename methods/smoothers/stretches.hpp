@@ -8,7 +8,7 @@
 #include "datasets/core/curve.hpp"
 #include "methods/report.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Segment of consecutive poses first .. last, both included.
 struct Stretch {
@@ -49,4 +49,4 @@ std::unique_ptr<const Curve> attitudes_apart(
     Report& report,
     const std::function<std::unique_ptr<const Curve>(const Trajectory&)>& solve);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

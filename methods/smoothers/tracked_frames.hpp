@@ -5,7 +5,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Linear interpolation and slerp through keyframes and tracked frames. A preceding corrector moves
 /// every frame with the corrections of the two keyframes around it, interpolated by time
@@ -50,4 +50,4 @@ class TrackedFrames final : public Smoother {
 template <class Visit>
 void fields(TrackedFrames::Options&, Visit) {}
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -9,7 +9,7 @@
 #include "methods/smoothers/penalised/trend.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 struct TrendChoice {
@@ -139,4 +139,4 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   return std::make_unique<Polyline>(std::move(out));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

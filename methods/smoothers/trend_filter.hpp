@@ -3,7 +3,7 @@
 
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises 1/2 sum |y_i - x_i|^2 + lambda sum |change of velocity| over positions, and the same
 /// over rotations with great arcs instead of straight lines (unrolled.hpp). The resulting keyframes
@@ -64,4 +64,4 @@ void fields(TrendFilter::Options& o, Visit visit) {
         "slerp: rotations not filtered, great arcs between keyframes; filtered: like positions");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 
 #include "datasets/core/curve.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 class TwoCurves final : public Curve {
  public:
@@ -30,4 +30,4 @@ class TwoCurves final : public Curve {
   std::unique_ptr<const Curve> attitudes_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

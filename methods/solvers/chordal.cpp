@@ -5,7 +5,7 @@
 
 #include "methods/solvers/initial_values.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -147,4 +147,4 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

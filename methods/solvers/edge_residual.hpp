@@ -5,7 +5,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// e = Log(Z^-1 X_i^-1 X_j) and its derivatives with respect to d in X Exp(d).
 template <class G>
@@ -35,4 +35,4 @@ EdgeResidual<G> edge_residual(const typename G::Element& to_from_measured_from,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

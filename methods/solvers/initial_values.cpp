@@ -2,7 +2,7 @@
 
 #include <deque>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Edges of each keyframe, stored as one concatenated list.
@@ -89,4 +89,4 @@ std::optional<std::size_t> first_unjoined(const Problem& problem) {
   return std::nullopt;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

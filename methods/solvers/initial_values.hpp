@@ -7,7 +7,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Integrates poses from keyframe 0 along a spanning tree that prefers odometry to closures and
 /// takes closures in their order; scales are integrated as well. A keyframe that no edge reaches
@@ -27,4 +27,4 @@ std::optional<std::size_t> first_unjoined(const Problem& problem);
 /// Pajdla, CVPR 2007; Carlone, Tron, Daniilidis, Dellaert, ICRA 2015.
 std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigma);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -11,7 +11,7 @@
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// X * Exp(d). Cost functions write their derivative with respect to d into the first columns of
@@ -280,4 +280,4 @@ std::vector<double> squared_errors(const std::vector<ScaledPose>& poses,
   return {};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

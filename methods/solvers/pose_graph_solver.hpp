@@ -8,7 +8,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Lie group of the poses.
 enum class Group { se2, se3, sim3 };
@@ -63,4 +63,4 @@ std::vector<double> squared_errors(const std::vector<ScaledPose>& poses,
                                    const std::vector<Edge>& edges,
                                    const PoseGraphSettings& settings);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

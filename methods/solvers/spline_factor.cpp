@@ -5,7 +5,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "methods/smoothers/spline/turning.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Pose X(t) and the derivatives of X(t) Exp(d) with respect to the controls of its window.
 struct SplineFactor::PoseDerivative {
@@ -97,4 +97,4 @@ SplineFactor::Residual SplineFactor::evaluate(const std::vector<Pose>& controls)
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

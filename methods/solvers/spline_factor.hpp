@@ -7,7 +7,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Pose measurement at a time: e = [p(t) - p; Log(R' R(t))].
 struct PoseAt {
@@ -54,4 +54,4 @@ class SplineFactor {
   Pose measured_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

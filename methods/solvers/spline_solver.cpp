@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Block = std::array<double, 7>;
@@ -134,4 +134,4 @@ SplineSummary fit_controls(const SplineBasis& basis,
           summary.termination_type == ceres::CONVERGENCE};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

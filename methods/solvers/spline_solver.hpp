@@ -5,7 +5,7 @@
 
 #include "methods/solvers/spline_factor.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises half the sum of |e|^2 over poses and of e' Omega e over edges. Translation and
 /// rotation of the poses share no unknown, so no weight between [m] and [rad] is needed.
@@ -37,4 +37,4 @@ SplineSummary fit_controls(const SplineBasis& basis,
                            const SplineProblem& problem,
                            const SplineSettings& settings);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

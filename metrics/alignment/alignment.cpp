@@ -8,7 +8,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/moments.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 // Singular values have a rounding error of about 1e-16 of the first. Below this ratio the rotation
@@ -141,4 +141,4 @@ Trajectory moved(const Alignment& alignment, Trajectory estimate) {
   return estimate;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

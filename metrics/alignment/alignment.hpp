@@ -7,7 +7,7 @@
 #include "datasets/core/trajectory.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// p_reference = scale * R * p_estimate + t.
 struct Alignment {
@@ -39,4 +39,4 @@ Alignment align(const Trajectory& reference,
 /// Applies the alignment: scales the positions, then left-multiplies every pose.
 Trajectory moved(const Alignment& alignment, Trajectory estimate);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

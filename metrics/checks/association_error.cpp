@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Speed [m/s] from the pose at `stamp` to the next one, or from the previous one.
@@ -40,4 +40,4 @@ std::optional<AssociationError> association_error(const Trajectory& reference,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

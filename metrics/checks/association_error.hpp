@@ -5,7 +5,7 @@
 
 #include "metrics/evaluation/evaluation.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct AssociationError {
   double largest_difference = 0.0;  ///< largest time difference within a pair [s]
@@ -19,4 +19,4 @@ struct AssociationError {
 std::optional<AssociationError> association_error(const Trajectory& reference,
                                                   const Evaluation& evaluation);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kFewest = 20;      // relative poses
@@ -93,4 +93,4 @@ std::vector<Score> body_offset_scores(const Evaluation& evaluation,
   return descriptions(std::move(out));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "metrics/alignment/hand_eye/hand_eye.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct BodyOffsetOptions {
   double turn = 6.0;      ///< rotation angle over which relative poses are compared [deg]
@@ -51,4 +51,4 @@ std::string other_body(const BodyOffset& offset, const Pose& stated);
 std::vector<Score> body_offset_scores(const Evaluation& evaluation,
                                       const BodyOffsetOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

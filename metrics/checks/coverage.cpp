@@ -1,6 +1,6 @@
 #include "metrics/checks/coverage.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions&) {
   const Coverage& found = evaluation.coverage;
@@ -11,7 +11,7 @@ std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions&
   };
   return descriptions({single("share", found.share()),
                        single("span", found.span),
-                       loopbench::single("bridged", "", "s", found.bridged)});
+                       metrics::single("bridged", "", "s", found.bridged)});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

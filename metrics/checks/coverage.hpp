@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct CoverageOptions {};
 
@@ -15,4 +15,4 @@ void fields(CoverageOptions&, Visit) {}
 /// duration). `bridged` [s]: duration of tracking gaps that the curve bridges; 0 at keyframes.
 std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "metrics/trajectory/position_only.hpp"
 #include "metrics/trajectory/travel.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 void diagnose_pairs(const Evaluation& evaluation, Diagnostics& out) {
@@ -84,4 +84,4 @@ std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOp
                        single("longest_loss", "", "s", d.longest_loss)});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct DiagnosticsOptions {
   double standing = 0.05;
@@ -50,4 +50,4 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
 /// Each value of Diagnostics as a single score; shares in %, flags as 0 or 1.
 std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/numerics/angle.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureResidualOptions&) {
   const Problem& problem = needed(evaluation.context.problem, "closure_residual", "loop closures");
@@ -36,4 +36,4 @@ std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureR
                        {"mahalanobis", "3d", "1", statistics(std::move(mahalanobis), ddof)}});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct ClosureResidualOptions {};
 
@@ -19,4 +19,4 @@ void fields(ClosureResidualOptions&, Visit) {}
 std::vector<Score> closure_residual(const Evaluation& evaluation,
                                     const ClosureResidualOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

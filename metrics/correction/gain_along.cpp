@@ -7,7 +7,7 @@
 #include "metrics/pairing/pair_search.hpp"
 #include "metrics/trajectory/losses.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Magnitudes of the errors of all pairs.
@@ -118,4 +118,4 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct GainAlongOptions {};
 
@@ -23,4 +23,4 @@ void fields(GainAlongOptions&, Visit) {}
 /// O(n log n).
 std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 double squared(const Twist& e, const Matrix6& information) { return e.dot(information * e); }
@@ -70,4 +70,4 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
           directed(single("chi2", "closures", "1", closures), Better::neither)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

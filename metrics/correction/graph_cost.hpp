@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// With Delta = Z^-1 X_from^-1 X_to for an edge Z of information Omega:
 enum class GraphError {
@@ -34,4 +34,4 @@ void fields(GraphCostOptions& o, Visit visit) {
 /// residual. O(keyframes + edges).
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

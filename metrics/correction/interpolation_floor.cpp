@@ -7,7 +7,7 @@
 #include "metrics/numerics/natural_cubic.hpp"
 #include "metrics/numerics/stamp_rounding.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Consecutive keyframes at which the reference is defined.
@@ -89,4 +89,4 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                        std::move(slerp)});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

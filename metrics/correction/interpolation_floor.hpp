@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct InterpolationFloorOptions {
   double max_gap = 0.1;
@@ -23,4 +23,4 @@ void fields(InterpolationFloorOptions& o, Visit visit) {
 std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                                        const InterpolationFloorOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

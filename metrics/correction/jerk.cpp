@@ -8,7 +8,7 @@
 #include "metrics/numerics/divided_differences.hpp"
 #include "metrics/numerics/stamp_rounding.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr double kMostSamples = 1e8;  // 6 GB
@@ -87,4 +87,4 @@ std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options
           directed(std::move(ratio), Better::target, 1.0)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

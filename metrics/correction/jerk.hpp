@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct JerkOptions {
   double rate = 10.0;
@@ -24,4 +24,4 @@ void fields(JerkOptions& o, Visit visit) {
 /// four common samples. O(n + span * rate).
 std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/numerics/divided_differences.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 struct Motion {
@@ -77,4 +77,4 @@ std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& optio
           {"acceleration", "3d", "m/s^2", statistics(std::move(acceleration), ddof)}};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

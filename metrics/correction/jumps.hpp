@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct JumpsOptions {
   double reach = 0.1;
@@ -30,4 +30,4 @@ void fields(JumpsOptions& o, Visit visit) {
 /// coarse for four different times. O(keyframes).
 std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 
 #include "metrics/numerics/angle.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOptions&) {
   const Trajectory& before =
@@ -27,4 +27,4 @@ std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOpt
                        {"rotation", "3d", "deg", statistics(std::move(degrees), ddof)}});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

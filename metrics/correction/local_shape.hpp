@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct LocalShapeOptions {};
 
@@ -16,4 +16,4 @@ void fields(LocalShapeOptions&, Visit) {}
 /// median. Throws Undefined without a problem or with fewer than two keyframes. O(keyframes).
 std::vector<Score> local_shape(const Evaluation& evaluation, const LocalShapeOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -9,7 +9,7 @@
 #include "datasets/core/polyline.hpp"
 #include "metrics/numerics/angle.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 struct Scored {
@@ -172,4 +172,4 @@ std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionR
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -8,7 +8,9 @@
 #include "datasets/core/sequence.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
+
+using loopbench::to_text;  // beside the one below
 
 /// Criteria for a revisited place and for a false closure.
 struct DetectionRule {
@@ -71,4 +73,4 @@ std::string to_text(const Detection& detection);
 /// without a reference, without candidates, or without revisits.
 std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionRule& rule);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

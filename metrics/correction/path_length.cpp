@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> path_length_ratio(const Evaluation& evaluation, const PathLengthOptions&) {
   const double estimate = path_length(evaluation.estimate);
@@ -13,4 +13,4 @@ std::vector<Score> path_length_ratio(const Evaluation& evaluation, const PathLen
           directed(single("reference", "", "m", reference), Better::neither)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

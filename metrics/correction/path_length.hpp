@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct PathLengthOptions {};
 
@@ -17,4 +17,4 @@ void fields(PathLengthOptions&, Visit) {}
 std::vector<Score> path_length_ratio(const Evaluation& evaluation,
                                      const PathLengthOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/numerics/low_pass.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Keeps the first pose of repeated stamps (association evo).
@@ -50,4 +50,4 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                        single("gain", "3d", "%", 100.0 * (1.0 - after.rmse / before.rmse))});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 enum class Filter { sharp, moving_average };
 inline auto choices(Filter) {
@@ -35,4 +35,4 @@ void fields(SmoothingHeadroomOptions& o, Visit visit) {
 std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
                                       const SmoothingHeadroomOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

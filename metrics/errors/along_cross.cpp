@@ -5,7 +5,7 @@
 
 #include "metrics/trajectory/travel.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr double kUpright = 1e-3;  // sine between T and up below which `cross` is undefined
@@ -63,4 +63,4 @@ std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOpt
           magnitudes("vertical", std::move(vertical), ddof)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Which axis of the reference's world points up (or down).
 enum class Up { x, y, z };
@@ -36,4 +36,4 @@ void fields(AlongCrossOptions& o, Visit visit) {
 /// straight parts and flip at inflections.) Throws Undefined if the reference never moves. O(n).
 std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

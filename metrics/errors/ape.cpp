@@ -8,7 +8,7 @@
 #include "metrics/errors/printed_motion.hpp"
 #include "metrics/errors/rpy.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 void check_combination(const ApeOptions& options) {
   if (options.relation != Relation::point_distance_error_ratio) return;
@@ -70,4 +70,4 @@ std::vector<PoseError> pose_errors(const Evaluation& evaluation) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 #include "metrics/errors/relation.hpp"
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct ApeOptions {
   Relation relation = Relation::translation_part;
@@ -34,4 +34,4 @@ struct PoseError {
 };
 std::vector<PoseError> pose_errors(const Evaluation& evaluation);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

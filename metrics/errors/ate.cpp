@@ -4,7 +4,7 @@
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
   const std::size_t n = evaluation.reference.size();
@@ -24,4 +24,4 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
   return {{"translation", "3d", "m", statistics(std::move(metres), ddof)}, std::move(rotation)};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

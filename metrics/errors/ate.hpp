@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct AteOptions {};
 
@@ -15,4 +15,4 @@ void fields(AteOptions&, Visit) {}
 /// trajectories that hold only positions (position_only.hpp). O(n).
 std::vector<Score> ate(const Evaluation& evaluation, const AteOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

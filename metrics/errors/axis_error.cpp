@@ -5,7 +5,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/errors/ape.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptions& options) {
   const std::size_t n = evaluation.reference.size();
@@ -27,4 +27,4 @@ std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptio
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct AxisErrorOptions {
   bool rotation = false;
@@ -20,4 +20,4 @@ void fields(AxisErrorOptions& o, Visit visit) {
 /// follow. O(n).
 std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -1,6 +1,6 @@
 #include "metrics/errors/printed_motion.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 bool has_stamps_of(const Trajectory& judged, const Trajectory* whole) {
@@ -44,4 +44,4 @@ Pose pose_of(const PoseMatrix& matrix) {
   return {Rotation(Matrix3(matrix.linear())).normalized(), matrix.translation()};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/evaluation/evaluation.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// The matrices of both files, the estimate's after alignment, if the protocol uses evo's
 /// association and form and pose i of one file is paired with pose i of the other; otherwise
@@ -19,4 +19,4 @@ PoseMatrix printed_way(const PoseMatrix& world_from_a, const PoseMatrix& world_f
 /// Pose with the exact translation and the rotation nearest to the left 3 x 3 block.
 Pose pose_of(const PoseMatrix& matrix);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 
 #include "metrics/numerics/angle.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::string unit(Relation relation) {
   switch (relation) {
@@ -46,4 +46,4 @@ double measure(Relation relation, const Pose& E, AngleFormula formula) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/pairing/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 enum class Relation {
   usual,                ///< the metric's default scores
@@ -36,4 +36,4 @@ std::string unit(Relation relation);
 /// Value of the relation for E. Throws std::logic_error for usual, rpy and the point distances.
 double measure(Relation relation, const Pose& E, AngleFormula formula);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

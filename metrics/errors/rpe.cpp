@@ -9,7 +9,7 @@
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/pairs/tum_motions.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Visits the four poses of every pair.
@@ -241,4 +241,4 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
                 is_in_time || is_of_reference ? Measured::reference : Measured::estimate);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "metrics/metric.hpp"
 #include "metrics/pairing/pairs/stretch.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Frame of the single-axis scores.
 enum class RpeFrame {
@@ -85,4 +85,4 @@ void check_protocol(const RpeOptions& options, const Protocol& protocol);
 /// cause. O(n log n), but see angle_pairs.hpp.
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

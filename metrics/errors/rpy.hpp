@@ -9,7 +9,7 @@
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Magnitudes of the Euler angles of many rotations [deg].
 class Rpy {
@@ -36,4 +36,4 @@ class Rpy {
   std::array<std::vector<double>, 3> degrees_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "metrics/numerics/euler.hpp"
 #include "metrics/pairing/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// The printed matrices if the protocol evaluates them unchanged, otherwise null.
@@ -129,4 +129,4 @@ double float_mean(const std::vector<double>& values) {
   return static_cast<double>(sum / static_cast<float>(values.size()));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

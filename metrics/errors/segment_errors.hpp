@@ -6,7 +6,7 @@
 #include "metrics/evaluation/evaluation.hpp"
 #include "metrics/pairing/pair_search.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Lists of equal length or empty. `start` is empty in float64. The last four are empty if only
 /// rates are requested, and in float32.
@@ -39,4 +39,4 @@ SegmentErrors float_segment_errors(const Evaluation& evaluation,
 /// Mean with a sequential sum in float.
 double float_mean(const std::vector<double>& values);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -10,7 +10,7 @@
 #include "metrics/pairing/segment_ends.hpp"
 #include "metrics/protocols/lengths.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 template <class T>
@@ -141,4 +141,4 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   return out.out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

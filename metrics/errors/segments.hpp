@@ -3,7 +3,7 @@
 
 #include "metrics/metric.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct SegmentsOptions {
   std::string lengths;
@@ -32,4 +32,4 @@ void check_combination(const SegmentsOptions& options);
 /// orientation (position_only.hpp). O(lengths * n log n).
 std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -10,7 +10,7 @@
 #include "metrics/evaluation/undefined.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Poses of both files with the digits as printed, in file order; set if both files hold matrices.
 struct PrintedPoses {
@@ -40,4 +40,4 @@ const View& needed(const View* view, const std::string& metric, const std::strin
   return *view;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

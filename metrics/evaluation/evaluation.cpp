@@ -8,7 +8,7 @@
 #include "metrics/trajectory/position_only.hpp"
 #include "metrics/trajectory/projection.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 std::string span_text(double first, double last) {
@@ -153,4 +153,4 @@ std::string why_no_attitude(const Evaluation& evaluation) {
   return "";
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

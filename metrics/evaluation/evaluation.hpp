@@ -10,7 +10,7 @@
 #include "metrics/pairing/association.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Pair counts that are reported with every score.
 struct Coverage {
@@ -71,4 +71,4 @@ Evaluation evaluate(const Trajectory& reference,
 /// O(n).
 std::string why_no_attitude(const Evaluation& evaluation);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Thrown by a metric if the sequence, not the method, makes it undefined: no closures, no curve, a
 /// reference that does not move. Recorded as a `declined` row with this reason, not as a failure.
@@ -12,4 +12,4 @@ class Undefined final : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< [deg/rad]
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -6,7 +6,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Newton's coefficients of the cubic with p(offsets[k]) = points[k]; c[3] is a sixth of its third
 /// derivative. Offsets [s] must differ. Use the offsets of the rounded stamps: stamps near 1e9 s
@@ -21,4 +21,4 @@ inline std::array<Vector3, 4> divided_differences(const std::array<double, 4>& o
   return points;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -6,7 +6,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct Euler {
   double roll = 0.0;   ///< about x [rad], -pi..pi
@@ -24,4 +24,4 @@ inline Euler euler(const Rotation& rotation) {
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -6,7 +6,7 @@
 
 #include "metrics/numerics/stamp_rounding.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Centred means of values[begin..end), which has no gap, as differences of running sums: both ends
@@ -87,4 +87,4 @@ std::vector<Vector3> moving_average(const Series& series, double window) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

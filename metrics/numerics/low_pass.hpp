@@ -5,7 +5,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Values at increasing times.
 struct Series {
@@ -27,4 +27,4 @@ std::vector<Vector3> without_fast(const Series& even, double window);
 /// (pi window / T): 0 at T = window, 64 % at 2 windows and 90 % at 4. O(n).
 std::vector<Vector3> moving_average(const Series& series, double window);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -6,7 +6,7 @@
 
 #include "datasets/core/parallel.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kMedianSample = 4096;
@@ -89,4 +89,4 @@ double median(std::span<const double> values) {
   return 0.5 * (*at + *std::min_element(at + 1, middle.values.end()));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "datasets/core/parallel.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 // 256 pairs are 32 kB: read twice, loaded into the cache once.
@@ -72,4 +72,4 @@ Moments moments(const Trajectory& reference, const Trajectory& estimate) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -8,7 +8,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct Moments {
   double count = 0.0;
@@ -24,4 +24,4 @@ struct Moments {
 /// centred on their own mean, then merged.
 Moments moments(const Trajectory& reference, const Trajectory& estimate);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

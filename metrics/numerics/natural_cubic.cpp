@@ -4,7 +4,7 @@
 
 #include "datasets/core/tridiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 NaturalCubic::NaturalCubic(std::vector<double> stamps, std::vector<Vector3> points)
     : stamps_(std::move(stamps)), points_(std::move(points)) {
@@ -32,4 +32,4 @@ Vector3 NaturalCubic::at(std::size_t i, double time) const {
          sixth * ((v * v * v - v) * bends_[i] + (u * u * u - u) * bends_[i + 1]);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

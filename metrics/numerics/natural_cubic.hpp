@@ -5,7 +5,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Twice differentiable, zero second derivative at both ends. Positions only.
 /// Source: de Boor, A Practical Guide to Splines, ch. IV (second derivatives as unknowns).
@@ -23,4 +23,4 @@ class NaturalCubic {
   std::vector<Vector3> bends_;  ///< second derivatives at the stamps [m/s^2]
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

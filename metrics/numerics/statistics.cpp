@@ -8,7 +8,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/median.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Pairwise summation: rounding grows with log(n) instead of n at the cost of a plain sum. The
@@ -77,4 +77,4 @@ Statistics statistics(std::vector<double> errors, int ddof) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// All in the unit of the errors, except count. Pass magnitudes for signed errors (axes).
 struct Statistics {
@@ -22,4 +22,4 @@ struct Statistics {
 /// not finite. Pairwise summation, O(n).
 Statistics statistics(std::vector<double> errors, int ddof = 0);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

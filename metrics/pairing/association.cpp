@@ -9,7 +9,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/stamp_rounding.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Visits (index in wanted, index in stamps) of each wanted stamp and its nearest stamp.
@@ -139,4 +139,4 @@ Paired associate(const Trajectory& reference,
       match_one_to_one(stamps(reference), stamps(estimate), max_diff, limit, crossing, offset));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "datasets/core/trajectory.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct IndexPair {
   std::size_t reference = 0;
@@ -73,4 +73,4 @@ Paired interpolate_reference(const Trajectory& reference,
 /// association `index` is used with lists of different size.
 Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

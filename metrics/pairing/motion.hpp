@@ -7,7 +7,7 @@
 #include "datasets/core/pose.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// a^-1 b. Half the cost of inverse and product, and subtracts the positions first, which is
 /// accurate far from the origin.
@@ -52,4 +52,4 @@ inline double rotation_angle(AngleFormula formula, const Rotation& rotation) {
   return trace_angle(rotation.toRotationMatrix().trace());
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

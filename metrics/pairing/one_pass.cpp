@@ -2,7 +2,7 @@
 
 #include "metrics/pairing/association.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
                                      const std::vector<double>& estimate,
@@ -25,4 +25,4 @@ std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -6,7 +6,7 @@
 
 #include "metrics/pairing/association.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// A stamp of either list. 32-bit indices keep it at 16 bytes; 4e9 poses would be 256 GB.
@@ -154,4 +154,4 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<FromTo> pairs_by_frames(std::size_t size, std::size_t delta) {
   std::vector<FromTo> out;
@@ -54,4 +54,4 @@ std::vector<double> accumulated_distances(const Trajectory& trajectory) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 using FromTo = std::pair<std::size_t, std::size_t>;
 
@@ -25,4 +25,4 @@ std::vector<FromTo> pairs_by_measure(const std::vector<double>& measure,
 /// Path length from the first pose to each pose [m].
 std::vector<double> accumulated_distances(const Trajectory& trajectory);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

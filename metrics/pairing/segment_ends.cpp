@@ -6,7 +6,7 @@
 
 #include "datasets/core/parallel.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 using DistanceAt = std::vector<double>::const_iterator;
@@ -93,4 +93,4 @@ std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

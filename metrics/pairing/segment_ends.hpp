@@ -6,7 +6,7 @@
 #include "metrics/pairing/pair_search.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Pairs of start and end on `distances` (accumulated, never decreasing) by the rule `end`, for
 /// starts `step` apart. rpg: trajectory_utils.py:25-37 (8c8ceec), ov_eval: ResultTrajectory
@@ -33,4 +33,4 @@ std::vector<FromTo> segments_beyond(const std::vector<Real>& distances,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

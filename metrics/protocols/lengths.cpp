@@ -6,7 +6,7 @@
 
 #include "datasets/core/params.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 Length read(const std::string& option, const std::string& word) {
@@ -42,4 +42,4 @@ std::vector<Length> lengths(const std::string& option, const std::string& text) 
 
 Length tolerance(const std::string& option, const std::string& text) { return read(option, text); }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct Length {
   std::string text;  ///< "100 m" or "20%", for labels
@@ -21,4 +21,4 @@ std::vector<Length> lengths(const std::string& option, const std::string& text);
 /// One length, which can be zero.
 Length tolerance(const std::string& option, const std::string& text);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

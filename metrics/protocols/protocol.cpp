@@ -2,7 +2,7 @@
 
 #include "metrics/protocols/lengths.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 [[noreturn]] void refuse(const std::string& field,
@@ -84,4 +84,4 @@ void check(const Protocol& p) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

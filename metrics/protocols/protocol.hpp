@@ -5,7 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// How reference and estimate are paired in time.
 enum class Association {
@@ -236,4 +236,4 @@ void fields(Protocol& o, Visit visit) {
 /// parsed. `with` checks single fields.
 void check(const Protocol& protocol);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

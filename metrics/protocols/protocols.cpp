@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// Common to the other tools: any number of pairs gives a relative error.
@@ -170,4 +170,4 @@ NamedProtocol named_protocol(const std::string& name, const Params& changes) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

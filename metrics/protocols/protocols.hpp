@@ -5,7 +5,7 @@
 
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct ProtocolEntry {
   std::string name;
@@ -32,4 +32,4 @@ struct NamedProtocol {
 /// an unknown name, OptionError for an unknown, invalid or inconsistent field.
 NamedProtocol named_protocol(const std::string& name, const Params& changes = {});
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "metrics/numerics/median.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Loss> losses(const Trajectory& reference,
                          const std::vector<double>& estimate,
@@ -55,4 +55,4 @@ std::vector<double> tracked_stamps(const Problem& problem) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// A pause of the estimate, in reference time [s].
 struct Loss {
@@ -33,4 +33,4 @@ std::vector<Loss> tracking_gaps(const Trajectory& reference,
 /// Stamps at which the problem has a pose: its keyframes and the frames between them, ascending.
 std::vector<double> tracked_stamps(const Problem& problem);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr double kSameAttitude = 1e-9;  // [rad]; interpolating equal orientations rounds to 1e-16
@@ -36,4 +36,4 @@ bool is_position_only(const Trajectory& trajectory) {
   return !is_on_one_line(trajectory);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -2,7 +2,7 @@
 
 #include "metrics/numerics/euler.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 void project(Trajectory& trajectory, Plane plane) {
   if (plane == Plane::none) return;
@@ -14,4 +14,4 @@ void project(Trajectory& trajectory, Plane plane) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<Chord> chords(const Trajectory& trajectory, double window) {
   const std::size_t n = trajectory.size();
@@ -21,4 +21,4 @@ std::vector<Chord> chords(const Trajectory& trajectory, double window) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

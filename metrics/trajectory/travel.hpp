@@ -5,7 +5,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Chord of the path around a pose.
 struct Chord {
@@ -21,4 +21,4 @@ struct Chord {
 /// if poses are sparser, between the neighbours. Stamps must not decrease. O(n).
 std::vector<Chord> chords(const Trajectory& trajectory, double window);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -12,6 +12,9 @@
 #include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 /// A car's path wound up ten times whatever n is, with the drift of one KITTI run over all of it:

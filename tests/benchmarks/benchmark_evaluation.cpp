@@ -15,6 +15,9 @@
 #include "tests/benchmarks/markdown.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 /// A car at 10 m/s seen ten times a second, its path wound up; the estimate drifts, shakes by

@@ -17,6 +17,9 @@
 #include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;

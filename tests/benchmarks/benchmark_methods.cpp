@@ -5,6 +5,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 /// A corrector alone, a smoother alone, or both in one: only the verb, no sampling.
@@ -38,7 +41,7 @@ void time_entry(benchmark::State& state, const MethodEntry& entry) {
 }  // namespace loopbench
 
 int main(int argc, char** argv) {
-  for (const loopbench::MethodEntry& entry : loopbench::methods()) {
+  for (const loopbench::MethodEntry& entry : loopbench::methods::methods()) {
     benchmark::RegisterBenchmark(
         entry.name.c_str(),
         [entry](benchmark::State& state) { loopbench::time_entry(state, entry); })

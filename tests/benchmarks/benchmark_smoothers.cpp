@@ -9,6 +9,9 @@
 #include "tests/benchmarks/markdown.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 struct Timed {
@@ -99,7 +102,7 @@ void add(const std::string& name, const MethodEntry& entry, std::int64_t most, W
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  const std::vector<MethodEntry> known = methods();
+  const std::vector<MethodEntry> known = methods::methods();
   for (const auto& [name, most] : kSmoothers) {
     for (const MethodEntry& entry : known) {
       if (entry.name == name) add("smooth " + entry.name, entry, most, smooth);

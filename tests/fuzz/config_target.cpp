@@ -7,6 +7,8 @@
 
 namespace loopbench {
 
+using namespace harness;
+
 void fuzz_config(const std::filesystem::path& file) {
   static const Catalogue known = catalogue({});
   std::ifstream in(file, std::ios::binary);

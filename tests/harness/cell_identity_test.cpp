@@ -6,6 +6,11 @@
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config

@@ -8,6 +8,9 @@
 #include "harness/text/hash.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 Sweep two_by_three() {

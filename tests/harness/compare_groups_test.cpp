@@ -7,6 +7,11 @@
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace compared_sweep;  // NOLINT: its records are what every test here is about

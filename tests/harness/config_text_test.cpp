@@ -6,6 +6,11 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 std::string config(const std::string& datasets,

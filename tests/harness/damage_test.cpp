@@ -9,6 +9,10 @@
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace harness;
+
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config

@@ -10,6 +10,10 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace test;

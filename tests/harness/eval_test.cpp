@@ -10,6 +10,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace test;

@@ -6,6 +6,10 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace test;

@@ -6,6 +6,11 @@
 #include "harness/tables/text.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 Record ate(const std::string& method, double rmse, const std::string& times = "keyframes") {

@@ -7,6 +7,11 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using namespace gate_snapshot;

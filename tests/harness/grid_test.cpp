@@ -5,6 +5,9 @@
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 std::vector<GridPoint> grid(const std::string& text) {

@@ -11,6 +11,9 @@
 #include "harness/statistics/signed_rank.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 using Numbers = std::vector<double>;

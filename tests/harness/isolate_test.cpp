@@ -18,6 +18,11 @@
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 enum class Deed { nothing, abort, kill, exit, hang, flood, own_process };

@@ -15,6 +15,11 @@
 #include "tests/support/store_text.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__

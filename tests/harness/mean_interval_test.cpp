@@ -10,6 +10,9 @@
 #include "harness/statistics/student.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 using Numbers = std::vector<double>;

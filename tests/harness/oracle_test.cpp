@@ -9,6 +9,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 /// Along y = 0.1 x^2, one step per second at uneven speed: on the nominal path at integer seconds.

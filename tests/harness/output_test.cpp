@@ -11,6 +11,9 @@
 #include "tests/support/command.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -12,6 +12,11 @@
 #include "harness/execution/run/allocations.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 TEST(PowerLaw, FindsAnExactExponent) {

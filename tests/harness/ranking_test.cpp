@@ -11,6 +11,10 @@
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace harness;
+
 namespace {
 
 bool share_letter(const MethodVerdict& a, const MethodVerdict& b) {

@@ -6,6 +6,11 @@
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 Sweep parse(const std::string& text) { return parse_sweep(text, "c.yaml", tiny::catalogue()); }

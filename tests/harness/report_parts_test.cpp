@@ -13,6 +13,10 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace harness;
+
 namespace {
 
 TEST(Html, EscapesWhatMarkupIsMadeOf) {

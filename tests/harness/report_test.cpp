@@ -19,6 +19,11 @@
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 bool has(const std::string& text, const std::string& part) {

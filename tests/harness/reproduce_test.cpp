@@ -11,6 +11,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 TEST(Reported, HasSixteenRowsOfWhichFourCannotBeTrue) {

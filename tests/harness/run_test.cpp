@@ -12,6 +12,11 @@
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 const char* const kConfig = R"(

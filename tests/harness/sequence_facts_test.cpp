@@ -7,6 +7,9 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 TEST(HashedInputs, OneThatASequenceDidWithoutIsKnownWhenItComes) {

@@ -13,6 +13,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 using testing::HasSubstr;

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 const std::vector<std::string> kKnown{"uniform", "polyline", "cubic_spline", "dm_n4"};

@@ -10,6 +10,11 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 Record ate(const std::string& method, double rmse, int repeat = 0) {

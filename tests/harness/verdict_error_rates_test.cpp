@@ -4,6 +4,10 @@
 #include "tests/studies/error_rates.hpp"
 
 namespace loopbench::synthetic {
+
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 constexpr int kRepeats = 120;

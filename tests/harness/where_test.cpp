@@ -6,6 +6,11 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 bool keeps(const std::string& rule, const std::string& method) {

@@ -5,6 +5,9 @@
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
+
+using namespace harness;
+
 namespace {
 
 std::string why(const std::string& text) {

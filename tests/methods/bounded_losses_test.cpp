@@ -7,6 +7,9 @@
 #include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 constexpr Loss kBounded[] = {Loss::dcs, Loss::switchable};

@@ -12,6 +12,8 @@
 
 namespace loopbench {
 
+using namespace methods;
+
 /// Name of the test parameter in ctest; the default would print the bytes of the entry.
 void PrintTo(const MethodEntry& entry, std::ostream* out) { *out << entry.name; }
 
@@ -253,19 +255,19 @@ TEST_P(Conformance, DescribesItselfAndItsOptions) {
 
 INSTANTIATE_TEST_SUITE_P(Catalogue,
                          Conformance,
-                         ::testing::ValuesIn(methods()),
+                         ::testing::ValuesIn(methods::methods()),
                          [](const auto& entry) { return entry.param.name; });
 
 TEST(Catalogue, NamesAreUnique) {
   std::vector<std::string> names;
-  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  for (const MethodEntry& entry : methods::methods()) names.push_back(entry.name);
   std::ranges::sort(names);
   EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
 TEST(Catalogue, EveryExemptionNamesAMethod) {
   for (const Exemption& exemption : exemptions()) {
-    EXPECT_TRUE(std::ranges::any_of(methods(), [&](const MethodEntry& entry) {
+    EXPECT_TRUE(std::ranges::any_of(methods::methods(), [&](const MethodEntry& entry) {
       return entry.name == exemption.method;
     })) << exemption.method;
     EXPECT_FALSE(exemption.reason.empty());

@@ -11,6 +11,9 @@
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Pose at(double x) { return {Rotation::Identity(), {x, 0.0, 0.0}}; }

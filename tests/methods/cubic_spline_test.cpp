@@ -9,6 +9,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using namespace test;

@@ -10,6 +10,9 @@
 #include "methods/smoothers/manifold/dm.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 // Reads TUM trajectories that are known to be valid.

@@ -7,6 +7,9 @@
 #include "methods/smoothers/manifold/moving_frames.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using Text = std::string;

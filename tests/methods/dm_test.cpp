@@ -6,6 +6,9 @@
 #include "manifold_paths.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Dm::Options planar(int N) { return {.planar = N}; }

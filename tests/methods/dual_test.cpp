@@ -8,6 +8,9 @@
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using test::random_twist;

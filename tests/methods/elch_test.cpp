@@ -6,6 +6,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Trajectory elch(const Problem& problem, const Elch::Options& options = {}) {

@@ -10,6 +10,9 @@
 #include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 /// RMS position error after rigid alignment [m]; the stamps are equal.

@@ -10,6 +10,9 @@
 #include "methods/method.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 struct Corrected {
@@ -26,7 +29,7 @@ struct Corrected {
 
 /// Corrects the problem by a method of the catalogue with default options.
 Corrected corrected(const std::string& name, const Problem& problem) {
-  for (const MethodEntry& entry : methods()) {
+  for (const MethodEntry& entry : methods::methods()) {
     if (entry.name != name) continue;
     const Stage stage = entry.make({});
     Corrected out;

@@ -10,6 +10,9 @@
 #include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Problem loaded(const std::string& path, std::int64_t every = 1) {

@@ -4,7 +4,7 @@
 #include "methods/smoothers/manifold/bspline.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 using Value = BSpline::Value;
@@ -111,4 +111,4 @@ TEST(NodeSpline, PolylineIsStraightBetweenNodes) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/families/quadric.hpp"
 #include "methods/smoothers/manifold/up.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 TEST(Polynomial, ParabolaPassesThroughThreePoints) {
@@ -137,4 +137,4 @@ TEST(Up, OfAStraightLineIsPerpendicularAndRotatesWithTheBody) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/frenet.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Right-handed helix of radius 2 with a rise of 3 m per radian: kappa = 2 / 13, tau = 3 / 13.
@@ -148,4 +148,4 @@ TEST(Psi, ClampedSplineHasTheGivenVelocityOnBothSides) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -4,7 +4,7 @@
 #include "methods/smoothers/manifold/spline.hpp"
 #include "methods/smoothers/manifold/strip.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 TEST(NodeSpline, AgreesWithTheNaturalSplineByHand) {
@@ -90,4 +90,4 @@ TEST(Strip, BlendsNeighboursAtTheirJointOnly) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

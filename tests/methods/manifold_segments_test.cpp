@@ -9,7 +9,7 @@
 #include "methods/smoothers/manifold/short_segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 using Ranges = std::vector<NodeRange>;
@@ -173,4 +173,4 @@ TEST(DmReport, ListsSegmentsAndWindowsAsSections) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -5,7 +5,7 @@
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 using Ranges = std::vector<NodeRange>;
@@ -106,4 +106,4 @@ TEST(QuasiKeyframes, AGapOfExactlyTheLimitIsKept) {
 }
 
 }  // namespace
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

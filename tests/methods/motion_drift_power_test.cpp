@@ -7,6 +7,9 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 /// A straight walk along x with the given steps and errors of the steps, and one closure from start

@@ -11,6 +11,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 double largest_distance(const Trajectory& a, const Trajectory& b) {

@@ -11,6 +11,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Matrix6 information_of(double sigma) { return Matrix6::Identity() / (sigma * sigma); }

@@ -9,6 +9,9 @@
 #include "tests/support/counts.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using test::count;

@@ -9,6 +9,9 @@
 #include "methods/solvers/groups/sim3.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 template <class G>

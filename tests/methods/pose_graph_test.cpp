@@ -12,6 +12,9 @@
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using test::count;

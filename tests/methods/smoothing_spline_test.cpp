@@ -1,4 +1,6 @@
 // smoothing_spline and its parts.
+#include "methods/smoothers/smoothing_spline.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -7,11 +9,13 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/penalised/lattice.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/smoothing_spline.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/noisy_paths.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using namespace test;

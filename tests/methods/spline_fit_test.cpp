@@ -15,6 +15,9 @@
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using namespace test;

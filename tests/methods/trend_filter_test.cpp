@@ -8,6 +8,9 @@
 #include "tests/support/noisy_paths.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 using namespace test;

@@ -8,6 +8,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;

@@ -11,6 +11,9 @@
 #include "tests/support/counts.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 /// One lap of a square of 40 m in steps of one metre. The scale grows by `creep` per step without

@@ -10,6 +10,9 @@
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 Sequence simulated(std::int64_t seed) {

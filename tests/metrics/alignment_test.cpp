@@ -5,6 +5,9 @@
 #include "support.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::moved_by;

@@ -7,6 +7,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 /// A circle of radius 50 m at `speed` with `rate` poses per second, the first at `shift`.

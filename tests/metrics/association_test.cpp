@@ -11,6 +11,8 @@
 
 namespace loopbench {
 
+using namespace metrics;
+
 void PrintTo(const IndexPair& pair, std::ostream* out) {
   *out << pair.reference << "-" << pair.estimate;
 }

@@ -10,6 +10,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::find;

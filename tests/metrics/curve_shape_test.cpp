@@ -8,6 +8,9 @@
 #include "support.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::find;

@@ -10,6 +10,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 /// A pose every 20 ms, so that some lie between keyframes.
@@ -42,7 +45,7 @@ std::vector<Score> scores(const MetricEntry& entry, int ddof) {
 
 TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
   std::set<std::string> judged;
-  for (const MetricEntry& entry : metrics()) {
+  for (const MetricEntry& entry : metrics::metrics()) {
     std::vector<Score> plain, unbiased;
     try {
       plain = scores(entry, 0);

@@ -9,6 +9,9 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::JudgedCell;
@@ -46,7 +49,7 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
                   {.align = Align::none});
   cell.evaluation.context.loop_candidates = &candidates;
   std::map<std::string, std::pair<Better, double>> out;
-  for (const MetricEntry& entry : metrics()) {
+  for (const MetricEntry& entry : metrics::metrics()) {
     if (entry.name != metric) continue;
     const Params options = metric == "segments" ? Params{{"lengths", std::string("5")}} : Params{};
     for (const Score& score : entry.score(cell.evaluation, options)) {

@@ -6,6 +6,9 @@
 #include "support.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::why;

@@ -15,6 +15,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 using Json = nlohmann::json;

@@ -5,6 +5,9 @@
 #include <cmath>
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 /// Two steps of 1 m and a closure over both; each test adds its own error to the estimate.

@@ -9,6 +9,8 @@
 
 namespace loopbench::test {
 
+using namespace metrics;
+
 /// Owns everything its evaluation points to; do not copy or move.
 struct JudgedCell {
   JudgedCell(Trajectory truth,

@@ -11,6 +11,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 /// RPE over 10 m of path, consecutive pairs, with printed matrices or with rotations from them.

@@ -4,6 +4,9 @@
 #include "datasets/core/sequence.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 /// Forward along x and back, one keyframe per second: 0 1 2 3 2 1 0 m, so 4, 5, 6 revisit 2, 1, 0.

@@ -12,6 +12,9 @@
 #include "metrics/numerics/statistics.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 double by_sorting(std::vector<double> values) {

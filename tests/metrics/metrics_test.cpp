@@ -10,6 +10,9 @@
 #include "support.hpp"
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 using test::find;
@@ -115,7 +118,7 @@ TEST(CoverageMetric, IsTwoSharesAndTheTimeBridged) {
 /// The metrics that are errors of pairs: zero for a perfect estimate, never negative.
 std::vector<MetricEntry> pair_errors() {
   std::vector<MetricEntry> out;
-  for (const MetricEntry& entry : metrics()) {
+  for (const MetricEntry& entry : metrics::metrics()) {
     for (const char* name : {"ate", "axis_error", "rpe", "along_cross"}) {
       if (entry.name == name) out.push_back(entry);
     }
@@ -124,7 +127,7 @@ std::vector<MetricEntry> pair_errors() {
 }
 
 TEST(Catalogue, ReadsOptionsAndRefusesBadOnes) {
-  for (const MetricEntry& entry : metrics()) {
+  for (const MetricEntry& entry : metrics::metrics()) {
     EXPECT_THROW(entry.score(by_hand(), {{"nonsense", 1.0}}), OptionError) << entry.name;
   }
   for (const MetricEntry& entry : pair_errors()) {
@@ -133,7 +136,7 @@ TEST(Catalogue, ReadsOptionsAndRefusesBadOnes) {
       EXPECT_GT(score.statistics.count, 0u) << entry.name;
     }
   }
-  EXPECT_THROW(metrics()[2].score(by_hand(), {{"delta", 0.0}}), OptionError);
+  EXPECT_THROW(metrics::metrics()[2].score(by_hand(), {{"delta", 0.0}}), OptionError);
 }
 
 /// The same laws on random walks with errors of any size.

@@ -14,6 +14,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 using Pairs = std::vector<FromTo>;

@@ -11,6 +11,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;

@@ -11,6 +11,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 std::string refusal(const std::string& name, const Params& changes) {

@@ -12,6 +12,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 class PublicValues : public testing::Test {

@@ -7,6 +7,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 const RpeOptions kSecond{.delta = 1.0, .unit = DeltaUnit::s};
@@ -79,7 +82,7 @@ TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
 }
 
 TEST(RpeAxes, TheListSaysWhatTheyAre) {
-  for (const MetricEntry& entry : metrics()) {
+  for (const MetricEntry& entry : metrics::metrics()) {
     if (entry.name != "rpe") continue;
     for (const OptionInfo& option : entry.options) {
       if (option.name != "frame") continue;

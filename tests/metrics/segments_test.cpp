@@ -11,6 +11,9 @@
 #include "support.hpp"
 
 namespace loopbench::test {
+
+using namespace metrics;
+
 namespace {
 
 using Pairs = std::vector<FromTo>;

@@ -7,6 +7,9 @@
 #include <stdexcept>
 
 namespace loopbench {
+
+using namespace metrics;
+
 namespace {
 
 TEST(Statistics, OfFourNumbersByHand) {

@@ -14,6 +14,8 @@
 
 namespace loopbench::test {
 
+using namespace metrics;
+
 inline Vector3 random_vector(std::mt19937_64& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
   const double x = uniform(random);

@@ -9,6 +9,10 @@
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace harness;
+
 namespace {
 
 const std::filesystem::path kOutside = LOOPBENCH_OUTSIDE;

@@ -7,6 +7,11 @@
 #include "tests/support/command.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {

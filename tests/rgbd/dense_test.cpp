@@ -8,6 +8,9 @@
 #include "datasets/rgbd/dense/refine_by_depth.hpp"
 
 namespace loopbench {
+
+using namespace rgbd;
+
 namespace {
 
 Camera toy_camera() {

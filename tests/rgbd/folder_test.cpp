@@ -8,6 +8,9 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace rgbd;
+
 namespace {
 
 using testing::Test;

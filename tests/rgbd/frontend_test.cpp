@@ -7,6 +7,9 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
+
+using namespace rgbd;
+
 namespace {
 
 // 0.5 m/s, two seconds forward and two back, at an image width of 160 px: one pixel covers 2 cm.

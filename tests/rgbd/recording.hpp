@@ -11,6 +11,8 @@
 
 namespace loopbench {
 
+using namespace rgbd;
+
 inline RenderOptions small_room(double laps) {
   RenderOptions out;
   out.width = 160;

@@ -7,6 +7,9 @@
 #include "datasets/rgbd/render/sensor.hpp"
 
 namespace loopbench {
+
+using namespace rgbd;
+
 namespace {
 
 RenderOptions tiny() {

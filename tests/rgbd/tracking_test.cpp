@@ -13,6 +13,9 @@
 #include "datasets/rgbd/tracking/local_map.hpp"
 
 namespace loopbench {
+
+using namespace rgbd;
+
 namespace {
 
 const Pose kTruth{exp_so3({0.1, -0.2, 0.3}), {0.2, -0.1, 0.4}};

@@ -10,6 +10,10 @@
 #include "metrics/errors/ate.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+using namespace metrics;
+
 namespace {
 
 /// How one odometer's chain is used.

@@ -9,6 +9,11 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::synthetic {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 const MethodVerdict* verdict_of(const Comparison& c, std::size_t method) {

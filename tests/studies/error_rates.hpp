@@ -6,6 +6,8 @@
 
 namespace loopbench::synthetic {
 
+using namespace metrics;
+
 struct ErrorRates {
   double false_best = 0.0;    ///< a method is called best that is not
   double false_better = 0.0;  ///< any pair is ordered that is equal, or the other way round

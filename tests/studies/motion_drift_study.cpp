@@ -13,6 +13,9 @@
 #include "tests/studies/left_out.hpp"
 
 namespace loopbench {
+
+using namespace methods;
+
 namespace {
 
 struct Setting {

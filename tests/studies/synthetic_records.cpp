@@ -3,6 +3,11 @@
 #include <cmath>
 
 namespace loopbench::synthetic {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 double uniform(std::mt19937_64& bits) {

@@ -10,6 +10,8 @@
 
 namespace loopbench::synthetic {
 
+using namespace harness;
+
 /// Draws of the logarithm of an error, with their expectation.
 struct Shape {
   std::string name;

@@ -5,6 +5,11 @@
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench::synthetic {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 namespace {
 
 Sweep sweep_of(const NameOrder& sequences, const NameOrder& methods) {

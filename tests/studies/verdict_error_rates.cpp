@@ -12,6 +12,8 @@
 namespace {
 
 using namespace loopbench;             // NOLINT
+using namespace loopbench::metrics;    // NOLINT
+using namespace loopbench::harness;    // NOLINT
 using namespace loopbench::synthetic;  // NOLINT
 
 struct Scene {

@@ -5,6 +5,10 @@
 
 namespace loopbench::compared_sweep {
 
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 inline Record score(const std::string& sequence,
                     int repeat,
                     const std::string& method,

@@ -10,6 +10,8 @@
 
 namespace loopbench::test {
 
+using namespace methods;
+
 /// The count of that name; fails the test when there is none.
 inline double count(const Report& report, const std::string& name) {
   for (const Count& each : report.counts) {

@@ -15,6 +15,9 @@
 
 namespace loopbench::test {
 
+using namespace metrics;
+using namespace harness;
+
 using Json = nlohmann::json;
 
 inline std::string golden(const std::string& name) {

@@ -7,6 +7,10 @@
 
 namespace loopbench::gate_snapshot {
 
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 inline GateScore ate(double rmse) {
   GateScore out;
   out.protocol = "loopbench";

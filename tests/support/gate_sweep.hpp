@@ -7,6 +7,10 @@
 
 namespace loopbench::gate_sweep {
 
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 inline Record score(int run, const std::string& method, const std::string& metric, double rmse) {
   Record out;
   out.cell = 2 * run + (method == "raw" ? 0 : 1);

@@ -8,6 +8,8 @@
 
 namespace loopbench::test {
 
+using namespace methods;
+
 inline const std::vector<double> kTwelve{
     0.0, 0.3, 0.5, 1.1, 1.3, 2.0, 2.2, 2.9, 3.1, 3.5, 4.2, 4.4};
 

@@ -10,6 +10,10 @@
 
 namespace loopbench {
 
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 /// A line per cell, score, count, note and trace; numbers in full (%a), in the sweep's order.
 inline std::string store_text(const std::filesystem::path& file) {
   std::string out;

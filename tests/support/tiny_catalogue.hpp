@@ -8,6 +8,10 @@
 
 namespace loopbench::tiny {
 
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
 /// Four keyframes 1 s and 1 m apart along x; the estimate is off by `bias` in y at the last one.
 struct LineOptions {
   double bias = 0.1;

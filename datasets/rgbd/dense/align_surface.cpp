@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kAlignSteps = 20;
@@ -130,4 +130,4 @@ Alignment align_surface(const Surface& surface,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

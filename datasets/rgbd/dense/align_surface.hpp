@@ -7,7 +7,7 @@
 #include "datasets/rgbd/dense/surface.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct PlacedSurface {
   const Surface* surface = nullptr;
@@ -39,4 +39,4 @@ Alignment align_surface(const Surface& surface,
                         const PriorPose& prior,
                         const PoseOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -7,7 +7,7 @@
 #include "datasets/rgbd/dense/align_surface.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kSurfaceWidth = 160;        // [px]
@@ -182,4 +182,4 @@ void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -9,7 +9,7 @@
 #include "datasets/rgbd/rgbd_source.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct RefineOptions {
   bool depth = true;
@@ -60,4 +60,4 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
 /// interpolated in time. O(keyframes + frames).
 void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr float kSameDepth = 0.02f;      // relative depth difference to the median of a block
@@ -147,4 +147,4 @@ Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

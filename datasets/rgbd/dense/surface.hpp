@@ -6,7 +6,7 @@
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// A downsampled, undistorted depth image with its pinhole camera.
 struct SmallDepth {
@@ -34,4 +34,4 @@ struct Surface {
 /// of neighbouring pixels is assumed independent. O(pixels).
 Surface surface_of(const SmallDepth& image, double inverse_depth_sigma);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

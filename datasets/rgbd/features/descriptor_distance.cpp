@@ -3,7 +3,7 @@
 
 #include "datasets/rgbd/features/features.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 /// Number of bits set, without the POPCNT instruction, which is not available on all machines.
@@ -39,4 +39,4 @@ float descriptor_distance(const Features& a, std::size_t i, const Features& b, s
   return std::sqrt(static_cast<float>(sum)) / 1024.0f;  // SIFT descriptors have norm 512
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -9,7 +9,7 @@
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Feature {
   float u = 0.0f;      ///< undistorted [px]
@@ -65,4 +65,4 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const Featu
 /// (SIFT). It is about 0.5 for unrelated descriptors.
 float descriptor_distance(const Features& a, std::size_t i, const Features& b, std::size_t k);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

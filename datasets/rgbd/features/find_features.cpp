@@ -6,7 +6,7 @@
 
 #include "datasets/rgbd/features/features.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr float kOctave = 1.2f;      // scale factor of the ORB pyramid
@@ -133,4 +133,4 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const Featu
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

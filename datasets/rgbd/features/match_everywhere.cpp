@@ -2,7 +2,7 @@
 
 #include "datasets/rgbd/features/matching.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 cv::Mat rows(const Features& features) {
@@ -44,4 +44,4 @@ std::vector<Match> match_everywhere(const Features& a, const Features& b, const 
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

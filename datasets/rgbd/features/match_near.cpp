@@ -4,7 +4,7 @@
 
 #include "datasets/rgbd/features/matching.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kCell = 16;                 // [px]
@@ -100,4 +100,4 @@ std::vector<Match> match_near(const std::vector<Seen>& points,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

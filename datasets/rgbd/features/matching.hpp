@@ -7,7 +7,7 @@
 #include "datasets/core/pose.hpp"
 #include "datasets/rgbd/features/features.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Match {
   std::size_t a = 0;
@@ -59,4 +59,4 @@ std::vector<Match> match_near(const std::vector<Seen>& points,
                               double radius,
                               const MatchOptions& o);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -10,7 +10,7 @@
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
   return std::make_unique<FolderSource>(std::move(recording), registered, options.colour_focal);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

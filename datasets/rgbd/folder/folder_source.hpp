@@ -8,7 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/rgbd/rgbd_source.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Source of the intrinsics. `automatic`: camera.yaml in the folder if it exists, else the
 /// published ones if the folder name contains freiburg1 | fr1 and so on.
@@ -77,4 +77,4 @@ void fields(FolderOptions& o, Visit visit) {
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const std::filesystem::path& folder,
                                                    const FolderOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -8,7 +8,7 @@
 #include "datasets/formats/text_file.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/text_file.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list) {
   TextFile file(list);
@@ -51,4 +51,4 @@ std::vector<ImagePair> pair_images(const std::vector<ListedImage>& colour,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

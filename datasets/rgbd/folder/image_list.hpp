@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct ListedImage {
   double stamp = 0.0;  ///< [s]
@@ -30,4 +30,4 @@ std::vector<ImagePair> pair_images(const std::vector<ListedImage>& colour,
                                    double gap,
                                    const std::filesystem::path& folder);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -10,7 +10,7 @@
 #include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/folder/image_list.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Recording {
   Camera camera = {};
@@ -34,4 +34,4 @@ bool is_icl_nuim(const std::filesystem::path& folder);
 /// Throws InputError.
 Recording read_icl_nuim_layout(const std::filesystem::path& folder, const FolderOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

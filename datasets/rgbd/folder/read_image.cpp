@@ -17,7 +17,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 using Bytes = std::basic_string<char>;
@@ -82,4 +82,4 @@ Image<std::uint16_t> read_depth(const std::filesystem::path& file) {
   return decoded<stbi_us>(file, bytes, stbi_load_16_from_memory);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Reads an image and converts colour to grey (0.30 R + 0.59 G + 0.11 B). Throws InputError if the
 /// file is missing, truncated or not a PNG or JPEG.
@@ -15,4 +15,4 @@ GreyImage read_grey(const std::filesystem::path& file);
 /// Reads a 16-bit PNG. Throws InputError if the file is missing, truncated or has 8 bits per pixel.
 Image<std::uint16_t> read_depth(const std::filesystem::path& file);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

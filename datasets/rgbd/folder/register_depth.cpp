@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 Camera kinect(double focal) {
@@ -47,4 +47,4 @@ DepthImage register_depth(const DepthImage& depth, const CameraPair& cameras) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

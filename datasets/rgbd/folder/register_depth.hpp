@@ -5,7 +5,7 @@
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct CameraPair {
   Camera colour;
@@ -23,4 +23,4 @@ CameraPair unregistered_kinect(double colour_focal = 525.0);
 /// without a projected point have no depth. O(pixels).
 DepthImage register_depth(const DepthImage& depth, const CameraPair& cameras);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

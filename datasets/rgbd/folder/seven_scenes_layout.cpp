@@ -6,7 +6,7 @@
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ Recording read_seven_scenes_layout(const fs::path& folder, const FolderOptions& 
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -3,7 +3,7 @@
 #include "datasets/formats/formats.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

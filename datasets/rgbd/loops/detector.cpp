@@ -5,7 +5,7 @@
 #include "datasets/rgbd/loops/verify.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 struct Best {
@@ -53,4 +53,4 @@ DetectedLoops detect_loops(const Tracked& tracked,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -8,7 +8,7 @@
 #include "datasets/core/sequence.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct LoopOptions {
   bool enabled = true;
@@ -80,4 +80,4 @@ DetectedLoops detect_loops(const Tracked& tracked,
                            const LoopOptions& options,
                            const std::function<void(std::size_t, std::size_t)>& progress);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

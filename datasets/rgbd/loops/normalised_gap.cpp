@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr double kMedianOfSix =
@@ -77,4 +77,4 @@ double remeasured_excess(const std::vector<Edge>& first,
   return excess_of(remeasured_gaps(first, again), min_count);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Returns c' S^-1 c / 6 for each closure, where c is the twist between the measured closure and
 /// the same motion composed from odometry, and S is its covariance from both to first order. The
@@ -33,4 +33,4 @@ double remeasured_excess(const std::vector<Edge>& first,
                          const std::vector<Edge>& again,
                          std::size_t min_count);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 std::vector<Bag> bags(const std::vector<std::vector<std::size_t>>& words, std::size_t vocabulary) {
   std::vector<std::map<std::size_t, double>> counts(words.size());
@@ -44,4 +44,4 @@ double similarity(const Bag& a, const Bag& b) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

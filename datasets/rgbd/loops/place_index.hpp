@@ -6,7 +6,7 @@
 
 #include "datasets/rgbd/loops/vocabulary.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Weighted words of one image, sorted by word, weights sum to 1.
 using Bag = std::vector<std::pair<std::size_t, double>>;
@@ -17,4 +17,4 @@ std::vector<Bag> bags(const std::vector<std::vector<std::size_t>>& words, std::s
 /// Similarity 1 - |a - b|_1 / 2, in 0..1 (Galvez-Lopez and Tardos 2012, eq. 2). O(|a| + |b|).
 double similarity(const Bag& a, const Bag& b);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

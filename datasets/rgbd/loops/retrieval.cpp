@@ -5,7 +5,7 @@
 #include "datasets/rgbd/loops/place_index.hpp"
 #include "datasets/rgbd/loops/vocabulary.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr std::size_t kSamePlace = 3;  // maximum distance of keyframes at the same place
@@ -96,4 +96,4 @@ std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

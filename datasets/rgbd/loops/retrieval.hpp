@@ -5,7 +5,7 @@
 
 #include "datasets/rgbd/loops/detector.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Alike {
   std::size_t keyframe = 0;
@@ -17,4 +17,4 @@ struct Alike {
 std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
                                          const LoopOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

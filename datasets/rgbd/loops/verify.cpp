@@ -4,7 +4,7 @@
 
 #include "datasets/rgbd/tracking/observations.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr std::size_t kNeighbours = 1;   // keyframes on each side whose points are used
@@ -82,4 +82,4 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

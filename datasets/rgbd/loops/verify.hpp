@@ -3,7 +3,7 @@
 
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Verified {
   Edge edge;
@@ -20,4 +20,4 @@ Verified verify(const std::vector<Keyframe>& keyframes,
                 const Camera& camera,
                 const TrackOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

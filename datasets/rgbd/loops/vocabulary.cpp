@@ -4,7 +4,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kKMeansRounds = 6;
@@ -140,4 +140,4 @@ std::size_t Vocabulary::word(const Features& features, std::size_t i) const {
   return nodes_[node].word;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/rgbd/features/features.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Vocabulary tree (Nister and Stewenius 2006) trained by k-medians. The centre of binary
 /// descriptors is the majority of each bit (Galvez-Lopez and Tardos 2012), of other descriptors the
@@ -44,4 +44,4 @@ class Vocabulary {
   std::size_t words_ = 0;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

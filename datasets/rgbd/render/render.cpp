@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 // Brightness of the faces. It differs so that edges between faces of equal texture are visible.
@@ -32,4 +32,4 @@ Rendered render(const Scene& scene, const Camera& camera, const Pose& world_from
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 #include "datasets/rgbd/image.hpp"
 #include "datasets/rgbd/render/scene.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Rendered {
   Image<float> grey;   ///< 0..255
@@ -17,4 +17,4 @@ struct Rendered {
 /// Casts one ray through the centre of each pixel. O(pixels * furniture).
 Rendered render(const Scene& scene, const Camera& camera, const Pose& world_from_camera);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct RenderOptions {
   std::int64_t seed = 1;
@@ -36,4 +36,4 @@ void fields(RenderOptions& o, Visit visit) {
   visit("dropouts", o.dropouts, "rate of missing depth relative to a Kinect [-]", Between{0, 20});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

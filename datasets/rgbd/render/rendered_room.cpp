@@ -9,7 +9,7 @@
 #include "datasets/rgbd/render/sensor.hpp"
 #include "datasets/simulated/path.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 // Increment with any change of the rendered images, to invalidate caches.
@@ -96,4 +96,4 @@ std::unique_ptr<const RgbdSource> rendered_room(const RenderOptions& options) {
   return std::make_unique<RenderedRoom>(options);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

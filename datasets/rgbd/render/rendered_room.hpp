@@ -6,7 +6,7 @@
 #include "datasets/rgbd/render/render_options.hpp"
 #include "datasets/rgbd/rgbd_source.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// The camera follows the simulated path `room` (datasets/simulated/path.hpp) and looks along the x
 /// axis of the body, with a horizontal field of view of 62 degrees. Frames have stamps k / rate.
@@ -14,4 +14,4 @@ namespace loopbench {
 /// they are read.
 std::unique_ptr<const RgbdSource> rendered_room(const RenderOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr double kWallContrast = 1.0;
@@ -116,4 +116,4 @@ Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction) {
   return hit_of(*hit_block, face, depth, origin, direction);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

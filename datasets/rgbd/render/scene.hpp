@@ -8,7 +8,7 @@
 #include "datasets/core/so3.hpp"
 #include "datasets/rgbd/render/texture.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Block {
   Vector3 low;                      ///< [m]
@@ -38,4 +38,4 @@ struct Hit {
 /// First intersection of a ray that starts inside the room. O(furniture).
 Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kTaps = 5;               // samples along the motion blur
@@ -99,4 +99,4 @@ RgbdFrame sensed(const Rendered& ideal,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

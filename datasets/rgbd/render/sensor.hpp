@@ -9,7 +9,7 @@
 #include "datasets/rgbd/render/render.hpp"
 #include "datasets/rgbd/render/render_options.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Applies sensor effects to an ideal image.
 /// Grey image: motion blur over the exposure (`begin_from_end` is the camera motion during it),
@@ -26,4 +26,4 @@ RgbdFrame sensed(const Rendered& ideal,
                  std::uint64_t frame,
                  const RenderOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr double kSmallest = 0.015;  // [m]
@@ -117,4 +117,4 @@ float sample(const Texture& texture, float u, float v, float footprint) {
   return (1.0f - share) * sample_level(fine) + share * sample_level(coarse);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -6,7 +6,7 @@
 
 #include "datasets/rgbd/image.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// An image with its mipmap levels, finest first.
 struct Texture {
@@ -24,4 +24,4 @@ Texture dead_leaves(double width, double height, double contrast, std::uint64_t 
 /// `footprint` [m] (trilinear filtering).
 float sample(const Texture& texture, float u, float v, float footprint);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

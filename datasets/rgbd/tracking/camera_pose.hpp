@@ -8,7 +8,7 @@
 #include "datasets/core/se3.hpp"
 #include "datasets/rgbd/camera.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct Observation {
   Vector3 in_world;            ///< point in the world frame [m]
@@ -73,4 +73,4 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Pose& begin,
                         const PoseOptions& options);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

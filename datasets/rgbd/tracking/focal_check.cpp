@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kFocalRounds = 4;
@@ -169,4 +169,4 @@ std::optional<std::string> focal_warning(const FocalCheck& check, const Camera& 
       camera.fx);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -7,7 +7,7 @@
 
 #include "datasets/rgbd/tracking/tracker.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct FocalCheck {
   double factor = 1.0;    ///< estimated factor on both focal lengths [-]
@@ -26,4 +26,4 @@ FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
 /// Returns a warning if the factor differs from 1 by more than 5 % and five standard deviations.
 std::optional<std::string> focal_warning(const FocalCheck& check, const Camera& camera);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

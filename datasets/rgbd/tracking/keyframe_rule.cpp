@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 double novelty(const View& view, const KeyframeOptions& o) {
   const double common = static_cast<double>(view.common);
@@ -27,4 +27,4 @@ double novelty_due(const KeyframeOptions& o,
   return std::pow(kFactor, static_cast<double>(made) - planned);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -5,7 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct KeyframeOptions {
   std::int64_t target = 0;
@@ -66,4 +66,4 @@ double novelty_due(const KeyframeOptions& options,
                    std::size_t frame,
                    std::size_t frames);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

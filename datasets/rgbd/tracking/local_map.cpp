@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr double kMaxObservations = 10.0;  // limit of the accumulated weight of a point
@@ -85,4 +85,4 @@ void LocalMap::forget(std::size_t before) {
   features_.descriptors.resize(kept * bytes);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -8,7 +8,7 @@
 #include "datasets/rgbd/features/features.hpp"
 #include "datasets/rgbd/features/matching.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 class LocalMap {
  public:
@@ -43,4 +43,4 @@ class LocalMap {
   Features features_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -1,6 +1,6 @@
 #include "datasets/rgbd/tracking/observations.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 std::vector<Observation> observations(const std::vector<Seen>& points,
                                       const Features& features,
@@ -19,4 +19,4 @@ std::vector<Observation> observations(const std::vector<Seen>& points,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

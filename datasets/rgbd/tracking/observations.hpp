@@ -3,11 +3,11 @@
 #include "datasets/rgbd/features/matching.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 /// Converts matches to observations of map points in an image, in the same order. O(matches).
 std::vector<Observation> observations(const std::vector<Seen>& points,
                                       const Features& features,
                                       const std::vector<Match>& matches);
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

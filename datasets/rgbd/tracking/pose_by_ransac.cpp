@@ -2,7 +2,7 @@
 
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                    const Camera& camera,
@@ -42,4 +42,4 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
   return normalized(camera_from_world.inverse());
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -3,7 +3,7 @@
 
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr int kRefineRounds = 4;
@@ -99,4 +99,4 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -7,7 +7,7 @@
 #include "datasets/derive/odometry.hpp"
 #include "datasets/rgbd/tracking/observations.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 namespace {
 
 constexpr std::size_t kFewMatches = 40;  // below, the search radius is increased
@@ -226,4 +226,4 @@ Tracked Tracker::finish() {
   return std::move(out_);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

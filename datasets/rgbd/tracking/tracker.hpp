@@ -13,7 +13,7 @@
 #include "datasets/rgbd/tracking/keyframe_rule.hpp"
 #include "datasets/rgbd/tracking/local_map.hpp"
 
-namespace loopbench {
+namespace loopbench::rgbd {
 
 struct TrackOptions {
   std::int64_t window = 10;
@@ -108,4 +108,4 @@ class Tracker {
   std::size_t lost_count_ = 0;        ///< number of consecutive lost frames
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::rgbd

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 CellQueue::CellQueue(const std::vector<Cell>& cells) {
   std::map<std::pair<std::size_t, int>, std::size_t> known;
@@ -46,4 +46,4 @@ void CellQueue::give_back(std::size_t index) {
   if (begun_[group] && std::ranges::count(open_, group) == 0) open_.push_back(group);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -9,7 +9,7 @@
 
 #include "harness/model/cells.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class CellQueue {
  public:
@@ -42,4 +42,4 @@ class CellQueue {
   std::vector<std::size_t> open_;        ///< started groups that can have cells left
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -14,7 +14,7 @@
 #include "harness/execution/isolate/worker_process.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr int kMemoryWatch = 20;  // [ms], between memory checks of the workers
@@ -297,4 +297,4 @@ void run_isolated(const Sweep& sweep,
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

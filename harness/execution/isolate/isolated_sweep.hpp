@@ -9,7 +9,7 @@
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// As run_sweep, with `jobs` processes instead of threads (one, pinned to a core, if the sweep is
 /// serial), which are reused until one ends by a failure. Cells that exceed the sweep's limits or
@@ -24,4 +24,4 @@ void run_isolated(const Sweep& sweep,
                   const std::atomic<bool>& stop,
                   const std::function<void(const CellResult&)>& finished);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/execution/run/sequences.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::size_t bytes_of(const Sequence& s) {
@@ -38,4 +38,4 @@ const LoadedSequences::Entry& LoadedSequences::load(const Cell& cell) {
   return entries_.front();
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -7,7 +7,7 @@
 #include "harness/execution/isolate/worker.hpp"
 #include "harness/model/sequence_facts.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class LoadedSequences {
  public:
@@ -35,4 +35,4 @@ class LoadedSequences {
   std::list<Entry> entries_;  ///< most recently used first
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

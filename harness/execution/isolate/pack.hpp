@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Appends its arguments: plain data, strings, vectors, optionals, and types with a
 /// `walk(archive, value)`.
@@ -97,4 +97,4 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,22 +6,22 @@
 #include "harness/execution/isolate/pack.hpp"
 #include "harness/model/result.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 template <class Archive, class T>
-requires std::same_as<std::remove_const_t<T>, Phase>
+requires std::same_as<std::remove_const_t<T>, methods::Phase>
 void walk(Archive& a, T& phase) { a(phase.name)(phase.seconds); }
 
 template <class Archive, class T>
-requires std::same_as<std::remove_const_t<T>, Count>
+requires std::same_as<std::remove_const_t<T>, methods::Count>
 void walk(Archive& a, T& count) { a(count.name)(count.value); }
 
 template <class Archive, class T>
-requires std::same_as<std::remove_const_t<T>, Section>
+requires std::same_as<std::remove_const_t<T>, methods::Section>
 void walk(Archive& a, T& section) { a(section.kind)(section.begin)(section.end)(section.what); }
 
 template <class Archive, class T>
-requires std::same_as<std::remove_const_t<T>, Score>
+requires std::same_as<std::remove_const_t<T>, metrics::Score>
 void walk(Archive& a, T& score) {
   a(score.relation)(score.axis)(score.unit)(score.statistics)(score.why_undefined)(score.better)(
       score.target);
@@ -55,4 +55,4 @@ void walk(Archive& a, T& r) {
   a(r.scores)(r.trace.times)(r.trace.samples);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

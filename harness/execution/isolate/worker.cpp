@@ -11,7 +11,7 @@
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/run/run_cell.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Writes all bytes; false if the other side has closed.
@@ -110,4 +110,4 @@ void serve(const WorkerContext& context, int socket, Board& board, int pinned) {
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -8,7 +8,7 @@
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Status of a worker in memory shared with the sweep, which checks the time limit.
 struct Board {
@@ -52,4 +52,4 @@ void serve(const WorkerContext& context, int socket, Board& board, int pinned);
 /// Steady clock [ns], common to all processes.
 std::int64_t steady_nanoseconds();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

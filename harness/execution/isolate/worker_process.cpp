@@ -17,7 +17,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::runtime_error refused(const std::string& what) {
@@ -121,4 +121,4 @@ std::int64_t WorkerProcess::resident_memory() const {
   return in >> all >> resident ? resident * sysconf(_SC_PAGESIZE) : 0;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -10,7 +10,7 @@
 
 #include "harness/execution/isolate/worker.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class WorkerProcess {
  public:
@@ -49,4 +49,4 @@ class WorkerProcess {
   pid_t process_ = -1;  ///< -1 after its end
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

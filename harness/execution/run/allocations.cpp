@@ -79,7 +79,7 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexce
 }
 // NOLINTEND
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::optional<std::int64_t> allocations() {
   std::int64_t out = 0;
@@ -89,14 +89,14 @@ std::optional<std::int64_t> allocations() {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness
 
 #else
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::optional<std::int64_t> allocations() { return std::nullopt; }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness
 
 #endif

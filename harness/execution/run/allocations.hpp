@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Calls of malloc, calloc, realloc and the aligned variants by all threads so far, including those
 /// by `new`, Eigen and C libraries. nullopt under sanitizers and outside glibc, where they are not
@@ -12,4 +12,4 @@ namespace loopbench {
 /// costs about a nanosecond.
 std::optional<std::int64_t> allocations();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

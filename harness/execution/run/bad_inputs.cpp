@@ -6,7 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 std::vector<std::string> bad_inputs(const Sweep& sweep,
                                     const std::vector<Cell>& cells,
@@ -39,4 +39,4 @@ void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Cat
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

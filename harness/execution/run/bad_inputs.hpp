@@ -8,7 +8,7 @@
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Loads every sequence of the cells once (with its first seed), or inspects it if loading is slow.
 /// Returns "LABEL: reason" for each sequence that cannot be loaded.
@@ -20,4 +20,4 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
 /// Throws MissingPart when a sequence of the cells needs a part that this build was made without.
 void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

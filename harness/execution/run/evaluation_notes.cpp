@@ -10,30 +10,30 @@
 #include "metrics/errors/ate.hpp"
 #include "metrics/trajectory/losses.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Number of parameters estimated from all pairs; 0 for alignments that do not use all pairs.
-int fitted_parameters(const Evaluation& evaluation) {
+int fitted_parameters(const metrics::Evaluation& evaluation) {
   const auto first = static_cast<std::size_t>(evaluation.protocol.align_first);
   if (first > 0 && first < evaluation.coverage.pairs) return 0;
   switch (evaluation.alignment.type) {
-    case Align::se3:
+    case metrics::Align::se3:
       return 6;
-    case Align::sim3:
+    case metrics::Align::sim3:
       return 7;
-    case Align::posyaw:
+    case metrics::Align::posyaw:
       return 4;
-    case Align::scale:
-    case Align::origin:
-    case Align::posyaw_origin:
-    case Align::none:
+    case metrics::Align::scale:
+    case metrics::Align::origin:
+    case metrics::Align::posyaw_origin:
+    case metrics::Align::none:
       break;
   }
   return 0;
 }
 
-std::string few_pairs(const Evaluation& evaluation) {
+std::string few_pairs(const metrics::Evaluation& evaluation) {
   constexpr double kMost = 0.1;  // parameters per coordinate; errors are then 5 % too small
   const std::size_t coordinates = 3 * evaluation.coverage.pairs;
   const int parameters = fitted_parameters(evaluation);
@@ -50,12 +50,12 @@ std::string few_pairs(const Evaluation& evaluation) {
       100.0 * bias);
 }
 
-std::string stamp_differences(const Trajectory& reference, const Evaluation& evaluation) {
+std::string stamp_differences(const Trajectory& reference, const metrics::Evaluation& evaluation) {
   constexpr double kNegligible = 0.2;  // of the ATE; independent errors then add 2 %
   constexpr double kRounding = 1e-6;   // [s]
-  const auto found = association_error(reference, evaluation);
+  const auto found = metrics::association_error(reference, evaluation);
   if (!found) return "";
-  const double error = ate(evaluation, {}).front().statistics.rmse;
+  const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
   if (found->largest_difference < kRounding || found->metres <= kNegligible * error) return "";
   return fmt::format(
       "association: the stamps of paired poses differ by up to {:.3g} s; at the reference's speed "
@@ -65,7 +65,7 @@ std::string stamp_differences(const Trajectory& reference, const Evaluation& eva
       error);
 }
 
-std::string bridged(const Evaluation& evaluation) {
+std::string bridged(const metrics::Evaluation& evaluation) {
   if (evaluation.coverage.bridged == 0.0) return "";
   const bool is_judged = evaluation.protocol.max_estimate_gap == 0.0;
   return fmt::format(
@@ -82,7 +82,7 @@ void note_once(std::vector<std::string>& list, const std::string& text) {
 }  // namespace
 
 std::vector<std::string> evaluation_notes(const Trajectory& reference,
-                                          const Evaluation& evaluation) {
+                                          const metrics::Evaluation& evaluation) {
   std::vector<std::string> out;
   note_once(out, stamp_differences(reference, evaluation));
   note_once(out, few_pairs(evaluation));
@@ -95,16 +95,16 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
   std::vector<std::string> out;
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty() || problem.keyframes.empty()) return out;
-  for (const NamedProtocol& protocol : sweep.protocols) {
-    for (const Times times : sweep.times) {
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
+    for (const metrics::Times times : sweep.times) {
       try {
-        const Evaluation evaluation = evaluate(sequence.reference,
-                                               Polyline(problem.keyframes),
-                                               stamps(problem.keyframes),
-                                               times,
-                                               protocol.rules,
-                                               tracked_stamps(problem));
-        const Coverage& covered = evaluation.coverage;
+        const metrics::Evaluation evaluation = metrics::evaluate(sequence.reference,
+                                                                 Polyline(problem.keyframes),
+                                                                 stamps(problem.keyframes),
+                                                                 times,
+                                                                 protocol.rules,
+                                                                 metrics::tracked_stamps(problem));
+        const metrics::Coverage& covered = evaluation.coverage;
         if (covered.least() < kLowCoverage) {
           note_once(
               out,
@@ -124,4 +124,4 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 void require_finite_at(const Curve& curve, const std::vector<double>& times, const char* what) {
@@ -25,9 +25,11 @@ void require_finite_at(const Curve& curve, const std::vector<double>& times, con
 
 void require_finite(const Curve& curve, const Sequence& sequence, const Sweep& sweep) {
   require_finite_at(curve, stamps(sequence.problem.keyframes), "keyframes");
-  if (sequence.reference.empty() || std::ranges::count(sweep.times, Times::dense) == 0) return;
+  if (sequence.reference.empty() || std::ranges::count(sweep.times, metrics::Times::dense) == 0)
+    return;
   std::set<double> offsets;
-  for (const NamedProtocol& protocol : sweep.protocols) offsets.insert(protocol.rules.offset);
+  for (const metrics::NamedProtocol& protocol : sweep.protocols)
+    offsets.insert(protocol.rules.offset);
   for (const double offset : offsets) {
     std::vector<double> times;
     for (const StampedPose& pose : sequence.reference) {
@@ -38,4 +40,4 @@ void require_finite(const Curve& curve, const Sequence& sequence, const Sweep& s
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

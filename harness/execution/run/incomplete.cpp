@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-namespace loopbench {
+namespace loopbench::harness {
 
-std::string why_incomplete(const Coverage& coverage, double min_coverage) {
+std::string why_incomplete(const metrics::Coverage& coverage, double min_coverage) {
   if (coverage.least() >= min_coverage) return "";
   return fmt::format(
       "evaluated {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
@@ -14,4 +14,4 @@ std::string why_incomplete(const Coverage& coverage, double min_coverage) {
       100.0 * min_coverage);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,9 +5,9 @@
 
 #include "metrics/evaluation/evaluation.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Reason why the coverage (pairs or time) is below `min_coverage` (0..1); empty if it is not.
-std::string why_incomplete(const Coverage& coverage, double min_coverage);
+std::string why_incomplete(const metrics::Coverage& coverage, double min_coverage);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 bool is_shown_reference(const MethodChoice& method, const Catalogue& catalogue) {
   return std::ranges::any_of(method.stages, [&](const Choice& stage) {
@@ -30,4 +30,4 @@ void flag_trained_on_judged(CellResult& result, const Sweep& sweep) {
   result.report.notes.push_back("oracle: " + why);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

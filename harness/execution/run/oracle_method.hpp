@@ -7,7 +7,7 @@
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Whether a stage is one of harness/oracle.
 bool is_shown_reference(const MethodChoice& method, const Catalogue& catalogue);
@@ -22,4 +22,4 @@ std::string trained_on_judged(const MethodChoice& method,
 /// Sets oracle_method of such a cell and adds the reason to its notes. Needs the cell's facts.
 void flag_trained_on_judged(CellResult& result, const Sweep& sweep);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

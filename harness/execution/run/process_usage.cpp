@@ -8,7 +8,7 @@
 #include <ctime>
 #include <string_view>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Reads the number of kilobytes after `name` in /proc/self/status; returns bytes.
@@ -45,4 +45,4 @@ bool forget_peak_memory() {
 
 std::optional<std::int64_t> peak_memory() { return from_status("VmHWM:"); }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

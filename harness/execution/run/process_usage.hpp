@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// CPU time of all threads of the process [s].
 double process_cpu_seconds();
@@ -19,4 +19,4 @@ bool forget_peak_memory();
 /// Largest resident size since the reset or the start of the process [bytes].
 std::optional<std::int64_t> peak_memory();
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 std::size_t terminal_width() {
@@ -57,4 +57,4 @@ std::string progress_line(std::size_t done,
   return line.substr(0, width);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace loopbench {
+namespace loopbench::harness {
 
 class Progress {
  public:
@@ -35,4 +35,4 @@ std::string progress_line(std::size_t done,
                           const std::string& label,
                           std::size_t width);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

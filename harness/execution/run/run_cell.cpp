@@ -14,7 +14,7 @@
 #include "methods/pipeline.hpp"
 #include "metrics/trajectory/losses.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -25,7 +25,7 @@ template <class Result, class Work>
 void catch_errors(Result& result, Work work) {
   try {
     work();
-  } catch (const Undefined& reason) {
+  } catch (const metrics::Undefined& reason) {
     result.status = Status::declined;
     result.why = reason.what();
   } catch (const std::bad_alloc&) {
@@ -42,7 +42,7 @@ void catch_errors(Result& result, Work work) {
 
 /// Runs and measures the method; memory is measured outside the timed part.
 std::unique_ptr<const Curve> timed(CellResult& result,
-                                   const Method& method,
+                                   const methods::Method& method,
                                    const Problem& problem,
                                    int runs) {
   const std::optional<std::int64_t> before =
@@ -50,7 +50,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   std::unique_ptr<const Curve> curve;
   for (int run = 0; run < runs; ++run) {
     curve.reset();  // so that its destruction is not timed with the next run
-    Report report;
+    methods::Report report;
     const std::optional<std::int64_t> asked_before = allocations();
     const double cpu_begin = process_cpu_seconds();
     const auto begin = Clock::now();
@@ -68,7 +68,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return curve;
 }
 
-bool is_finite(const Statistics& s) {
+bool is_finite(const metrics::Statistics& s) {
   return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
          std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
          std::isfinite(s.sse);
@@ -78,14 +78,14 @@ bool is_finite(const Statistics& s) {
 void score(CellResult& result,
            const MetricChoice& choice,
            ScoreResult row,
-           const Evaluation& evaluation,
+           const metrics::Evaluation& evaluation,
            const Catalogue& catalogue) {
   row.metric = choice.metric.name;
   row.label = choice.label;
   row.coverage = evaluation.coverage;
   catch_errors(row, [&] {
-    const MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    for (Score& score : metric.score(evaluation, choice.metric.options)) {
+    const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
+    for (metrics::Score& score : metric.score(evaluation, choice.metric.options)) {
       result.scores.push_back(row);
       ScoreResult& added = result.scores.back();
       if (!score.why_undefined.empty()) {
@@ -112,12 +112,12 @@ void judge(CellResult& result,
            const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
-  const std::vector<double> tracked = tracked_stamps(sequence.problem);
-  const Protocol& protocol = sweep.protocols[row.protocol].rules;
+  const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
+  const metrics::Protocol& protocol = sweep.protocols[row.protocol].rules;
   ScoreResult none = row;
   catch_errors(none, [&] {
-    Evaluation evaluation =
-        evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
+    metrics::Evaluation evaluation =
+        metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = {&sequence.reference,
                           &at_keyframes,
                           &sequence.problem,
@@ -136,8 +136,8 @@ void judge(CellResult& result,
     for (const MetricChoice& choice : sweep.metrics) {
       score(result, choice, usual, evaluation, catalogue);
     }
-    const bool densest =
-        row.times == Times::dense || std::ranges::count(sweep.times, Times::dense) == 0;
+    const bool densest = row.times == metrics::Times::dense ||
+                         std::ranges::count(sweep.times, metrics::Times::dense) == 0;
     if (sweep.traces && row.protocol == 0 && densest) {
       result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
@@ -158,17 +158,17 @@ void judge_without_reference(CellResult& result,
                              const Catalogue& catalogue) {
   const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
   for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
-    Evaluation evaluation;
+    metrics::Evaluation evaluation;
     evaluation.protocol = sweep.protocols[p].rules;
     evaluation.context = {&sequence.reference,
                           &at_keyframes,
                           &sequence.problem,
                           &curve,
-                          Times::keyframes,
+                          metrics::Times::keyframes,
                           evaluation.protocol,
                           nullptr,
                           &sequence.loop_candidates};
-    const ScoreResult row{p, Times::keyframes, "", "", {}, {}, Status::ok, ""};
+    const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
       score(result, choice, row, evaluation, catalogue);
@@ -178,23 +178,24 @@ void judge_without_reference(CellResult& result,
 
 }  // namespace
 
-std::unique_ptr<const Method> make_method(const MethodChoice& choice,
-                                          const Catalogue& catalogue,
-                                          const Trajectory& reference) {
-  std::unique_ptr<const Corrector> corrector;
-  std::unique_ptr<const Smoother> smoother;
+std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
+                                                   const Catalogue& catalogue,
+                                                   const Trajectory& reference) {
+  std::unique_ptr<const methods::Corrector> corrector;
+  std::unique_ptr<const methods::Smoother> smoother;
   for (const Choice& part : choice.stages) {
     const OracleEntry* oracle = find_oracle(catalogue, part.name);
-    Stage stage = oracle ? oracle->make(part.options, reference)
-                         : find_method(catalogue, part.name).make(part.options);
-    if (auto* whole = std::get_if<std::unique_ptr<const Method>>(&stage)) return std::move(*whole);
-    if (auto* first = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
+    methods::Stage stage = oracle ? oracle->make(part.options, reference)
+                                  : find_method(catalogue, part.name).make(part.options);
+    if (auto* whole = std::get_if<std::unique_ptr<const methods::Method>>(&stage))
+      return std::move(*whole);
+    if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
       corrector = std::move(*first);
     } else {
-      smoother = std::move(std::get<std::unique_ptr<const Smoother>>(stage));
+      smoother = std::move(std::get<std::unique_ptr<const methods::Smoother>>(stage));
     }
   }
-  return compose(std::move(corrector), std::move(smoother));
+  return methods::compose(std::move(corrector), std::move(smoother));
 }
 
 CellResult run_cell(const Cell& cell,
@@ -221,7 +222,7 @@ CellResult run_cell(const Cell& cell,
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
-      for (const Times times : sweep.times) {
+      for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
         judge(result, row, sweep, sequence, *curve, catalogue);
       }
@@ -230,4 +231,4 @@ CellResult run_cell(const Cell& cell,
   return result;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -6,13 +6,13 @@
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Combines the stages of a choice into one method; only an oracle has access to `reference`.
 /// Throws InputError, OptionError.
-std::unique_ptr<const Method> make_method(const MethodChoice& choice,
-                                          const Catalogue& catalogue,
-                                          const Trajectory& reference);
+std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
+                                                   const Catalogue& catalogue,
+                                                   const Trajectory& reference);
 
 /// Does not throw for errors of a method or metric: they are stored as status and why.
 CellResult run_cell(const Cell& cell,
@@ -20,4 +20,4 @@ CellResult run_cell(const Cell& cell,
                     const Sequence& sequence,
                     const Catalogue& catalogue);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

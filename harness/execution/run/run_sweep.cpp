@@ -7,7 +7,7 @@
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/run_cell.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 /// Distributes 0..count-1 over `jobs` threads. The first exception stops the others and is
@@ -74,4 +74,4 @@ void run_sweep(const Sweep& sweep,
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

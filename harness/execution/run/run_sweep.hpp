@@ -7,7 +7,7 @@
 #include "harness/execution/run/sequences.hpp"
 #include "harness/model/result.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Calls `finished` once per cell, serialised, in order of completion. Throws InputError before the
 /// first cell if a sequence cannot be loaded. Stops early and omits the remaining cells if `stop`
@@ -20,4 +20,4 @@ void run_sweep(const Sweep& sweep,
                const std::atomic<bool>& stop,
                const std::function<void(const CellResult&)>& finished);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/provenance/summarise_sequence.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 Sequences::Sequences(const Sweep& sweep,
                      const Catalogue& catalogue,
@@ -47,4 +47,4 @@ SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& 
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

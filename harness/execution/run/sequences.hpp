@@ -12,7 +12,7 @@
 #include "harness/model/sequence_facts.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Metadata of the sequence of a cell; the dataset's `group` overrides the source. Throws
 /// InputError.
@@ -51,4 +51,4 @@ class Sequences {
   std::map<Key, Slot> slots_;  ///< keys are fixed after construction; only slots change
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

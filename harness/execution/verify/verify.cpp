@@ -10,7 +10,7 @@
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 namespace {
 
 constexpr std::array kParts{"status", "scores", "report", "trace"};
@@ -87,4 +87,4 @@ std::vector<Difference> verify(const Sweep& sweep,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

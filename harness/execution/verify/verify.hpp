@@ -10,7 +10,7 @@
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::harness {
 
 /// Run mode of a sweep.
 struct Manner {
@@ -38,4 +38,4 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const std::atomic<bool>& stop,
                                const std::function<void(const std::string& manner)>& step);
 
-}  // namespace loopbench
+}  // namespace loopbench::harness

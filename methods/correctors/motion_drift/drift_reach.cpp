@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// For each odometry edge, whether at least one loop encloses it.
@@ -62,4 +62,4 @@ void limit_drift(std::vector<EdgeMotion>& motions, const Problem& problem, doubl
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

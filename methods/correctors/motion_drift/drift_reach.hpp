@@ -3,7 +3,7 @@
 
 #include "methods/correctors/motion_drift/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Sets `drift_part` of every edge. Loops measure drift only along the edges that they enclose. For
 /// each regressor (edge, time, distance, rotation, speed) the reach is `reach` times the sum of
@@ -13,4 +13,4 @@ namespace loopbench {
 /// it. O(edges + closures).
 void limit_drift(std::vector<EdgeMotion>& motions, const Problem& problem, double reach);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Rows of the full gap vector that belong to `closures`: six per closure, three if planar.
@@ -101,4 +101,4 @@ double log_evidence(const MotionModel& model, const Evidence& evidence) {
                  static_cast<double>(evidence.gap.size()) * std::log(2.0 * std::numbers::pi));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/motion_drift/model.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// The gaps of the loops and the covariance that each term of a model gives them, at one
 /// linearisation point.
@@ -32,4 +32,4 @@ Eigen::MatrixXd gap_covariance(const MotionModel& model, const Evidence& evidenc
 /// O(gaps^3 + gaps^2 terms).
 double log_evidence(const MotionModel& model, const Evidence& evidence);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 LargestMove largest_move(const Problem& problem,
                          const Eigen::VectorXd& gap,
@@ -26,4 +26,4 @@ LargestMove largest_move(const Problem& problem,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

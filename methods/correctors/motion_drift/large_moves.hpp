@@ -6,7 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct LargestMove {
   double moved = 0.0;      ///< largest displacement of any keyframe [m]
@@ -20,4 +20,4 @@ LargestMove largest_move(const Problem& problem,
                          const Eigen::VectorXd& gap,
                          const Trajectory& corrected);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

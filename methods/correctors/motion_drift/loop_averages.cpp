@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 double lower_median(std::vector<double> values) {
@@ -76,4 +76,4 @@ double LoopAverages::stated_odometry(Half half) const {
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

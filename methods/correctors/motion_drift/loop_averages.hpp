@@ -5,7 +5,7 @@
 
 #include "methods/correctors/motion_drift/model.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Weighted means over the loop closures. Closure k has the weight 1 / (s + g)^2, the inverse
 /// variance of a squared gap, where s is its stated variance and g the lower median of the squared
@@ -52,4 +52,4 @@ class LoopAverages {
   Means means_[2];
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

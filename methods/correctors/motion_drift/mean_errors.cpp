@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// For each term j: mean_s(v_js C_s^-1 c), six numbers per closure.
@@ -96,4 +96,4 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "methods/correctors/motion_drift/evidence.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns the expected error of each odometry edge given the loops, averaged over `models`, at the
 /// chain's current linearisation point. All models must have the same terms. With the gaps c and
@@ -21,4 +21,4 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
                                const Problem& problem,
                                const std::vector<EdgeMotion>& motions);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

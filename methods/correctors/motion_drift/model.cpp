@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Lower bound on each edge's variance, as a fraction of the chain's mean variance. An edge without
@@ -92,4 +92,4 @@ ChainBelief belief_of(const MotionModel& model,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

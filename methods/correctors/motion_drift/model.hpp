@@ -7,7 +7,7 @@
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/motion_drift/motion.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Component of a twist that a term describes.
 enum class Half { translation, rotation };
@@ -38,4 +38,4 @@ ChainBelief belief_of(const MotionModel& model,
                       const Problem& problem,
                       const std::vector<EdgeMotion>& motions);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Regressor of an error variance or of a drift.
 enum class Growth { edge, time, distance, rotation, speed };
@@ -62,4 +62,4 @@ inline double drifted(Growth with, const EdgeMotion& motion) {
   return motion.drift_part[static_cast<std::size_t>(with)] * grown(with, motion);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -10,7 +10,7 @@
 #include "methods/correctors/motion_drift/mean_errors.hpp"
 #include "methods/correctors/unit_of_length.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Model = MotionDrift::Model;
@@ -215,4 +215,4 @@ int MotionDrift::average(const std::vector<MotionModel>& models,
   return options_.max_iterations;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 #include "methods/correctors/motion_drift/posterior.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// The error of odometry edge i is e_i = sum_j B_j phi_j(i) + w_i. The regressors phi_j are the
 /// edge's duration [s], length [m] and rotation angle [rad].
@@ -216,4 +216,4 @@ void fields(MotionDrift::Options& o, Visit visit) {
         Above{0.0});
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
@@ -107,4 +107,4 @@ MotionPosterior posterior_of(const MotionPrior& prior,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "methods/correctors/motion_drift/evidence.hpp"
 #include "methods/correctors/motion_drift/prior.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct Sampling {
   int draws = 256;
@@ -33,4 +33,4 @@ MotionPosterior posterior_of(const MotionPrior& prior,
                              const Evidence& evidence,
                              const Sampling& sampling);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 
 #include "methods/correctors/motion_drift/loop_averages.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// The stated closure covariance is kept if stated variance / squared gap is at most this (a factor
@@ -205,4 +205,4 @@ MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) 
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

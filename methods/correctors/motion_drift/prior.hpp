@@ -5,7 +5,7 @@
 
 #include "methods/correctors/motion_drift/model.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Prior medians of terms that are not given as options, and their uncertainty. A spread is the
 /// standard deviation of the log of a variance. Tuned on the development chains of results/methods,
@@ -80,4 +80,4 @@ std::size_t hypothesis_at(const MotionPrior& prior, const Eigen::VectorXd& unkno
 /// Error model at the unknowns u. O(terms).
 MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

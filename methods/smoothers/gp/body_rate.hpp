@@ -5,7 +5,7 @@
 
 #include "datasets/core/se3.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Adjoint of the Lie algebra: [a, b] = small_adjoint(a) b.
 inline Matrix6 small_adjoint(const Twist& a) {
@@ -78,4 +78,4 @@ inline Matrix6 body_rate_by_step(const Twist& xi, const Twist& v) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 #include "methods/smoothers/penalised/reinsch.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 double round_to_lattice(double value) {
@@ -110,4 +110,4 @@ template GpChosen chosen_parameters<3>(const GpPosterior<3>&,
                                        const GpParameters&,
                                        const GpGiven&);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

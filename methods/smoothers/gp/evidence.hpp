@@ -6,7 +6,7 @@
 #include "methods/smoothers/gp/posterior.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Hyperparameters fixed by the user; empty values are estimated. Powers are per mean interval.
 struct GpGiven {
@@ -35,4 +35,4 @@ GpChosen chosen_parameters(const GpPosterior<P>& posterior,
                            const GpParameters& start,
                            const GpGiven& given);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 #include "methods/smoothers/gp/body_rate.hpp"
 #include "methods/smoothers/gp/prior.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Pose, body twist per unit of time, and for P = 3 its derivative. The pose is perturbed by Exp(d)
 /// on the right.
@@ -97,4 +97,4 @@ Link<P> link(const GpState<P>& from, const GpState<P>& to, double h) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// 1 / standard deviation of each row, where each six rows are translation and then rotation.
@@ -164,4 +164,4 @@ double GpPosterior<P>::negative_evidence(const States& states,
 template class GpPosterior<2>;
 template class GpPosterior<3>;
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

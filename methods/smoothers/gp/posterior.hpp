@@ -6,7 +6,7 @@
 #include "datasets/core/trajectory.hpp"
 #include "methods/smoothers/gp/link.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Hyperparameters. The unit of time is the mean interval between the poses.
 struct GpParameters {
@@ -64,4 +64,4 @@ class GpPosterior {
 extern template class GpPosterior<2>;
 extern template class GpPosterior<3>;
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

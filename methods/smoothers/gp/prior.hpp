@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// One scalar axis with state (x, x', ..) over a unit interval. Over h seconds, derivative a scales
 /// by h^-a and the covariance by h^(2P-1). Source: Barfoot, State Estimation for Robotics, 3.4;
@@ -56,4 +56,4 @@ struct Prior {
   }
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

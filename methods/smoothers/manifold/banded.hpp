@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 constexpr std::size_t kMostBand = 5;
 
@@ -49,4 +49,4 @@ class Banded {
   std::vector<Value> right_;
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Result type of a function of time: Value for a double, Jet<Value> for a Jet.
 template <class T, class Value>
@@ -55,4 +55,4 @@ struct Ramp {
   }
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

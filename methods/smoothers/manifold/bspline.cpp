@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/banded.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 using Value = BSpline::Value;
 
@@ -103,4 +103,4 @@ Jet<Value> BSpline::at(const Jet<double>& u) const {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

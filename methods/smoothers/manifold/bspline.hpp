@@ -8,7 +8,7 @@
 
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 constexpr std::size_t kMostOrder = 6;
 
@@ -72,4 +72,4 @@ class BSpline {
   std::vector<Value> controls_;
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 std::string alpha(int i, int j) {
@@ -144,4 +144,4 @@ std::string text(const std::vector<Coefficient>& coefficients) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/pieces.hpp"
 #include "methods/smoothers/manifold/spatial.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// One coefficient in metres of the window's frame, after undoing centring and scaling.
 struct Coefficient {
@@ -39,4 +39,4 @@ std::string family_name(const PlanarPiece& piece);
 /// Formats coefficients as "alpha(2,0) = 1.238, ...".
 std::string text(const std::vector<Coefficient>& coefficients);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

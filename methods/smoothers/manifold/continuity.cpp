@@ -2,7 +2,7 @@
 
 #include "methods/smoothers/manifold/frenet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 Continuity continuity(const ManifoldCurve& curve) {
   constexpr double min_speed_ratio = 1e-3;  // [of the mean speed]
@@ -31,4 +31,4 @@ Continuity continuity(const ManifoldCurve& curve) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

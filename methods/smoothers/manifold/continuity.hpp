@@ -3,7 +3,7 @@
 
 #include "methods/smoothers/manifold/curve.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Largest jumps over all inner nodes. A B-spline of order 3 has its acceleration jumps between
 /// nodes.
@@ -19,4 +19,4 @@ struct Continuity {
 /// ignored for slope and curvature, because the direction is undefined there. O(nodes).
 Continuity continuity(const ManifoldCurve& curve);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

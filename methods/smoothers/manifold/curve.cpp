@@ -2,7 +2,7 @@
 
 #include "datasets/core/knot_span.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 ManifoldCurve::ManifoldCurve(const Trajectory& nodes, Parts parts)
     : stamps_(loopbench::stamps(nodes)), parts_(std::move(parts)) {
@@ -31,4 +31,4 @@ void ManifoldCurve::sample(std::span<const double> times, std::span<Pose> poses)
   }
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/spatial.hpp"
 #include "methods/smoothers/manifold/strip.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct Parts {
   Vector3 base;  ///< position of the first node [m]
@@ -66,4 +66,4 @@ class ManifoldCurve final : public Curve {
   Parts parts_;
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

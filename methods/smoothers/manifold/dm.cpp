@@ -5,7 +5,7 @@
 #include "methods/smoothers/manifold/regression.hpp"
 #include "methods/smoothers/stretches.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 using namespace manifold;  // NOLINT: most names in this file are from manifold
 
@@ -188,4 +188,4 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   return curve;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -12,7 +12,7 @@
 #include "methods/smoothers/manifold/curve.hpp"
 #include "methods/smoothers/manifold/dm_options.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 class Dm final : public Smoother {
  public:
@@ -50,4 +50,4 @@ class Dm final : public Smoother {
   std::vector<manifold::Family> families_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

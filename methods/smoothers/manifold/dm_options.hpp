@@ -13,7 +13,7 @@
 #include "methods/smoothers/manifold/spatial.hpp"
 #include "methods/smoothers/manifold/up.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Rule: value is 0 (off) or in low..high.
 struct ZeroOr {
@@ -157,4 +157,4 @@ void fields(DmOptions& o, Visit visit) {
   visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/coefficients.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 double mean_nodes(const std::vector<Window>& windows) {
@@ -104,4 +104,4 @@ void note_coefficients(const SpatialFit& fit, double base_height, Report& report
   }
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 void count(Report& report, const char* name, std::size_t value);
 
@@ -26,4 +26,4 @@ void describe(const MovingFrames& frames, Report& report);
 void note_coefficients(const PlanarFit& fit, Report& report);
 void note_coefficients(const SpatialFit& fit, double base_height, Report& report);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

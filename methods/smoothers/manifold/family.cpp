@@ -5,7 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 int degree(Family family, std::size_t nodes) {
@@ -89,4 +89,4 @@ std::optional<PlanarPiece> fit_along(Family family,
   return curve ? std::optional<PlanarPiece>(AsArcPolynomial{*curve}) : std::nullopt;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

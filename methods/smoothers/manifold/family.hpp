@@ -6,7 +6,7 @@
 
 #include "methods/smoothers/manifold/pieces.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// by_n: parabola for 3 nodes, cubic for more. The others are named in the article.
 enum class Family { by_n, line, poly2, poly3, sin1, rat02, hyperbola, implicit };
@@ -47,4 +47,4 @@ std::optional<PlanarPiece> fit_along(Family family,
                                      std::span<const Vector3> points,
                                      std::span<const double> arc_lengths);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Minimum chord as a fraction of the path length; below it, rounding determines the direction.
@@ -80,4 +80,4 @@ bool is_graph(std::span<const Vector2> points) {
   return turning < kMostTurning;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

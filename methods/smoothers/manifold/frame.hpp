@@ -7,7 +7,7 @@
 
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 using Vector2 = Eigen::Vector2d;
 
@@ -54,4 +54,4 @@ std::vector<Vector2> local(const Nodes& nodes, NodeRange range, const Frame& fra
 /// angle is below a right angle. Otherwise y = f(x) may be multivalued, as on any loop.
 bool is_graph(std::span<const Vector2> points);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

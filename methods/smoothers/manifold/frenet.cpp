@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/frenet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 constexpr double kStraight = 1e-9;  // [rad] between S' and S''; below it, the plane is undetermined
@@ -78,4 +78,4 @@ std::vector<Triad> rotation_minimising(std::span<const Vector3> points,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -9,7 +9,7 @@
 
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct Triad {
   Vector3 T, N, B;  ///< unit vectors, right-handed
@@ -54,4 +54,4 @@ std::vector<Triad> rotation_minimising(std::span<const Vector3> points,
 /// Returns an arbitrary triad with the given unit tangent, as a start where Frenet is undefined.
 Triad any_triad(const Vector3& tangent);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

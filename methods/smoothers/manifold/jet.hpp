@@ -7,7 +7,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 template <class T>
 struct Jet {
@@ -94,4 +94,4 @@ inline Jet<double> along(const Vector3& direction, const Moving& v) {
   return {direction.dot(v.value), direction.dot(v.first), direction.dot(v.second)};
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 Meet JointRule::at(const Nodes& nodes, std::size_t node) const {
   if (!c0_below) return meet;
@@ -37,4 +37,4 @@ Joint sliding_joint(const Nodes& nodes,
           nodes.stamps[node] + 0.5 * nodes.duration(node)};
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/jet.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// overlap_blend: neighbouring pieces overlap and are blended, C2. quintic_bridge: half a step on
 /// each side of the joint is replaced by a quintic, C2. constrained_ls: all pieces are one cubic
@@ -61,4 +61,4 @@ Joint sliding_joint(const Nodes& nodes,
                     const Window& after,
                     std::size_t size);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

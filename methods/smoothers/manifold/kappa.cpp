@@ -2,7 +2,7 @@
 
 #include "methods/smoothers/manifold/frenet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 Nodes projected(Nodes nodes, const Vector3& up) {
@@ -55,4 +55,4 @@ std::vector<double> kappas(
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/nodes.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// turn_per_kf: angle between consecutive steps [rad]; the only one whose printed thresholds
 /// segment both sequences usefully. menger: 1 / radius of the circle through three nodes [1/m].
@@ -34,4 +34,4 @@ inline auto choices(Plane) {
 std::vector<double> kappas(
     const Nodes& nodes, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

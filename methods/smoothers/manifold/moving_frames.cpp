@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/moving_frames.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 MovingFrames moving_frames(const ManifoldCurve& curve) {
   const std::vector<double>& stamps = curve.stamps();
@@ -33,4 +33,4 @@ MovingFrames moving_frames(const ManifoldCurve& curve) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

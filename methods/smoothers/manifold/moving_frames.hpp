@@ -4,7 +4,7 @@
 #include "methods/smoothers/manifold/curve.hpp"
 #include "methods/smoothers/manifold/frenet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct MovingFrames {
   std::vector<Triad> triads;      ///< at every node
@@ -18,4 +18,4 @@ struct MovingFrames {
 /// used. At rest the tangent is kept. O(nodes).
 MovingFrames moving_frames(const ManifoldCurve& curve);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Nodes first..last, both included; neighbouring ranges share their end node.
 struct NodeRange {
@@ -43,4 +43,4 @@ inline double turn_between(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

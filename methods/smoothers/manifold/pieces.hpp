@@ -14,7 +14,7 @@
 #include "methods/smoothers/manifold/families/sine.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Spline point with y' replaced by the fitted curve at its x'.
 template <class Function>
@@ -108,4 +108,4 @@ VectorOf<T> asked(const PlanarPiece& piece, const PlaceOf<T>& place) {
   return std::visit([&](const auto& shape) { return shape(place); }, piece);
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

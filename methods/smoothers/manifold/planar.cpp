@@ -2,7 +2,7 @@
 
 #include "methods/smoothers/manifold/window_fit.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
@@ -74,4 +74,4 @@ PlanarFit fit_planar(const Nodes& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

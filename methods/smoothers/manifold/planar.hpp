@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/selection.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 enum class Fallback { arc, spline };
 inline auto choices(Fallback) {
@@ -57,4 +57,4 @@ PlanarFit fit_planar(const Nodes& nodes,
                      const Vector3& up,
                      const PlanarRule& rule);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 constexpr double kDecayTime = 1.0;  // [s]
@@ -131,4 +131,4 @@ std::vector<Clamp> clamps(const Nodes& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

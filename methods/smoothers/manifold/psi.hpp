@@ -9,7 +9,7 @@
 
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Use of psi: none, or as the spline's direction at the ends of segments.
 enum class PsiUse { none, boundary_tangent };
@@ -65,4 +65,4 @@ std::vector<Clamp> clamps(const Nodes& nodes,
                           std::size_t half,
                           PsiMean mean);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Tolerance for rounded stamps: a gap of nominally one second may be slightly longer.
@@ -77,4 +77,4 @@ Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -5,7 +5,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct GapRule {
   std::optional<double> time_max = 1.0;       ///< maximum gap without insertion [s]; none: no limit
@@ -34,4 +34,4 @@ std::size_t insert_frames(const StampedPose& current,
 /// Source: article section 3.3, where frames are chosen manually. O(keyframes log frames).
 Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

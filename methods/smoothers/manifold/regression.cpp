@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/regression.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 std::optional<PlanarFit> fit_regression(const Nodes& nodes,
                                         std::span<const NodeRange> segments,
@@ -30,4 +30,4 @@ std::optional<PlanarFit> fit_regression(const Nodes& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 
 #include "methods/smoothers/manifold/planar.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Least-squares fit of r(s) in space over the arc length along all nodes, with knots where
 /// consecutive windows of N nodes meet. Equal to the windows' cubics under equality constraints,
@@ -18,4 +18,4 @@ std::optional<PlanarFit> fit_regression(const Nodes& nodes,
                                         const NodeSpline& spline,
                                         std::size_t N);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

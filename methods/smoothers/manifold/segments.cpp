@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 double mean_speed(const Nodes& nodes) {
@@ -70,4 +70,4 @@ std::vector<NodeRange> segments(const Nodes& nodes, const SegmentRule& rule) {
       nodes, rule, kappas(nodes, {}, Kappa::turn_per_kf, Plane::space, Vector3::UnitZ()));
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -7,7 +7,7 @@
 
 #include "methods/smoothers/manifold/kappa.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Criterion for an edge to belong to a segment, with `band` in m/s. range: all speeds of the
 /// segment lie within `band`. adjacent: at most `band` from the previous edge. bins: in the same of
@@ -40,4 +40,4 @@ std::vector<NodeRange> segments(const Nodes& nodes,
 /// The same with kappa = turn_per_kf in space, regardless of the rule.
 std::vector<NodeRange> segments(const Nodes& nodes, const SegmentRule& rule);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// fixed: the first family of the list that can be fitted. aicc: lowest corrected Akaike
 /// information criterion. loocv: lowest squared error in leave-one-out cross-validation over the
@@ -31,4 +31,4 @@ inline double aicc(double residual_squares, std::size_t nodes, std::size_t param
          2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

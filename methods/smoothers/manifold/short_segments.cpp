@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 std::vector<NodeRange> merged(const Nodes& nodes,
                               std::vector<NodeRange> runs,
@@ -55,4 +55,4 @@ Filled filled(const Trajectory& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

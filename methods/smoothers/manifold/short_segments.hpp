@@ -6,7 +6,7 @@
 #include "datasets/core/problem.hpp"
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// borrow_neighbours: their windows include nodes of the neighbouring segments. merge: they are
 /// merged with the neighbour of the most similar mean speed. polyline: straight lines.
@@ -40,4 +40,4 @@ Filled filled(const Trajectory& nodes,
               const Trajectory& frames,
               std::size_t min_nodes);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

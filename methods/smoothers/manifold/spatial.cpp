@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 constexpr double kRounding = 1e-9;  // fraction of the window size, for level motion
@@ -77,4 +77,4 @@ SpatialFit fit_spatial(const Nodes& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/spline.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Height as a function of position; empty: the spline's height is kept.
 struct Height {
@@ -55,4 +55,4 @@ SpatialFit fit_spatial(const Nodes& nodes,
                        const Vector3& up,
                        const SpatialRule& rule);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 NodeSpline::NodeSpline(const Nodes& nodes, Straight) : stamps_(nodes.stamps), knots_(nodes.size()) {
   double path_length = 0.0;
@@ -114,4 +114,4 @@ MovingPlace NodeSpline::at(std::size_t edge, const Jet<double>& time) const {
           time};
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/bspline.hpp"
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Point of the spline: position [m], arc length along the nodes [m] and time [s].
 template <class T>
@@ -75,4 +75,4 @@ class NodeSpline {
   std::optional<BSpline> b_spline_;  ///< set by of_order()
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

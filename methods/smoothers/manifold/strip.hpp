@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/bridge.hpp"
 #include "methods/smoothers/manifold/joints.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 template <class Piece, class Value>
 struct Strip {
@@ -110,4 +110,4 @@ Strip<Piece, Value> laid(const Nodes& nodes,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

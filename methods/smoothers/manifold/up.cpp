@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Relative eigenvalue gap below which rounding of the input rotates the axis noticeably: the axis
@@ -51,4 +51,4 @@ Vector3 up_axis(const Trajectory& nodes, Up choice) {
   return area.dot(up) < 0.0 ? Vector3(-up) : up;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -5,7 +5,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 enum class Up { pca, world_z };
 inline auto choices(Up) {
@@ -19,4 +19,4 @@ inline auto choices(Up) {
 /// curves. O(n).
 Vector3 up_axis(const Trajectory& nodes, Up choice);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

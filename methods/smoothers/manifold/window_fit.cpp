@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/window_fit.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Near a pole or a turning point a curve leaves the spline between nodes by multiples of the chord;
@@ -107,4 +107,4 @@ bool WindowFitter::is_tame(const PlanarPiece& piece, const Window& window) const
   return true;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -3,7 +3,7 @@
 
 #include "methods/smoothers/manifold/planar.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Data shared by the steps of fitting a window.
 struct WindowFitter {
@@ -31,4 +31,4 @@ struct WindowFitter {
   bool is_tame(const PlanarPiece& piece, const Window& window) const;
 };
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 NodeRange borrowing(NodeRange nodes, std::size_t size, std::size_t count) {
@@ -64,4 +64,4 @@ std::vector<std::size_t> picked(const Window& window) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

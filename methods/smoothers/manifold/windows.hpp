@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// consecutive: adjacent windows share their end nodes. sliding_blend: one window per edge, each
 /// blended into the next. one_per_segment: nodes evenly subsampled from the segment. first_n: the
@@ -39,4 +39,4 @@ std::vector<Window> windows(NodeRange segment,
 /// Indices of the nodes that the window is fitted to. O(their number).
 std::vector<std::size_t> picked(const Window& window);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -6,7 +6,7 @@
 
 #include "methods/smoothers/penalised/pentadiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Solves (B + blocks) x = right in place. Scalars of B are multiples of the identity; `blocks` are
 /// added to the diagonal and are overwritten. Block elimination; each pivot is symmetrised, because
@@ -57,4 +57,4 @@ inline std::vector<Eigen::Vector3d> block_product(const Pentadiagonal& B,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

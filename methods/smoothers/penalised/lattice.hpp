@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Evaluates every `coarse`-th integer from low to high and then every integer around the best of
 /// them. Returns the minimiser if the function has a single minimum at least `coarse` wide. A later
@@ -27,4 +27,4 @@ int least_on_lattice(int low, int high, int coarse, Score score) {
   return best;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

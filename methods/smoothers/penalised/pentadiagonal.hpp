@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// One column from the diagonal down: entries (i, i), (i + 1, i), (i + 2, i). Entries below the
 /// last row are zero.
@@ -85,4 +85,4 @@ inline double trace_of_product(const Pentadiagonal& a, const Pentadiagonal& b) {
   return sum;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -2,7 +2,7 @@
 
 #include "methods/smoothers/penalised/lattice.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 Reinsch::Reinsch(const std::vector<double>& stamps)
     : slope_change_(stamps), gram_(slope_change_.size()), outer_(slope_change_.outer()) {
@@ -62,4 +62,4 @@ double chosen_lambda(const Reinsch& reinsch,
       -48, 96, 8, [&](int k) { return score(criterion, reinsch.fit(y, lambda(k)), y.size()); }));
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/penalised/slope_change.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises sum |y_i - f(t_i)|^2 + lambda int |f''|^2. With Q = D' (slope_change.hpp) and R the
 /// tridiagonal Gram matrix of the hat functions,
@@ -56,4 +56,4 @@ double chosen_lambda(const Reinsch& reinsch,
                      const std::vector<Vector3>& y,
                      Criterion criterion);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "datasets/core/so3.hpp"
 #include "methods/smoothers/penalised/pentadiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Row j of D is (1 / h_j, -1 / h_j - 1 / h_{j+1}, 1 / h_{j+1}) on the values j..j+2, where h are
 /// the intervals. D has n - 2 rows for n >= 3 stamps. D' is Reinsch's Q.
@@ -79,4 +79,4 @@ class SlopeChange {
   std::vector<Row> rows_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

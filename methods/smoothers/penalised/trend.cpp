@@ -3,7 +3,7 @@
 #include "datasets/core/tridiagonal.hpp"
 #include "methods/smoothers/penalised/trend_dual.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 std::vector<double> to_mean_intervals(std::vector<double> stamps, double interval) {
@@ -86,4 +86,4 @@ void Trend::refit(const std::vector<Vector3>& y, Fit& fit) const {
   });
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

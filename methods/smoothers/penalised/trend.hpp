@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/penalised/slope_change.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Minimises 1/2 sum |y_i - x_i|^2 + lambda sum_j |(D x)_j|, where D is defined in slope_change.hpp
 /// and the norm is Euclidean over all three axes (group lasso: all axes have their kinks at the
@@ -49,4 +49,4 @@ class Trend {
   SlopeChange slope_change_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 
 #include "methods/smoothers/penalised/block_pentadiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 using Forces = std::vector<Vector3>;
@@ -156,4 +156,4 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

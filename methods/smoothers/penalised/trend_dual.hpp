@@ -7,7 +7,7 @@
 #include "datasets/core/so3.hpp"
 #include "methods/smoothers/penalised/pentadiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct TrendDual {
   std::vector<Vector3> forces;     ///< v_j, |v_j| < lambda; the fit is y - D'v
@@ -34,4 +34,4 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
                            double tolerance,
                            int most);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Development of the great arcs through base rotations B_i into R^3 without slipping or twisting:
 ///
@@ -100,4 +100,4 @@ auto smoothed_rotations(const std::vector<Rotation>& rotations,
   }
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -9,7 +9,7 @@
 
 #include "methods/smoothers/manifold/bspline.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// m + 1 breaks have m - 1 + k functions. On piece p, breaks[p]..breaks[p + 1], only
 /// N_p..N_{p+k-1} are nonzero. Order k is degree k - 1.
@@ -69,4 +69,4 @@ class SplineBasis {
   std::vector<double> knots_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 
 #include "datasets/core/tridiagonal.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// `Block` is double or Matrix3, `Value` the type of the right side. Elimination without pivoting:
 /// backward stable for the totally positive matrices of B-spline interpolation (de Boor & Pinkus
@@ -52,4 +52,4 @@ class BlockBanded {
   std::vector<Value> right_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

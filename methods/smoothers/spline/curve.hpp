@@ -8,7 +8,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// p(t) = sum_j N_j(t) c_j,   R(t) = C_0 prod_{j>=1} Exp(B_j(t) Log(C_{j-1}^T C_j)),
 /// B_j = N_j + N_{j+1} + ... Both are C^{k-2} in time. O(k^2) per time for sorted times.
@@ -55,4 +55,4 @@ class CumulativeCurve final : public Curve {
   std::vector<Control> controls_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "methods/smoothers/spline/block_banded.hpp"
 #include "methods/smoothers/spline/turning.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 namespace {
 
 /// Residual below which Newton has converged [rad]; rounding is about 1e-15.
@@ -112,4 +112,4 @@ std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

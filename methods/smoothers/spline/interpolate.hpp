@@ -7,7 +7,7 @@
 #include "datasets/core/so3.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Solves sum_j N_j(sites[i]) c_j = points[i]; `basis` is SplineBasis::for_sites. O(n k^2).
 std::vector<Vector3> points_through(const SplineBasis& basis,
@@ -27,4 +27,4 @@ std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
                                                   const std::vector<double>& sites,
                                                   const std::vector<Rotation>& rotations);
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -6,7 +6,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Returns a basis with `share` functions per keyframe, at least k and at most n. Its sites are
 /// evenly spaced by keyframe index, so knots are dense where keyframes are dense. Requires n >= k.
@@ -39,4 +39,4 @@ inline std::vector<Pose> controls_along(const SplineBasis& basis, const Trajecto
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/spline/basis.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 struct Turning {
   Rotation rotation;                                  ///< R(t)
@@ -31,4 +31,4 @@ inline Turning turning(const Rotation* controls, std::size_t order, const Spline
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

@@ -5,7 +5,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// x -> scale R x + t. A scale of 1 makes it a rigid motion.
 struct ScaledPose {
@@ -33,4 +33,4 @@ inline ScaledPose normalized(ScaledPose x) {
 /// Measured similarity transform of an edge.
 inline ScaledPose measured(const Edge& edge) { return {edge.from_from_to, edge.scale}; }
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

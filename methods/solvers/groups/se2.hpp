@@ -3,7 +3,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// Group operations for the pose-graph solver; Se3 and Sim3 have the same interface. Perturbations
 /// act on the right: a * exp(twist). Source: Sola, Deray, Atchuthan, A micro Lie theory, 2018,
@@ -95,4 +95,4 @@ struct Se2 {
   }
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

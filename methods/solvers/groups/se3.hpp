@@ -3,7 +3,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// The same operations as Se2, implemented with datasets/core/se3.hpp.
 struct Se3 {
@@ -34,4 +34,4 @@ struct Se3 {
   static Matrix6 information(const Edge& edge, double) { return edge.information; }
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

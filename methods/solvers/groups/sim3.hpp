@@ -6,7 +6,7 @@
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
-namespace loopbench {
+namespace loopbench::methods {
 
 /// The same operations as Se2. Source: Strasdat, Local accuracy and global consistency for
 /// efficient visual SLAM, 2012, section 2.4.4. The Jacobians are computed by halving the twist,
@@ -121,4 +121,4 @@ struct Sim3 {
   }
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::methods

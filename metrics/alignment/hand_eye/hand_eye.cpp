@@ -3,7 +3,7 @@
 #include "metrics/alignment/hand_eye/lever_fit.hpp"
 #include "metrics/alignment/hand_eye/turn_fit.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 HandEye hand_eye(const std::vector<MotionPair>& pairs) {
   const TurnFit turn = fit_turn(pairs);
@@ -19,4 +19,4 @@ HandEye hand_eye(const std::vector<MotionPair>& pairs) {
       {turn.body_from_reference, place.lever}, place.deviation, turn.explained, place.explained};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

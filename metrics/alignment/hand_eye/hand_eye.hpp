@@ -3,7 +3,7 @@
 
 #include "metrics/alignment/hand_eye/turning_stretches.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Solution of the hand-eye equation Z C = C Q for relative poses Q (reference) and Z (estimate).
 struct HandEye {
@@ -33,4 +33,4 @@ struct HandEye {
 /// 1994.
 HandEye hand_eye(const std::vector<MotionPair>& pairs);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

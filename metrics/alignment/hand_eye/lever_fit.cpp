@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr double kMotionRounding = 1e-18;  // of the squared motion; below it nothing is explained
@@ -127,4 +127,4 @@ LeverFit fit_lever(std::vector<LeverEquation> all) {
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "datasets/core/so3.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// One pair of relative poses: moved = turned c + s way + k, with moved = R_C t_Q - t_Z, turned =
 /// R_Z - I and way = R_C t_Q.
@@ -27,4 +27,4 @@ struct LeverFit {
 /// O(equations).
 LeverFit fit_lever(std::vector<LeverEquation> equations);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

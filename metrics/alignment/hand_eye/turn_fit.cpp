@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr double kExplains = 0.5;                              // share of the squares, to accept
@@ -71,4 +71,4 @@ TurnFit fit_turn(const std::vector<MotionPair>& pairs) {
   return {turn, explained};
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

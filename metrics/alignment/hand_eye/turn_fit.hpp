@@ -3,7 +3,7 @@
 
 #include "metrics/alignment/hand_eye/turning_stretches.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 struct TurnFit {
   Rotation body_from_reference = Rotation::Identity();
@@ -15,4 +15,4 @@ struct TurnFit {
 /// the rotation does not explain half of the differences. O(pairs).
 TurnFit fit_turn(const std::vector<MotionPair>& pairs);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<MotionPair> turning_stretches(const Trajectory& reference,
                                           const Trajectory& estimate,
@@ -28,4 +28,4 @@ std::vector<MotionPair> turning_stretches(const Trajectory& reference,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "datasets/core/trajectory.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Relative poses of reference and estimate over the same interval, each in its own body frame at
 /// the start.
@@ -22,4 +22,4 @@ std::vector<MotionPair> turning_stretches(const Trajectory& reference,
                                           double turn,
                                           double longest);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kLeaf = 8;    // poses checked individually
@@ -86,4 +86,4 @@ std::vector<FromTo> angle_pairs(const Trajectory& trajectory, double angle, doub
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

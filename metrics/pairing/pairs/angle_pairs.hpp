@@ -3,7 +3,7 @@
 
 #include "metrics/pairing/pair_search.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Every i < j whose relative rotation angle is within `tolerance` of `angle` [rad], both limits
 /// included, ordered by i, then j: evo's all-pairs rule for angles. The result can hold n^2 / 2
@@ -12,4 +12,4 @@ namespace loopbench {
 /// O(n^2) if the orientation jumps from pose to pose.
 std::vector<FromTo> angle_pairs(const Trajectory& trajectory, double angle, double tolerance);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

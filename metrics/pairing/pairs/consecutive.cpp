@@ -1,6 +1,6 @@
 #include "metrics/pairing/pairs/consecutive.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 std::vector<FromTo> consecutive_frames(std::size_t size, std::size_t delta) {
   std::vector<FromTo> out;
@@ -39,4 +39,4 @@ std::vector<FromTo> consecutive_seconds(const std::vector<double>& stamps,
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

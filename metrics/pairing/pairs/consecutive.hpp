@@ -3,7 +3,7 @@
 
 #include "metrics/pairing/pair_search.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// (0, d), (d, 2d), ...; evo core/filters.py, filter_pairs_by_index. delta >= 1.
 std::vector<FromTo> consecutive_frames(std::size_t size, std::size_t delta);
@@ -24,4 +24,4 @@ std::vector<FromTo> consecutive_seconds(const std::vector<double>& stamps,
                                         double delta,
                                         double tolerance);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <unordered_set>
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// State after init_by_array({0}); mt19937 takes the 32-bit words unchanged.
@@ -78,4 +78,4 @@ std::vector<std::size_t> PythonRandom::sample(std::size_t size, std::size_t coun
   return out;
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

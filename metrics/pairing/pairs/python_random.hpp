@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// random.seed(0), then random.randint or random.sample: MT19937 seeded by the array {0}
 /// (Matsumoto and Nishimura's init_by_array), integers by rejection sampling (random.py,
@@ -26,4 +26,4 @@ class PythonRandom {
   std::mt19937 bits_;
 };
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

@@ -7,7 +7,7 @@
 #include "metrics/pairing/pairs/angle_pairs.hpp"
 #include "metrics/pairing/pairs/consecutive.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 /// A whole number of frames; nullopt if no list can be that long.
@@ -85,4 +85,4 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
       turns(measured, AngleFormula::rotation_vector), angle, FirstPose::starts);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

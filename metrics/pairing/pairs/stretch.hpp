@@ -4,7 +4,7 @@
 #include "metrics/pairing/pair_search.hpp"
 #include "metrics/protocols/protocol.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 enum class DeltaUnit { frames, s, m, deg, rad };
 inline auto choices(DeltaUnit) {
@@ -36,4 +36,4 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
 /// Rotation from each pose to the one before it [rad]; 0 for the first.
 std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

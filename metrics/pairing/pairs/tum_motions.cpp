@@ -10,7 +10,7 @@
 #include "metrics/numerics/statistics.hpp"
 #include "metrics/pairing/pairs/python_random.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 namespace {
 
 double median_step(const std::vector<double>& stamps) {
@@ -146,4 +146,4 @@ TumMotions tum_random_motions(const Paired& whole,
   return paired_motions(whole, offset, alignment, pairs);
 }
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

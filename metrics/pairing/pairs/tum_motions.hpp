@@ -5,7 +5,7 @@
 #include "metrics/pairing/association.hpp"
 #include "metrics/pairing/pairs/stretch.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics {
 
 /// Aligned estimate poses that some pair uses, each with the reference pose nearest in time; pairs
 /// of indices into them.
@@ -40,4 +40,4 @@ TumMotions tum_random_motions(const Paired& whole,
 /// probed first wins, which is not always the earlier one. `sorted` is not empty.
 std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted);
 
-}  // namespace loopbench
+}  // namespace loopbench::metrics

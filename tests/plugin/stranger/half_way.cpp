@@ -5,6 +5,7 @@
 #include "methods/plugin.hpp"
 
 using namespace loopbench;
+using namespace loopbench::methods;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "methods/smoothers/manifold/jet.hpp"
 #include "methods/smoothers/manifold/nodes.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Parabola through three points in Newton's form, which is stable when two of them nearly coincide
 /// because every divided difference is bounded by a chord length.
@@ -32,4 +32,4 @@ inline std::optional<Arc> fit_arc(std::span<const Vector3, 3> r, std::span<const
   return Arc{{s[0], s[1]}, {r[0], first, (second - first) / (s[2] - s[0])}};
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -9,7 +9,7 @@
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct ArcPolynomial {
   double centre = 0.0;                    ///< [m]
@@ -57,4 +57,4 @@ inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> 
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

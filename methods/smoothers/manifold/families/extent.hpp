@@ -6,7 +6,7 @@
 
 #include "methods/smoothers/manifold/frame.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct Extent {
   Vector2 low, high;  ///< [m]
@@ -25,4 +25,4 @@ struct Extent {
 // shortest window, so poles must be at least that far away.
 constexpr double kPoleMargin = 0.5;  // fraction of the range of x
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

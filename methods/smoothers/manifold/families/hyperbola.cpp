@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 // Poles tried on each side, in half ranges from the middle. The last one is practically a line.
@@ -52,4 +52,4 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
   return Hyperbola{centre + q[0] * scale, scale, q[1], q[2]};
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

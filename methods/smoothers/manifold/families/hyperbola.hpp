@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/families/extent.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Stored as c0 + c1 scale / (x - pole), so that c0 and c1 are lengths.
 struct Hyperbola {
@@ -26,4 +26,4 @@ struct Hyperbola {
 /// than half that range.
 std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

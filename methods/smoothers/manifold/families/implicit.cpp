@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 struct Monomials {
@@ -87,4 +87,4 @@ std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order)
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

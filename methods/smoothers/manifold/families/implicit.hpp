@@ -10,7 +10,7 @@
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Returns the number of (i, j) with i + j <= n.
 inline Eigen::Index implicit_terms(int order) { return (order + 1) * (order + 2) / 2; }
@@ -80,4 +80,4 @@ struct Implicit {
 /// Taubin, PAMI 13(11) 1991; Sampson, CGIP 18 1982.
 std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 constexpr int kMostNodes = 12;  ///< per window
 constexpr int kMostParameters = 10;
@@ -54,4 +54,4 @@ Parameters levenberg_marquardt(Parameters start,
   return start;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

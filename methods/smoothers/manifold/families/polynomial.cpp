@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
   const auto count = static_cast<Eigen::Index>(points.size());
@@ -30,4 +30,4 @@ Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/manifold/frame.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct Polynomial {
   double centre = 0.0;  ///< middle of the fitted x [m]
@@ -25,4 +25,4 @@ struct Polynomial {
 /// points with distinct x.
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 Quadric::Coefficients Quadric::monomials(const Vector2& u) {
   Coefficients out;
@@ -45,4 +45,4 @@ std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/frame.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 constexpr double kQuadricCut = 1e-3;  ///< relative to the largest singular value
 
@@ -41,4 +41,4 @@ std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
                                    std::span<const double> z,
                                    double cut = kQuadricCut);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

@@ -4,7 +4,7 @@
 
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 bool has_pole(double q1, double q2) {
@@ -64,4 +64,4 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

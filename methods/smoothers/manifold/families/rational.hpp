@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/families/extent.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 /// Stored relative to the middle of the window.
 struct Rational {
@@ -29,4 +29,4 @@ struct Rational {
 /// a real root within the range of x or half that range beside it.
 std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

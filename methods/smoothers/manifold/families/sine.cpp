@@ -5,7 +5,7 @@
 
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 namespace {
 
 constexpr int kSineStarts = 12;
@@ -75,4 +75,4 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
   return out;
 }
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold

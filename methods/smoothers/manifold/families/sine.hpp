@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/families/extent.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
-namespace loopbench::manifold {
+namespace loopbench::methods::manifold {
 
 struct Sine {
   double amplitude = 0.0;  ///< a [m], >= 0
@@ -27,4 +27,4 @@ struct Sine {
 /// mean point spacings, or amplitude above twice the range of y.
 std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level);
 
-}  // namespace loopbench::manifold
+}  // namespace loopbench::methods::manifold
