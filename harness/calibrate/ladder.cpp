@@ -119,7 +119,7 @@ std::vector<RateInterval> bootstrap(const Rung& rung,
 double root_mean_square(methods::Half half, const std::vector<Residuals>& sequences) {
   double sum = 0.0;
   for (const Residuals& s : sequences) {
-    for (const EdgeResidual& edge : s.edges) {
+    for (const EdgeError& edge : s.edges) {
       if (half == methods::Half::translation) {
         sum += edge.error.head(s.planar ? 2 : 3).squaredNorm();
       } else {
@@ -133,7 +133,7 @@ double root_mean_square(methods::Half half, const std::vector<Residuals>& sequen
 double correlation(methods::Growth a, methods::Growth b, const std::vector<Residuals>& sequences) {
   double n = 0.0, sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
   for (const Residuals& s : sequences) {
-    for (const EdgeResidual& edge : s.edges) {
+    for (const EdgeError& edge : s.edges) {
       const double x = edge.grown[static_cast<std::size_t>(a)];
       const double y = edge.grown[static_cast<std::size_t>(b)];
       n += 1.0;

@@ -30,7 +30,7 @@ Design design(const Rates& rates, const Residuals& sequence) {
              Eigen::MatrixXd(n, static_cast<Eigen::Index>(rates.drift.size())),
              Eigen::MatrixXd(n, static_cast<Eigen::Index>(on.size()))};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const EdgeResidual& edge = sequence.edges[static_cast<std::size_t>(i)];
+    const EdgeError& edge = sequence.edges[static_cast<std::size_t>(i)];
     const auto fill = [&](Eigen::MatrixXd& matrix, const std::vector<methods::Growth>& terms) {
       for (std::size_t j = 0; j < terms.size(); ++j) {
         matrix(i, static_cast<Eigen::Index>(j)) = edge.grown[static_cast<std::size_t>(terms[j])];

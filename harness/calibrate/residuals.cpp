@@ -22,7 +22,7 @@ Residuals residuals(const Sequence& sequence, const std::string& label, std::siz
   for (std::size_t begin = 0; begin + every <= moved.size(); begin += every) {
     const std::size_t end = begin + every;
     if (!truth[begin] || !truth[end]) continue;
-    EdgeResidual edge;
+    EdgeError edge;
     Pose measured;
     for (std::size_t i = begin; i < end; ++i) {
       measured = normalized(measured * problem.odometry[i].from_from_to);

@@ -9,7 +9,7 @@
 
 namespace loopbench::harness {
 
-struct EdgeResidual {
+struct EdgeError {
   std::array<double, methods::kGrowths.size()>
       grown{};  ///< regressors of the edge's error, by Growth
   Twist error;  ///< Log(measured^-1 true), in the end frame
@@ -18,7 +18,7 @@ struct EdgeResidual {
 struct Residuals {
   std::string label;
   bool planar = false;  ///< only x, y and yaw are measured
-  std::vector<EdgeResidual> edges;
+  std::vector<EdgeError> edges;
 };
 
 /// Combines `every` consecutive edges into one; skips groups with an end outside the reference.

@@ -35,7 +35,7 @@ void add_baseline(MethodVerdict& method, const PairedMethods& pair, const Compar
   method.rank_biserial = -rank_biserial(signed_rank(pair.losses_last));
 }
 
-MethodVerdict counts_of(const Observations& all, const Selection& kept, std::size_t place) {
+MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::size_t place) {
   MethodVerdict out;
   out.method = all.methods[kept.methods[place]];
   std::vector<double> values;
@@ -68,7 +68,7 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   out.kind = all.kind;
   out.options = options;
   out.copies = copies;
-  const Selection kept = select_common(all, out);
+  const CommonRuns kept = select_common(all, out);
   std::vector<std::string> names;
   for (const std::size_t m : kept.methods) names.push_back(all.methods[m]);
   const auto found = std::ranges::find(names, options.baseline);

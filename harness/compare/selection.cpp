@@ -72,8 +72,8 @@ std::string counted(const std::vector<std::string>& reasons) {
   return out;
 }
 
-Selection select_common(const Observations& all, Comparison& out) {
-  Selection kept{ranked_methods(all, out), {}, {}};
+CommonRuns select_common(const Observations& all, Comparison& out) {
+  CommonRuns kept{ranked_methods(all, out), {}, {}};
   std::set<std::string> sequences;
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {

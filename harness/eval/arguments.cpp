@@ -120,7 +120,7 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   return out;
 }
 
-std::vector<Asked> questions(const EvalArguments& a, const metrics::Protocol& protocol) {
+std::vector<MetricQuestion> questions(const EvalArguments& a, const metrics::Protocol& protocol) {
   if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return usual_questions(protocol);
   metrics::Relation relation = metrics::Relation::usual;
   if (!a.relation.empty()) {
@@ -131,7 +131,7 @@ std::vector<Asked> questions(const EvalArguments& a, const metrics::Protocol& pr
     FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
   }
   Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
-  std::vector<Asked> out;
+  std::vector<MetricQuestion> out;
   if (relation != metrics::Relation::usual) {
     motion["relation"] = to_text(relation);
     // point_distance_error_ratio is defined only for relative errors.

@@ -48,7 +48,8 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
 /// rpe. Otherwise the default metrics. Throws OptionError.
-std::vector<Asked> questions(const EvalArguments& arguments, const metrics::Protocol& protocol);
+std::vector<MetricQuestion> questions(const EvalArguments& arguments,
+                                      const metrics::Protocol& protocol);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);

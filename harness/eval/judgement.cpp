@@ -13,8 +13,8 @@
 
 namespace loopbench::harness {
 
-std::vector<Asked> usual_questions(const metrics::Protocol& protocol) {
-  std::vector<Asked> out;
+std::vector<MetricQuestion> usual_questions(const metrics::Protocol& protocol) {
+  std::vector<MetricQuestion> out;
   for (const metrics::MetricEntry& entry : metrics::metrics()) {
     if (entry.name == "rpe" && protocol.pairs == metrics::PairRule::tum_random) {
       out.push_back({entry.name, {}});
@@ -101,7 +101,7 @@ Judgement judge(const Trajectory& reference,
   }
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
   const std::vector<metrics::MetricEntry> known = metrics::metrics();
-  for (const Asked& asked : options.questions) {
+  for (const MetricQuestion& asked : options.questions) {
     for (const metrics::MetricEntry& entry : known) {
       if (entry.name != asked.metric) continue;
       JudgedMetric& judged =

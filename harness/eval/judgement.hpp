@@ -11,7 +11,7 @@
 namespace loopbench::harness {
 
 /// A metric with its options.
-struct Asked {
+struct MetricQuestion {
   std::string metric;
   Params options;  ///< options that differ from the metric's defaults
 };
@@ -20,10 +20,10 @@ struct Asked {
 /// the lengths), rpe over 1 frame, 1 s and 1 m (once for random pairs). Coverage and diagnostics
 /// are reported above the table. Metrics that need more than two files, or that need options, are
 /// available only in sweeps.
-std::vector<Asked> usual_questions(const metrics::Protocol& protocol);
+std::vector<MetricQuestion> usual_questions(const metrics::Protocol& protocol);
 
 struct JudgeOptions {
-  std::vector<Asked> questions;
+  std::vector<MetricQuestion> questions;
   bool with_poses = false;
   double min_coverage = 0.0;                       ///< below it an evaluation is incomplete, 0..1
   const metrics::PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices

@@ -34,7 +34,7 @@ Residuals drawn(std::uint64_t seed,
     const double dt = share(random);
     const double d = 10.0 * share(random) * share(random);
     const double angle = share(random) * share(random);
-    EdgeResidual edge{{1.0, dt, d, angle, d * d / dt}, Twist::Zero()};
+    EdgeError edge{{1.0, dt, d, angle, d * d / dt}, Twist::Zero()};
     for (int axis = 0; axis < 3; ++axis) {
       edge.error[axis] = std::sqrt(noise_t_metre * d) * unit(random);
       edge.error[3 + axis] = std::sqrt(noise_r_radian * angle) * unit(random) + rate[axis] * d;

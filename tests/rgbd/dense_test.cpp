@@ -112,7 +112,8 @@ TEST(Surface, NormalsFaceTheCamera) {
 TEST(Surface, NothingComesOfNothing) {
   const Surface none = surface_of(SmallDepth{}, 0.003);
   EXPECT_TRUE(none.points.empty());
-  const Alignment found = align_surface(none, {}, {still(), Matrix6::Identity()}, PoseOptions{});
+  const SurfaceAlignment found =
+      align_surface(none, {}, {still(), Matrix6::Identity()}, PoseOptions{});
   EXPECT_EQ(found.share, 0.0);
   EXPECT_EQ(found.information, Matrix6::Identity());
 }
@@ -122,7 +123,7 @@ TEST(AlignSurface, FindsThePoseInACorner) {
   const Surface first = surface_from(still(), 3);
   const Surface second = surface_from(truth, 3);
   const Pose off = truth * Pose{exp_so3({0.02, 0.02, -0.02}), {0.03, -0.02, 0.02}};
-  const Alignment found =
+  const SurfaceAlignment found =
       align_surface(second, {{&first, still()}}, {off, Matrix6::Zero()}, PoseOptions{});
   EXPECT_TRUE(is_close(found.world_from_camera, truth, 1e-3, 1e-3));
   EXPECT_GT(found.share, 0.8);
@@ -135,7 +136,7 @@ TEST(AlignSurface, AWallAloneMovesTheCameraOnlyTowardsIt) {
   const Surface wall = surface_from(still(), 1);
   const PriorPose prior{{Rotation::Identity(), {0.03, 0.02, 0.04}},
                         isotropic_information(0.01 * 0.01, 0.005 * 0.005)};
-  const Alignment found = align_surface(wall, {{&wall, still()}}, prior, PoseOptions{});
+  const SurfaceAlignment found = align_surface(wall, {{&wall, still()}}, prior, PoseOptions{});
   EXPECT_NEAR(found.world_from_camera.translation.x(), 0.03, 1e-4);
   EXPECT_NEAR(found.world_from_camera.translation.y(), 0.02, 1e-4);
   EXPECT_NEAR(found.world_from_camera.translation.z(), 0.0, 2e-3);
@@ -147,8 +148,8 @@ TEST(AlignSurface, AWallAloneMovesTheCameraOnlyTowardsIt) {
 TEST(AlignSurface, SurfacesThatShowTheSameCountOnce) {
   const Surface first = surface_from(still(), 3);
   const PriorPose prior{still(), Matrix6::Zero()};
-  const Alignment once = align_surface(first, {{&first, still()}}, prior, PoseOptions{});
-  const Alignment twice =
+  const SurfaceAlignment once = align_surface(first, {{&first, still()}}, prior, PoseOptions{});
+  const SurfaceAlignment twice =
       align_surface(first, {{&first, still()}, {&first, still()}}, prior, PoseOptions{});
   EXPECT_TRUE(twice.information.isApprox(once.information, 1e-9));
 }
@@ -156,7 +157,7 @@ TEST(AlignSurface, SurfacesThatShowTheSameCountOnce) {
 TEST(AlignSurface, SaysThatNothingOverlaps) {
   const Surface ahead = surface_from(still(), 1);
   const Pose back{exp_so3({0.0, M_PI, 0.0}), Vector3::Zero()};
-  const Alignment found =
+  const SurfaceAlignment found =
       align_surface(ahead, {{&ahead, still()}}, {back, 100.0 * Matrix6::Identity()}, PoseOptions{});
   EXPECT_EQ(found.share, 0.0);
   EXPECT_TRUE(is_close(found.world_from_camera, back, 1e-9, 1e-9));

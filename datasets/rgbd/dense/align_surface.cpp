@@ -105,11 +105,11 @@ PlaneEquation plane_equation(const Surface& surface,
 
 }  // namespace
 
-Alignment align_surface(const Surface& surface,
-                        const std::vector<PlacedSurface>& model,
-                        const PriorPose& prior,
-                        const PoseOptions& options) {
-  Alignment out;
+SurfaceAlignment align_surface(const Surface& surface,
+                               const std::vector<PlacedSurface>& model,
+                               const PriorPose& prior,
+                               const PoseOptions& options) {
+  SurfaceAlignment out;
   out.world_from_camera = prior.world_from_camera;
   for (int step = 0; step < kAlignSteps; ++step) {
     const double gate = step < kWideSteps ? kWideGate : kNarrowGate;

@@ -20,7 +20,7 @@ struct PriorPose {
   Matrix6 information = Matrix6::Zero();
 };
 
-struct Alignment {
+struct SurfaceAlignment {
   Pose world_from_camera;
   Matrix6 information = Matrix6::Zero();  ///< sum of surface and prior information
   double share = 0.0;   ///< share of points associated with a surface of the model [-]
@@ -34,9 +34,9 @@ struct Alignment {
 /// Huber's function. A point associated with several surfaces counts once, because their errors are
 /// correlated. As in refine_pose(), the surface information is multiplied by
 /// options.information_scale and divided by spread^2 if that is above 1. O(steps * pixels * model).
-Alignment align_surface(const Surface& surface,
-                        const std::vector<PlacedSurface>& model,
-                        const PriorPose& prior,
-                        const PoseOptions& options);
+SurfaceAlignment align_surface(const Surface& surface,
+                               const std::vector<PlacedSurface>& model,
+                               const PriorPose& prior,
+                               const PoseOptions& options);
 
 }  // namespace loopbench::rgbd

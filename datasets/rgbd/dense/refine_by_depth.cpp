@@ -21,7 +21,7 @@ bool is_guess(const Edge& edge) {
   return edge.information.diagonal().minCoeff() < 1.0 / kGuessedVariance;
 }
 
-bool is_accepted(const Alignment& found, const Pose& prior, const RefineOptions& options) {
+bool is_accepted(const SurfaceAlignment& found, const Pose& prior, const RefineOptions& options) {
   const Pose moved = prior.inverse() * found.world_from_camera;
   return is_finite(found.world_from_camera) && found.share >= options.overlap_min &&
          moved.translation.norm() < kMaxTranslation &&
@@ -79,7 +79,7 @@ std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       model.push_back({&surfaces[i], world_from_keyframe[k - surfaces.size() + i]});
     }
-    const Alignment found = align_surface(surface, model, prior, pose);
+    const SurfaceAlignment found = align_surface(surface, model, prior, pose);
     Pose here = prior.world_from_camera;
     if (!is_guess(edge) && is_accepted(found, here, options)) {
       here = found.world_from_camera;
@@ -120,7 +120,7 @@ RefinedClosure refine_closure(const Edge& closure,
     model.push_back({&surfaces[k - first], from_from_world * world_from_keyframe[k]});
   }
   const PriorPose prior{closure.from_from_to, closure.information};
-  const Alignment found =
+  const SurfaceAlignment found =
       align_surface(surface_of(depths[closure.to], pose.inverse_depth_sigma), model, prior, pose);
   out.refined = is_accepted(found, closure.from_from_to, options);
   if (out.refined) {
