@@ -10,6 +10,9 @@
 namespace loopbench::harness {
 namespace {
 
+/// A cell with the value of one record.
+TableCell number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
+
 std::string options_text(const Params& options) {
   std::string out;
   for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
@@ -164,7 +167,7 @@ std::string comparison(const std::vector<Judgement>& judgements) {
     };
     const bool is_failed = !j.why_failed.empty();
     const auto percent = [&](double share) {
-      return is_failed ? TableCell{std::nullopt, 0, "failed"} : TableCell{100.0 * share, 1, ""};
+      return is_failed ? TableCell{.status = "failed"} : number(100.0 * share);
     };
     put("poses [%]", percent(j.coverage.share()));
     put("time [%]", percent(j.coverage.span));
@@ -182,12 +185,12 @@ std::string comparison(const std::vector<Judgement>& judgements) {
         if (!why.empty()) continue;
         const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
         if (j.why_incomplete.empty()) {
-          put(column, {quoted_statistic(rules, s), 1, ""});
+          put(column, number(quoted_statistic(rules, s)));
           if (metric.name == "rpe" && axis == "3d") {
-            put(label(metric) + " pairs", {static_cast<double>(s.count), 1, ""});
+            put(label(metric) + " pairs", number(static_cast<double>(s.count)));
           }
         } else {
-          put(column, {std::nullopt, 0, "incomplete"});
+          put(column, {.status = "incomplete"});
         }
       }
     }

@@ -17,10 +17,10 @@ inline constexpr const char* kNoCommonRun = "no common run";
 /// One cell of a table: the mean over the records that fell into it. Where cells of several methods
 /// finished different runs, the mean is over the runs that all of them finished.
 struct TableCell {
-  std::optional<double> value;
+  std::optional<double> value = {};
   std::size_t records = 0;   ///< with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of them: on runs that all compared cells finished
-  std::string status;        ///< "declined", "failed", "no common run", ... when there is no value
+  std::string status = {};   ///< "declined", "failed", "no common run", ... when there is no value
   Mark mark = Mark::none;    ///< best or second best of its column or row, where that is proven
   std::size_t possible = 0;  ///< records and those that failed or are missing; 0: none is missing
 };
