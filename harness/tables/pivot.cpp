@@ -78,7 +78,7 @@ void mark(Table& out,
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const std::vector<Place> cells = places(table, l, along_columns);
+    const std::vector<TablePosition> cells = places(table, l, along_columns);
     const Lane all = lane(table, cells, along_columns);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}

@@ -7,10 +7,10 @@ namespace {
 
 /// What the cells of a column (or a row) tried and finished.
 std::vector<CellRuns> cell_runs(const TableNumbers& table,
-                                const std::vector<Place>& places,
+                                const std::vector<TablePosition>& places,
                                 bool along_columns) {
   std::vector<CellRuns> out;
-  for (const Place& place : places) {
+  for (const TablePosition& place : places) {
     CellRuns& own = out.emplace_back();
     const auto found = table.numbers.find(place);
     if (found == table.numbers.end()) continue;
@@ -29,19 +29,19 @@ std::vector<CellRuns> cell_runs(const TableNumbers& table,
 
 }  // namespace
 
-std::vector<Place> places(const TableNumbers& table, std::size_t lane, bool along_columns) {
+std::vector<TablePosition> places(const TableNumbers& table, std::size_t lane, bool along_columns) {
   const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
-  std::vector<Place> out;
+  std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
-    out.push_back(along_columns ? Place{i, lane} : Place{lane, i});
+    out.push_back(along_columns ? TablePosition{i, lane} : TablePosition{lane, i});
   }
   return out;
 }
 
-Lane lane(const TableNumbers& table, const std::vector<Place>& cells, bool along_columns) {
+Lane lane(const TableNumbers& table, const std::vector<TablePosition>& cells, bool along_columns) {
   Lane out{{}, table.groups, metrics::Better::neither, 0.0};
   std::set<std::string> runs;
-  for (const Place& place : cells) {
+  for (const TablePosition& place : cells) {
     ByRun& own = out.competitors.emplace_back();
     const auto found = table.numbers.find(place);
     if (found == table.numbers.end() || found->second.runs().empty()) continue;
@@ -71,7 +71,7 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   const std::vector<std::string> names = (along_columns ? table.columns : table.rows).names();
   CommonRunsNote note;
   for (std::size_t l = 0; l < names.size(); ++l) {
-    const std::vector<Place> lane_places = places(table, l, along_columns);
+    const std::vector<TablePosition> lane_places = places(table, l, along_columns);
     const std::vector<CellRuns> cells = cell_runs(table, lane_places, along_columns);
     const auto common = common_runs(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {

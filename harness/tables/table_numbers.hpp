@@ -16,17 +16,17 @@
 
 namespace loopbench::harness {
 
-using Place = std::pair<std::size_t, std::size_t>;  // row, column
+using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
 /// What a table is made from.
 struct TableNumbers {
   NameOrder rows;
   NameOrder columns;
-  std::map<Place, CellNumbers> numbers;
-  std::map<Place, std::string> status;  // of cells with a record that has no value
-  std::map<Place, std::string> kinds;
-  std::map<Place, std::set<std::string>> tried;              // runs with a score, whatever it is
-  std::map<Place, std::set<std::string>> lost;               // runs on which a score failed
+  std::map<TablePosition, CellNumbers> numbers;
+  std::map<TablePosition, std::string> status;  // of cells with a record that has no value
+  std::map<TablePosition, std::string> kinds;
+  std::map<TablePosition, std::set<std::string>> tried;      // runs with a score, whatever it is
+  std::map<TablePosition, std::set<std::string>> lost;       // runs on which a score failed
   std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
   std::map<std::string, std::set<std::string>> lost_by_method;
   std::map<std::string, std::string> groups;  // of runs
@@ -42,10 +42,10 @@ struct TableNumbers {
 };
 
 /// The cells of one column (or row).
-std::vector<Place> places(const TableNumbers& table, std::size_t lane, bool along_columns);
+std::vector<TablePosition> places(const TableNumbers& table, std::size_t lane, bool along_columns);
 
 /// The cells of a column (or a row) that compete, with the runs on which they failed.
-Lane lane(const TableNumbers& table, const std::vector<Place>& cells, bool along_columns);
+Lane lane(const TableNumbers& table, const std::vector<TablePosition>& cells, bool along_columns);
 
 /// Leaves only runs to the means that the cells compared with them finished too. Returns the note
 /// on this; empty where all finished the same runs.
