@@ -9,12 +9,12 @@
 namespace loopbench::harness {
 namespace {
 
-/// A file's poses, and its matrices as printed when it holds some and they are wanted.
+/// Poses of a file, and its printed matrices if it holds matrices and they are needed.
 struct Loaded {
   Trajectory poses;
   std::vector<PoseMatrix> matrices;
   ReadFindings mended;
-  std::string unstamped;  ///< the file and its format when its stamps were made up, else empty
+  std::string unstamped;  ///< file and format if the stamps were generated, otherwise empty
 };
 
 Judgement failure(const EvalArguments& a,
@@ -30,10 +30,10 @@ Judgement failure(const EvalArguments& a,
   return out;
 }
 
-/// The same reader for reference and estimate, differing in format only.
+/// Reader for reference and estimate, which differ only in format.
 struct Reader {
   const EvalArguments& arguments;
-  bool wants_matrices = false;
+  bool reads_matrices = false;
   bool has_used_times = false;
 
   Loaded read(const std::string& file, const std::string& format_word) {
@@ -53,8 +53,8 @@ struct Reader {
     if (options.format == Format::g2o || (is_kitti && !options.times)) {
       out.unstamped = file + ": is " + to_text(options.format);
     }
-    if (out.poses.empty()) throw input_error(file, 0, "holds no pose, expected at least one");
-    if (is_kitti && wants_matrices) out.matrices = read_kitti_matrices(file);
+    if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+    if (is_kitti && reads_matrices) out.matrices = read_kitti_matrices(file);
     return out;
   }
 
@@ -143,7 +143,8 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
         out.push_back(judge(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
         if (is_alone) {
-          throw InputError(pair.estimate + " against " + pair.reference + ": " + error.what());
+          throw InputError(pair.estimate + " with reference " + pair.reference + ": " +
+                           error.what());
         }
         out.push_back(failure(a, pair, protocol, error.what()));
       }
@@ -153,7 +154,7 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
     }
   }
   if (!a.times.empty() && !reader.has_used_times) {
-    throw InputError(a.times + ": is a times file, but no file here is KITTI poses");
+    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
   }
   return out;
 }

@@ -176,8 +176,8 @@ TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
                     "reference_body: {x: 1}"),
             "");
   EXPECT_EQ(refusal("dataset: trajectory, estimate: e.txt, reference_body: {x: 1}"),
-            "c.yaml:2: trajectory: reference_body.x: has no effect without reference, which names "
-            "no file");
+            "c.yaml:2: trajectory: reference_body.x: has no effect without reference, which is "
+            "empty");
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {
       report_html(*content_, 1000);
     } catch (const InputError& error) {
       const std::string why = error.what();
-      const std::size_t at = why.find("takes ") + 6;
+      const std::size_t at = why.find("at least ") + 9;
       return static_cast<std::size_t>(std::llround(1e6 * std::stod(why.substr(at))));
     }
     return std::size_t{0};

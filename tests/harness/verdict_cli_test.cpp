@@ -78,7 +78,7 @@ TEST_F(VerdictCli, CompareRefusesByName) {
   EXPECT_TRUE(has(refusal("r --value rms"), "did you mean 'rmse'?"));
   EXPECT_TRUE(has(refusal("r --where metrc=ate"), "did you mean 'metric'?"));
   EXPECT_TRUE(has(refusal("r --where sequence=nowhere"), "no score is left"));
-  EXPECT_TRUE(has(refusal("nowhere"), "no such file"));
+  EXPECT_TRUE(has(refusal("nowhere"), "nowhere: file not found"));
   EXPECT_TRUE(has(refusal("c.yaml"), "c.yaml: "));
   refusal("r --alpha 2");
   refusal("r --over planets");
@@ -213,7 +213,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
   folder_->file("broken.json", "{\n\"loopbench_baseline\": 1,\n");
   EXPECT_TRUE(has(refusal("r --baseline broken.json"), "broken.json:3: is not JSON: "));
   EXPECT_TRUE(has(refusal("r --baseline nowhere.json"), "nowhere.json: cannot be read"));
-  EXPECT_TRUE(has(refusal("nowhere --baseline b.json"), "no such file"));
+  EXPECT_TRUE(has(refusal("nowhere --baseline b.json"), "nowhere: file not found"));
   refusal("r");
 }
 

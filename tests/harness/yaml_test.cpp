@@ -62,7 +62,7 @@ TEST(Yaml, RefusesWhatIsFarTooLong) {
 
 TEST(Yaml, TellsTheLineOfBrokenSyntax) {
   const std::string text = why("a: 1\nb: [1, 2\nc: 3\n");
-  EXPECT_TRUE(text.starts_with("c.yaml:3: not valid YAML")) << text;
+  EXPECT_TRUE(text.starts_with("c.yaml:3: invalid YAML")) << text;
 }
 
 }  // namespace

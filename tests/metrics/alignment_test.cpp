@@ -114,7 +114,7 @@ TEST(Alignment, RefusesAStraightLine) {
   const auto text = why<std::runtime_error>([&] { align(line, turned, Align::se3); });
   EXPECT_EQ(text,
             "alignment se3: 50 pairs lie on one straight line, so the rotation is not unique; "
-            "align by origin or none");
+            "use align = origin or none");
   EXPECT_NO_THROW(align(line, turned, Align::origin));
 }
 

@@ -100,7 +100,7 @@ TEST(BodyOffset, IsFoundWhereAxesDiffer) {
   const auto found = body_offset(followed_at(camera, estimate), estimate, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(is_close(found->fit.body_from_reference, camera, 1e-9, 1e-9));
-  EXPECT_NE(other_body(*found, {}).find("at 0.27,0.0,-0.08,-0.5,0.5,-0.5,0.5 of"),
+  EXPECT_NE(other_body(*found, {}).find("the offset 0.27,0.0,-0.08,-0.5,0.5,-0.5,0.5 in"),
             std::string::npos)
       << other_body(*found, {});
 }
@@ -122,7 +122,7 @@ TEST(BodyOffset, DifferentAxesAloneSayNothingOfThePlace) {
   const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), {1.0, 0.0, 0.0}};
   const Trajectory truth = circle();
   const std::string text = said(followed_at(camera, truth), noisy(random, truth, 0.02, 0.001));
-  EXPECT_NE(text.find("at 0.0,0.0,0.0,-0.4"), std::string::npos) << text;
+  EXPECT_NE(text.find("the offset 0.0,0.0,0.0,-0.4"), std::string::npos) << text;
   EXPECT_EQ(text.find("place"), std::string::npos) << text;
 }
 
@@ -203,7 +203,7 @@ TEST(BodyOffset, PlacesAreToldFromTheEstimatesBody) {
   const Trajectory moved = followed_at(body_from_reference * stated.inverse(), estimate);
   const auto found = body_offset(moved, estimate, {});
   ASSERT_TRUE(found);
-  EXPECT_NE(other_body(*found, stated).find("at 0.27,0.1,-0.08,-0.5,0.5,-0.5,0.5 of"),
+  EXPECT_NE(other_body(*found, stated).find("the offset 0.27,0.1,-0.08,-0.5,0.5,-0.5,0.5 in"),
             std::string::npos)
       << other_body(*found, stated);
 }

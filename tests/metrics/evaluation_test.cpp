@@ -128,7 +128,7 @@ TEST(Evaluation, CoordinatesBeyondDoublesSquaresAreToldSo) {
   far[3].world_from_body.translation.x() = 1e160;
   EXPECT_EQ(why<std::runtime_error>([&] { evaluate(bend(true), far, Protocol{}); }),
             "alignment se3: 20 pairs are too far apart for double precision, so the rotation is "
-            "not unique; align by origin or none");
+            "not unique; use align = origin or none");
 }
 
 TEST(Evaluation, MovesTheEstimateOntoTheReference) {
@@ -148,7 +148,7 @@ TEST(Evaluation, SaysWhatDidNotMeet) {
               evaluate(at({0, 1}), at({5, 6.5}), kPlain);
             }),
             "no pose of the estimate (5.0 .. 6.5 s, offset 0.0 s) matches the reference (0.0 .. "
-            "1.0 s): association nearest wants at most 0.1 s apart");
+            "1.0 s): association nearest accepts differences of at most 0.1 s");
   const Protocol interpolating{
       .association = Association::interpolate, .max_gap = 0.5, .align = Align::none};
   EXPECT_EQ(why<std::runtime_error>([&] {

@@ -90,8 +90,8 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
   EXPECT_EQ(refusal("tum", {{"pairs", word("tum_random")}, {"max_pairs", std::int64_t{0}}}),
             "max_pairs = 0: pairs tum_random needs a limit above 0; for all pairs use tum");
   EXPECT_EQ(refusal("rpg", {{"segments.precision", word("float32")}}),
-            "segments.precision = float32: is the KITTI devkit's: end beyond, form kitti, angle "
-            "trace");
+            "segments.precision = float32: requires end beyond, form kitti, angle trace (KITTI "
+            "devkit)");
   EXPECT_EQ(refusal("kitti", {{"segments.end", word("nearest")}}),
             "segments.tolerance = 0: expected more than zero");
   EXPECT_EQ(refusal("ov_eval", {{"segments.tolerance", word("8")}}),
@@ -100,7 +100,7 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
             "segments.step = 2: segments.end = rpg requires step 1");
   EXPECT_EQ(refusal("evo", {{"segments.lengths", word("ten")}}),
             "segments.lengths: 'ten': expected a length in metres or %, as 100 or 20%");
-  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2 expected 0 <= ddof <= 1");
+  EXPECT_EQ(refusal("evo", {{"ddof", std::int64_t{2}}}), "ddof = 2: expected 0 <= ddof <= 1");
 }
 
 /// Steps of 1 m in 0.1 s along x.

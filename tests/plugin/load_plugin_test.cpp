@@ -80,7 +80,7 @@ TEST(LoadPlugin, MayBeLoadedTwice) {
 }
 
 TEST(LoadPlugin, RefusesAnotherAbi) {
-  expect_refused(kOutside / "misaligned.so", "was built for another");
+  expect_refused(kOutside / "misaligned.so", "was built with another");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {
