@@ -63,7 +63,9 @@ std::vector<std::string> every_dataset_and_method(const std::string& plan) {
         methods[method] != "raw") {
       continue;
     }
-    const std::string name = "^\\Q" + datasets[dataset] + " / " + methods[method] + "\\E$";
+    // The shell quotes the pattern: any character stands for an apostrophe.
+    const std::string name = std::regex_replace(
+        "^\\Q" + datasets[dataset] + " / " + methods[method] + "\\E$", std::regex("'"), "\\E.\\Q");
     if (out.empty() || out.back().size() + name.size() > 900) {
       out.push_back(name);
     } else {

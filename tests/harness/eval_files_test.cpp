@@ -150,7 +150,7 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
   for (const char* wrong :
        {"1,2", "1,2,3,", "1,2,x", "1,2,3,4", "1,2,3,0,0,0,1,1", "nan,0,0", ","}) {
     EXPECT_THAT(refusal<InputError>({reference, estimate, std::string("--ref-body=") + wrong}),
-                HasSubstr("is not x,y,z [m] or x,y,z,qx,qy,qz,qw"))
+                HasSubstr("expected x,y,z [m] or x,y,z,qx,qy,qz,qw"))
         << wrong;
   }
   EXPECT_THAT(
