@@ -66,7 +66,7 @@ TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
   folder_.file("b.json", text);
   const CommandResult result = call("check out --baseline b.json");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("was written from a build with uncommitted changes"), std::string::npos)
+  EXPECT_NE(result.err.find("was written by a build with uncommitted changes"), std::string::npos)
       << result.err;
   EXPECT_EQ(call("check out --baseline b.json --allow-dirty").exit_code, 0);
 }

@@ -278,7 +278,7 @@ TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
   const CommandResult alone = run("plot r -o without");
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_TRUE(has(alone.err, "gnuplot could not draw it (package gnuplot-nox)")) << alone.err;
+  EXPECT_TRUE(has(alone.err, "gnuplot failed (package gnuplot-nox)")) << alone.err;
 }
 
 }  // namespace
