@@ -18,14 +18,16 @@ struct NoiseStream {
 
 /// A dataset's name and those of its options that differ from their defaults, as text:
 /// "simulated: noise.gain=2.0, path=office". Left out are seeds, the option `stream` and what
-/// `ignored` accepts. A default that is stated and an option that is added later change nothing.
+/// `ignored` accepts. A default that is stated, an option that is added later and an option that is
+/// renamed change nothing.
 template <class Options, class Ignored>
 std::string identity_text(const std::string& dataset, const Options& options, Ignored ignored) {
   const Params defaults = echo(Options{});
   Params changed;
   for (const auto& [name, value] : echo(options)) {
     const bool is_seed = name == "seed" || name.ends_with(".seed") || name == "stream";
-    if (!is_seed && !ignored(name) && value != defaults.at(name)) changed.emplace(name, value);
+    if (is_seed || ignored(name) || value == defaults.at(name)) continue;
+    changed.emplace(first_name(dataset, name), value);
   }
   return dataset + ": " + to_text(changed);
 }
