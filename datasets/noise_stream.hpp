@@ -18,15 +18,16 @@ struct NoiseStream {
 
 /// Dataset name and all options that differ from their defaults, as text:
 /// "simulated: noise.gain=2.0, path=office". Seeds, the option `stream` and options accepted by
-/// `ignored` are omitted. Setting an option to its default, or adding a new option to the code,
-/// does not change the text.
+/// `ignored` are omitted. Setting an option to its default, adding a new option to the code,
+/// or renaming one does not change the text.
 template <class Options, class Ignored>
 std::string identity_text(const std::string& dataset, const Options& options, Ignored ignored) {
   const Params defaults = echo(Options{});
   Params changed;
   for (const auto& [name, value] : echo(options)) {
     const bool is_seed = name == "seed" || name.ends_with(".seed") || name == "stream";
-    if (!is_seed && !ignored(name) && value != defaults.at(name)) changed.emplace(name, value);
+    if (is_seed || ignored(name) || value == defaults.at(name)) continue;
+    changed.emplace(first_name(dataset, name), value);
   }
   return dataset + ": " + to_text(changed);
 }

@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "datasets/core/params.hpp"
+#include "datasets/core/renamed.hpp"
 
 namespace loopbench {
 
@@ -193,9 +194,11 @@ Params echo(Options options) {
 template <class Options>
 Options with(Options options, Params given) {
   std::string known;
+  std::vector<std::string_view> names;
   fields(options, [&](const char* name, auto& member, const char*, const auto&... rule) {
     using Member = std::remove_cvref_t<decltype(member)>;
     known += (known.empty() ? "" : ", ") + std::string(name);
+    names.emplace_back(name);
     if (const auto found = given.find(name); found != given.end()) {
       FieldType<Member>::assign(name, member, found->second);
       given.erase(found);
@@ -204,6 +207,9 @@ Options with(Options options, Params given) {
   });
   if (given.empty()) return options;
   const std::string& name = given.begin()->first;
+  if (const std::string_view now = replacement(name, names); !now.empty()) {
+    throw OptionError(name, name + ": " + renamed_to(now));
+  }
   throw OptionError(name,
                     name + ": unknown option (has: " + (known.empty() ? "none" : known) + ")");
 }

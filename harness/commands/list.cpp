@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/renamed.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/text/suggest.hpp"
@@ -97,6 +98,15 @@ void print(const std::string& subject, const std::vector<Item>& all) {
   print_options(all.front());
 }
 
+/// One line for each old name and the name that replaced it.
+std::string renamed_names() {
+  std::string out = "Renamed (old names are rejected):\n";
+  for (const auto& [owner, before, now] : kRenamedNames) {
+    out += fmt::format("  {}{}{} -> {}\n", owner, owner.empty() ? "metric " : ": ", before, now);
+  }
+  return out;
+}
+
 int list(const ListArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
   if (!arguments.subject.empty() &&
@@ -131,6 +141,7 @@ void add_list(CLI::App& app, int& exit_code) {
   command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print JSON");
+  command->footer(renamed_names() + "\n" + command->get_footer());
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 

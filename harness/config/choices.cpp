@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "datasets/core/renamed.hpp"
 #include "harness/config/calibration.hpp"
 #include "harness/config/grid.hpp"
 #include "harness/config/method_text.hpp"
@@ -29,8 +30,9 @@ void located(const std::string& file,
     }
     std::vector<std::string> known;
     for (const OptionInfo& option : options) known.push_back(option.name);
-    const bool is_known = std::ranges::count(known, error.option()) > 0;
-    const std::string guess = is_known ? "" : closest(error.option(), known);
+    const bool is_explained = std::ranges::count(known, error.option()) > 0 ||
+                              !replacement(error.option(), known).empty();
+    const std::string guess = is_explained ? "" : closest(error.option(), known);
     throw input_error(
         file,
         line,
