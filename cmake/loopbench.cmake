@@ -5,13 +5,16 @@
 set(loopbench_slow_headers
   <Eigen/Core> <Eigen/Geometry> <algorithm> <filesystem> <functional> <map> <memory> <string> <vector>)
 
-# loopbench_library(<name> FOLDER <dir> [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
+# loopbench_library(<name> FOLDER <dir> [ONLY <regex>] [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
 # Every .hpp and .cpp below FOLDER belongs to it; dropping a file in is enough.
 function(loopbench_library name)
-  cmake_parse_arguments(ARG "" "FOLDER;EXCEPT" "LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER;ONLY;EXCEPT" "LINK;PRIVATE" ${ARGN})
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.hpp)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(ARG_ONLY)
+    list(FILTER headers INCLUDE REGEX "${ARG_ONLY}")
+    list(FILTER sources INCLUDE REGEX "${ARG_ONLY}")
+  endif()
   if(ARG_EXCEPT)
     list(FILTER headers EXCLUDE REGEX "${ARG_EXCEPT}")
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCEPT}")
@@ -45,7 +48,6 @@ function(loopbench_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE loopbench_warnings GTest::gtest_main GTest::gmock ${ARG_LINK})
   target_precompile_headers(${name} REUSE_FROM loopbench_test_headers)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   target_compile_definitions(${name} PRIVATE
     LOOPBENCH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   foreach(shard RANGE 1 ${ARG_SHARDS})

@@ -16,8 +16,7 @@ if(git)
   endif()
 endif()
 file(CONFIGURE OUTPUT ${OUT} CONTENT [[
-// Written at every build. Not const: results are keyed by the constants and the code of the
-// program, and a commit that changes neither must not run them again.
+// Written at every build.
 char source_commit[] = "@commit@";
 char source_state[] = "@state@";
 ]] @ONLY)

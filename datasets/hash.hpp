@@ -38,7 +38,7 @@ inline float uniform(std::uint64_t bits) { return static_cast<float>(bits >> 40)
 
 /// Approximately normal draw of unit variance: the sum of four uniform draws, at most 3.5 in
 /// absolute value. Fast and bit-identical on all platforms.
-inline float about_normal(std::uint64_t bits) {
+inline float approximate_normal(std::uint64_t bits) {
   const std::uint64_t sum =
       (bits & 0xffff) + ((bits >> 16) & 0xffff) + ((bits >> 32) & 0xffff) + (bits >> 48);
   return (static_cast<float>(sum) * 0x1p-16f - 2.0f) * 1.7320508f;

@@ -34,7 +34,7 @@ std::string identity_text(const std::string& dataset, const Options& options, Ig
 
 /// Whether an option is a file name or free text. These are excluded from identity_text(), because
 /// noise_identity() hashes the poses instead: moving a folder does not change the noise.
-inline bool names_data(const std::string& option) {
+inline bool is_data_option(const std::string& option) {
   constexpr std::array kNames{"name",
                               "estimate",
                               "reference",

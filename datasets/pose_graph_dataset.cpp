@@ -42,7 +42,7 @@ Trajectory read_truth(const std::filesystem::path& file,
                       const std::vector<double>& stamps,
                       const PoseGraphOptions& o) {
   ReadOptions options;
-  options.format = recognise(file);
+  options.format = detect_format(file);
   options.period = o.period;
   Trajectory truth = read_trajectory(file, options);
   const auto invalid = [&](const std::string& what) { return input_error(file.string(), 0, what); };
@@ -63,12 +63,12 @@ Trajectory read_truth(const std::filesystem::path& file,
       pose = normalized(camera_from_body.inverse() * pose * camera_from_body);
     }
   }
-  return of_estimate_body(std::move(truth), o.reference_body);
+  return to_estimate_body(std::move(truth), o.reference_body);
 }
 
 std::uint64_t identity(const PoseGraphOptions& o, const Trajectory& keyframes) {
   if (!o.stream.empty()) return noise_identity(o.stream);
-  return noise_identity(identity_text("pose_graph", o, names_data), keyframes);
+  return noise_identity(identity_text("pose_graph", o, is_data_option), keyframes);
 }
 
 std::string closure_provenance(const PoseGraphOptions& o,
@@ -112,13 +112,13 @@ Problem derive_problem(const PoseGraph& graph,
                        const std::filesystem::path& file,
                        const std::filesystem::path& true_list,
                        std::size_t* false_closures) {
-  GraphParts parts = parts_of(graph, file);
+  GraphParts parts = split_graph(graph, file);
   const Trajectory poses = initial_poses(graph, o.period);
   std::vector<Edge>& closures = parts.closures;
   if (o.closures == GraphClosures::none) closures.clear();
   if (!true_list.empty()) keep_listed(closures, graph.ids, true_list);
   if (o.skip_placeholders) drop_placeholders(closures);
-  keep_spread(closures, poses, static_cast<std::size_t>(o.closures_max));
+  subsample_closures(closures, poses, static_cast<std::size_t>(o.closures_max));
 
   const auto kept = kept_poses(poses.size(), static_cast<std::size_t>(o.keyframes_every), closures);
   std::vector<std::size_t> keyframe_of(poses.size(), 0);
@@ -134,7 +134,7 @@ Problem derive_problem(const PoseGraph& graph,
   problem.keyframes = std::move(parts_of_poses.keyframes);
   problem.frames = std::move(parts_of_poses.frames);
   if (kept.size() < poses.size())
-    refuse_gap(parts, graph, file, "if poses are omitted between keyframes");
+    require_complete_odometry(parts, graph, file, "if poses are omitted between keyframes");
   problem.odometry =
       kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
@@ -155,13 +155,14 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     return inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
   const std::filesystem::path file = open(o.path, "path");
-  const PoseGraph graph = read_g2o(file, o.turns);
+  const PoseGraph graph = read_g2o(file, o.rotation_information);
   std::size_t false_closures = 0;
   sequence.problem = derive_problem(
       graph, o, file, open(lists ? o.true_list : "", "closures.true_list"), &false_closures);
   if (!o.truth.empty()) {
     sequence.provenance.reference = open(o.truth, "truth");
-    sequence.reference = read_truth(sequence.provenance.reference, stamps_of(graph, o.period), o);
+    sequence.reference =
+        read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
   }
 
   const std::filesystem::path path(o.path);

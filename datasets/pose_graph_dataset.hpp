@@ -23,9 +23,9 @@ inline auto choices(TruthAxes) {
                     std::pair{"kitti_camera", TruthAxes::kitti_camera}};
 }
 
-inline auto choices(TurnInformation) {
-  return std::array{std::pair{"half_angles", TurnInformation::half_angles},
-                    std::pair{"angles", TurnInformation::angles}};
+inline auto choices(RotationInformation) {
+  return std::array{std::pair{"half_angles", RotationInformation::half_angles},
+                    std::pair{"angles", RotationInformation::angles}};
 }
 
 struct PoseGraphOptions {
@@ -34,7 +34,7 @@ struct PoseGraphOptions {
   std::string truth;
   TruthAxes truth_axes = TruthAxes::same;
   ReferenceBody reference_body;
-  TurnInformation turns = TurnInformation::half_angles;
+  RotationInformation rotation_information = RotationInformation::half_angles;
   double period = 0.1;
   std::int64_t keyframes_every = 1;
   GraphClosures closures = GraphClosures::edges;
@@ -57,13 +57,13 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("truth_axes", o.truth_axes, "body axes of the ground truth");
   reference_body_fields(o.reference_body, visit);
   visit("information",
-        o.turns,
+        o.rotation_information,
         "convention of the rotation information of :QUAT edges: half_angles (quaternion vector, "
         "g2o) or angles (GTSAM, SE-Sync)");
   visit("period",
         o.period,
         "time between consecutive vertex ids: stamp = id * period [s]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("keyframes.every",
         o.keyframes_every,
         "keyframe interval [poses]; endpoints of loop closures are always keyframes",

@@ -13,7 +13,12 @@
 namespace loopbench {
 
 /// Each purpose has its own stream, so that more draws for one do not change the others.
-enum class Purpose : std::uint32_t { odometry = 1, closures = 2, false_closures = 3, shake = 4 };
+enum class Purpose : std::uint32_t {
+  odometry = 1,
+  closures = 2,
+  false_closures = 3,
+  white_noise = 4
+};
 
 class Random {
  public:

@@ -104,9 +104,9 @@ std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& r
   return out;
 }
 
-std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
-                                const std::vector<double>& stamps,
-                                std::size_t count) {
+std::vector<std::size_t> subsample(const std::vector<Revisit>& revisits,
+                                   const std::vector<double>& stamps,
+                                   std::size_t count) {
   std::vector<std::size_t> chosen(std::min(revisits.size(), count));
   if (chosen.size() == revisits.size()) {
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});

@@ -31,8 +31,8 @@ std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& r
 
 /// Subsamples at most `count` revisits by farthest-point sampling in the plane (stamp of from,
 /// stamp of to), starting with the longest loop. Returns ascending indices. O(revisits * count).
-std::vector<std::size_t> spread(const std::vector<Revisit>& revisits,
-                                const std::vector<double>& stamps,
-                                std::size_t count);
+std::vector<std::size_t> subsample(const std::vector<Revisit>& revisits,
+                                   const std::vector<double>& stamps,
+                                   std::size_t count);
 
 }  // namespace loopbench

@@ -20,19 +20,19 @@ RevisitRule revisit_rule(const TrajectoryOptions& o) {
 std::vector<Edge> in_run(const Trajectory& keyframes,
                          const Trajectory& run,
                          const TrajectoryOptions& o) {
-  return closures_in_run(keyframes,
-                         run,
-                         revisit_rule(o),
-                         static_cast<std::size_t>(o.closures_max),
-                         o.reach,
-                         o.closures_noise);
+  return measure_closures_in_run(keyframes,
+                                 run,
+                                 revisit_rule(o),
+                                 static_cast<std::size_t>(o.closures_max),
+                                 o.reach,
+                                 o.closures_noise);
 }
 
 void require_same_scale(const Trajectory& keyframes,
                         const TrajectoryInputs& in,
-                        const Reach& reach,
+                        const InterpolationLimits& reach,
                         const std::string& file) {
-  const double ratio = path_ratio(keyframes, in.other_run, reach);
+  const double ratio = path_length_ratio(keyframes, in.other_run, reach);
   if (ratio < kMaxScaleRatio && ratio > 1.0 / kMaxScaleRatio) return;
   throw input_error(file,
                     0,
@@ -77,7 +77,7 @@ void require(bool condition, const std::string& option, const std::string& messa
 
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
   if (!o.stream.empty()) return noise_identity(o.stream);
-  return noise_identity(identity_text("trajectory", o, names_data), keyframes);
+  return noise_identity(identity_text("trajectory", o, is_data_option), keyframes);
 }
 
 bool same_bits(const Trajectory& a, const Trajectory& b) {
@@ -158,8 +158,8 @@ Problem derive_problem(const TrajectoryInputs& in,
   Problem problem;
   KeyframeSplit poses = split(in.estimate, kept);
   problem.keyframes = std::move(poses.keyframes);
-  problem.frames =
-      in.frames.empty() ? std::move(poses.frames) : frames_between(problem.keyframes, in.frames);
+  problem.frames = in.frames.empty() ? std::move(poses.frames)
+                                     : non_keyframes_between(problem.keyframes, in.frames);
   problem.odometry = odometry_edges(problem.keyframes, o.odometry);
   const std::uint64_t noise = identity(o, problem.keyframes);
   if (o.closures == ClosureSource::reference) {
@@ -205,7 +205,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   }
   const bool run_is_reference = o.closures == ClosureSource::estimate && !in.reference.empty() &&
                                 same_bits(in.other_run, in.reference);
-  in.reference = of_estimate_body(std::move(in.reference), o.reference_body);
+  in.reference = to_estimate_body(std::move(in.reference), o.reference_body);
   if (o.closures == ClosureSource::file) {
     in.closures = read_closure_file(open(o.closures_file, "closures.file"), o.closures_noise);
   }

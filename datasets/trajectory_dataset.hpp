@@ -49,7 +49,7 @@ struct TrajectoryOptions {
   std::int64_t closures_max = 20;
   ClosureScale closures_scale = ClosureScale::same;
   ClosureNoise closures_noise;
-  Reach reach;
+  InterpolationLimits reach;
   FalseClosures false_closures;
   std::int64_t seed = 1;
   std::string stream;  ///< name of a shared noise stream; empty: own stream
@@ -73,22 +73,22 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("reference_format", o.reference_format, "file format of the reference");
   visit(
       "times", o.times, "file with the times of KITTI poses, one per line [s]; empty: use period");
-  visit("period", o.period, "time between poses in formats without stamps [s]", Above{0.0});
+  visit("period", o.period, "time between poses in formats without stamps [s]", GreaterThan{0.0});
   visit("repeats", o.repeats, "handling of a pose with the same stamp as the previous one");
   visit("keyframes.rule", o.keyframes.rule, "rule that selects keyframes from the estimate");
   visit("keyframes.value",
         o.keyframes.value,
         "parameter of keyframes.rule: interval [poses], minimum spacing [s] or [m], or number of "
         "keyframes",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("odometry.sigma_t",
         o.odometry.sigma_t,
         "assumed translation standard deviation of an odometry edge at rest [m]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("odometry.sigma_r",
         o.odometry.sigma_r,
         "assumed rotation standard deviation of an odometry edge at rest [rad]",
-        Above{0.0});
+        GreaterThan{0.0});
   const Between any{0.0, 1e6};
   visit("odometry.sigma_t_per_m",
         o.odometry.sigma_t_per_m,
@@ -114,7 +114,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("closures.radius",
         o.closures_radius,
         "maximum distance between the two poses of a revisit [m]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("closures.angle",
         o.closures_angle,
         "maximum rotation angle between the two poses of a revisit [deg]",
@@ -122,7 +122,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("closures.min_gap",
         o.closures_min_gap,
         "minimum time between the two poses of a revisit [s]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("closures.max",
         o.closures_max,
         "maximum number of closures, subsampled evenly over the sequence; 0: all",
@@ -134,11 +134,11 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("closures.sigma_t",
         o.closures_noise.sigma_t,
         "translation standard deviation of a closure [m]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("closures.sigma_r",
         o.closures_noise.sigma_r,
         "rotation standard deviation of a closure [rad]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("closures.max_diff",
         o.reach.max_diff,
         "maximum time difference between matched stamps [s]",
@@ -161,10 +161,10 @@ void check_combination(const TrajectoryOptions& options, const Params& given);
 /// Contents of the input files.
 struct TrajectoryInputs {
   Trajectory estimate;
-  Trajectory frames;                   ///< empty: non-keyframe poses of the estimate are used
-  Trajectory reference;                ///< may be empty
-  Trajectory other_run;                ///< for closures.source estimate
-  std::vector<TimedClosure> closures;  ///< for closures.source file
+  Trajectory frames;                     ///< empty: non-keyframe poses of the estimate are used
+  Trajectory reference;                  ///< may be empty
+  Trajectory other_run;                  ///< for closures.source estimate
+  std::vector<StampedClosure> closures;  ///< for closures.source file
 };
 
 /// Derives a problem from the input files. Endpoints of closures from a closure file always become

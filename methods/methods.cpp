@@ -30,12 +30,12 @@ Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
           .spatial = 7,
           .segment = thresholds,
           .chord_above = std::nullopt,
-          .up = manifold::Up::world_z,
+          .up = manifold::UpDirection::world_z,
           .height_guard = false,
           .frame = manifold::Axes::world,
           .guard = false,
           .quadric_cut = 1e-12,  // rounding only: a full-rank system is solved without truncation
-          .joint = {.meet = manifold::Meet::none}};
+          .joint = {.kind = manifold::JointKind::none}};
 }
 
 /// Best variant on training sequences that are not in the article (results/paper/training.md). It
@@ -48,7 +48,7 @@ Dm::Options robust() {
           .gap = {.time_max = 0.3},
           .fallback = manifold::Fallback::spline,
           .scheme = manifold::Scheme::sliding_blend,
-          .short_policy = manifold::Short::polyline,
+          .short_policy = manifold::ShortPolicy::polyline,
           .min_nodes = 9};
 }
 
@@ -61,7 +61,7 @@ std::vector<MethodEntry> methods() {
       method<Uniform>("uniform", "closing error distributed evenly along each loop"),
       method<Uniform>("uniform_position",
                       "closing error distributed evenly, positions only",
-                      {.rotation = Uniform::Turn::none}),
+                      {.rotation = Uniform::RotationMode::none}),
       method<Uniform>("uniform_open",
                       "closing error distributed evenly over steps that no earlier loop encloses",
                       {.overlap = LoopOverlap::open}),
@@ -98,27 +98,31 @@ std::vector<MethodEntry> methods() {
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
                                  {.start = PoseGraphOptimizer::Start::chordal}),
-      method<PoseGraphOptimizer>(
-          "pose_graph_huber", "pose_graph with a Huber loss on closures", {.loss = Loss::huber}),
-      method<PoseGraphOptimizer>(
-          "pose_graph_cauchy", "pose_graph with a Cauchy loss on closures", {.loss = Loss::cauchy}),
+      method<PoseGraphOptimizer>("pose_graph_huber",
+                                 "pose_graph with a Huber loss on closures",
+                                 {.loss = RobustLoss::huber}),
+      method<PoseGraphOptimizer>("pose_graph_cauchy",
+                                 "pose_graph with a Cauchy loss on closures",
+                                 {.loss = RobustLoss::cauchy}),
       method<PoseGraphOptimizer>("pose_graph_switchable",
                                  "pose_graph with switchable constraints, switches eliminated",
-                                 {.loss = Loss::switchable}),
-      method<PoseGraphOptimizer>(
-          "pose_graph_dcs", "pose_graph with dynamic covariance scaling", {.loss = Loss::dcs}),
+                                 {.loss = RobustLoss::switchable}),
+      method<PoseGraphOptimizer>("pose_graph_dcs",
+                                 "pose_graph with dynamic covariance scaling",
+                                 {.loss = RobustLoss::dcs}),
       method<PoseGraphOptimizer>("pose_graph_gnc_tls",
                                  "pose_graph, graduated non-convexity with truncated least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::tls}),
       method<PoseGraphOptimizer>("pose_graph_gnc_gm",
                                  "pose_graph, graduated non-convexity with Geman-McClure loss",
                                  {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::gm}),
-      method<Checked<TwoPass>>("two_pass_pcm",
-                               "two_pass on the largest pairwise consistent set of closures"),
-      method<Checked<Dual>>("dual_pcm", "dual on the largest pairwise consistent set of closures"),
-      method<Checked<MotionDrift>>(
+      method<PairwiseConsistent<TwoPass>>(
+          "two_pass_pcm", "two_pass on the largest pairwise consistent set of closures"),
+      method<PairwiseConsistent<Dual>>("dual_pcm",
+                                       "dual on the largest pairwise consistent set of closures"),
+      method<PairwiseConsistent<MotionDrift>>(
           "motion_drift_pcm", "motion_drift on the largest pairwise consistent set of closures"),
-      method<Checked<PoseGraphOptimizer>>(
+      method<PairwiseConsistent<PoseGraphOptimizer>>(
           "pose_graph_pcm",
           "pose_graph on the largest pairwise consistent set of closures",
           {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
@@ -140,22 +144,14 @@ std::vector<MethodEntry> methods() {
                               {.prior = GaussianProcess::Prior::acceleration}),
       method<SplineRegression>("spline_regression",
                                "cumulative B-spline with fewer knots than keyframes"),
-      method<Dm>("dm", "the article's manifold smoother with guards; N = 4"),
+      method<Dm>("dm",
+                 "the article's manifold smoother with guards; window sizes by planar and spatial"),
       method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
       method<Dm>("dm_n4", "dm: cubic through 4 nodes", {.planar = 4}),
       method<Dm>("dm_n5", "dm: least-squares cubic on 5 nodes", {.planar = 5}),
       method<Dm>("dm_m6", "dm: heights only, quadric through 6 nodes", {.planar = 0, .spatial = 6}),
       method<Dm>("dm_m7", "dm: heights only, quadric on 7 nodes", {.planar = 0, .spatial = 7}),
       method<Dm>("dm_m8", "dm: heights only, quadric on 8 nodes", {.planar = 0, .spatial = 8}),
-      method<Dm>("dm_n3_m6", "dm: N = 3 in the plane, M = 6 in space", {.planar = 3, .spatial = 6}),
-      method<Dm>("dm_n3_m7", "dm: N = 3 in the plane, M = 7 in space", {.planar = 3, .spatial = 7}),
-      method<Dm>("dm_n3_m8", "dm: N = 3 in the plane, M = 8 in space", {.planar = 3, .spatial = 8}),
-      method<Dm>("dm_n4_m6", "dm: N = 4 in the plane, M = 6 in space", {.planar = 4, .spatial = 6}),
-      method<Dm>("dm_n4_m7", "dm: N = 4 in the plane, M = 7 in space", {.planar = 4, .spatial = 7}),
-      method<Dm>("dm_n4_m8", "dm: N = 4 in the plane, M = 8 in space", {.planar = 4, .spatial = 8}),
-      method<Dm>("dm_n5_m6", "dm: N = 5 in the plane, M = 6 in space", {.planar = 5, .spatial = 6}),
-      method<Dm>("dm_n5_m7", "dm: N = 5 in the plane, M = 7 in space", {.planar = 5, .spatial = 7}),
-      method<Dm>("dm_n5_m8", "dm: N = 5 in the plane, M = 8 in space", {.planar = 5, .spatial = 8}),
       method<Dm>("dm_robust",
                  "dm with options chosen on training sequences, configs/dm_training.yaml",
                  robust()),

@@ -61,7 +61,7 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
                 problem.closures,
                 {},
                 problem.planar,
-                problem.common_view};
+                problem.shared_landmarks};
   moved.frames.reserve(problem.frames.size());
   const std::vector<double> knots = stamps(before);
   KnotSpan span(knots);

@@ -5,9 +5,10 @@
 
 namespace loopbench::methods {
 
-/// Properties that must be equal in both binaries before they exchange our types.
+/// Properties that must be equal in both binaries before they exchange our types. `interface` stays
+/// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 2;  ///< raise when method.hpp or datasets/core changes shape
+  int interface = 2;  ///< raise when this file, method.hpp or datasets/core changes shape
   long language = __cplusplus;
   int compiler = __GNUC__;
 #ifdef __clang__

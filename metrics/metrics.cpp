@@ -1,9 +1,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "metrics/checks/body_offset.hpp"
 #include "metrics/checks/coverage.hpp"
 #include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/correction/closure_residual.hpp"
 #include "metrics/correction/gain_along.hpp"
 #include "metrics/correction/graph_cost.hpp"
@@ -73,9 +73,10 @@ std::vector<MetricEntry> metrics() {
           "loop_detection",
           "place recognition: precision, recall and precision-recall curve",
           loop_detection),
-      metric<BodyOffsetOptions>("body_offset",
-                                "extrinsic offset of the reference's body by hand-eye calibration",
-                                body_offset_scores),
+      metric<ExtrinsicOffsetOptions>(
+          "extrinsic_offset",
+          "extrinsic offset of the reference's body by hand-eye calibration",
+          extrinsic_offset_scores),
       metric<DiagnosticsOptions>(
           "diagnostics", "data checks: pairs, tracking gaps, alignment, time at rest", diagnostics),
   };

@@ -65,7 +65,7 @@ set(order
   "harness/gate harness/profile harness/plot"
   "harness/report harness/eval harness/article harness/calibrate"
   "harness/commands"
-  "harness/main"
+  "harness/program"
 )
 
 # door_<library> is the only place that may include the headers matched by header_<library>.
@@ -79,7 +79,7 @@ set(door_sqlite "harness/store/")
 set(header_re2 "re2/")
 set(door_re2 "harness/text/pattern\\.")
 set(header_cli "CLI/")
-set(door_cli "harness/(main\\.cpp|commands/)")
+set(door_cli "harness/(program|commands)/")
 set(header_json "nlohmann/")
 set(door_json "harness/(commands|tables|gate|eval|report)/")
 set(header_opencv "opencv2/")

@@ -47,7 +47,7 @@ struct Between {
 };
 
 /// Range check: low < value < infinity.
-struct Above {
+struct GreaterThan {
   double low;
 
   bool holds(double value) const { return value > low && std::isfinite(value); }
@@ -154,9 +154,9 @@ struct FieldType<std::optional<double>> {
 namespace detail {
 
 template <class T, class Rule>
-void obey(const std::string& name, const T& member, const Rule& rule) {
+void check_rule(const std::string& name, const T& member, const Rule& rule) {
   if constexpr (std::same_as<T, std::optional<double>>) {
-    if (member) obey(name, *member, rule);
+    if (member) check_rule(name, *member, rule);
   } else if (!rule.holds(static_cast<double>(member))) {
     throw OptionError(
         name,
@@ -203,7 +203,7 @@ Options with(Options options, Params given) {
       FieldType<Member>::assign(name, member, found->second);
       given.erase(found);
     }
-    (detail::obey(name, member, rule), ...);
+    (detail::check_rule(name, member, rule), ...);
   });
   if (given.empty()) return options;
   const std::string& name = given.begin()->first;

@@ -10,18 +10,18 @@
 namespace loopbench {
 
 /// Number of hardware threads, limited to 1..16.
-inline std::size_t cores() {
+inline std::size_t hardware_threads() {
   constexpr unsigned kMost = 16;
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
 }
 
 /// Minimum number of elements for which an additional thread pays off.
-inline constexpr std::size_t kWorthAThread = 32768;
+inline constexpr std::size_t kMinItemsPerThread = 32768;
 
 /// Calls body(0) .. body(count - 1), each on its own thread, and waits for all. Rethrows the
 /// exception with the lowest index.
 template <class Body>
-void in_parallel(std::size_t count, const Body& body) {
+void parallel_invoke(std::size_t count, const Body& body) {
   std::vector<std::exception_ptr> errors(count);
   const auto run = [&](std::size_t i) {
     try {
@@ -43,9 +43,11 @@ void in_parallel(std::size_t count, const Body& body) {
 /// Calls body(begin, end) in parallel for ranges that partition 0..count; small counts use a single
 /// range. The result of `body` must not depend on the partition.
 template <class Body>
-void in_blocks(std::size_t count, const Body& body) {
-  const std::size_t blocks = std::clamp<std::size_t>(count / kWorthAThread, 1, cores());
-  in_parallel(blocks, [&](std::size_t k) { body(count * k / blocks, count * (k + 1) / blocks); });
+void parallel_for_blocks(std::size_t count, const Body& body) {
+  const std::size_t blocks =
+      std::clamp<std::size_t>(count / kMinItemsPerThread, 1, hardware_threads());
+  parallel_invoke(blocks,
+                  [&](std::size_t k) { body(count * k / blocks, count * (k + 1) / blocks); });
 }
 
 }  // namespace loopbench

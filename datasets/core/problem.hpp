@@ -31,7 +31,7 @@ struct Problem {
   Trajectory frames;           ///< tracked frames, in the world frame of `keyframes`; may be empty
   bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
   /// Number of landmarks seen by both keyframes k and k + 1; empty if unknown.
-  std::vector<std::size_t> common_view = {};
+  std::vector<std::size_t> shared_landmarks = {};
 };
 
 /// Throws InputError with `name` and the violated rule if edges or trajectories are invalid.
@@ -39,8 +39,9 @@ struct Problem {
 inline void check(const Problem& problem, const std::string& name) {
   check(problem.keyframes, name + ": keyframes");
   check(problem.frames, name + ": frames");
-  if (!problem.common_view.empty() && problem.common_view.size() + 1 != problem.keyframes.size()) {
-    throw InputError(name + ": common_view has " + std::to_string(problem.common_view.size()) +
+  if (!problem.shared_landmarks.empty() &&
+      problem.shared_landmarks.size() + 1 != problem.keyframes.size()) {
+    throw InputError(name + ": common_view has " + std::to_string(problem.shared_landmarks.size()) +
                      " counts, expected one for each pair of consecutive keyframes");
   }
   const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {

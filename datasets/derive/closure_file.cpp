@@ -12,7 +12,7 @@
 namespace loopbench {
 namespace {
 
-TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& noise) {
+StampedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& noise) {
   const std::size_t count = count_columns(file, line);
   if (count != 9 && count != 11) {
     throw file.error(line.number,
@@ -21,7 +21,7 @@ TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& n
                                  count));
   }
   Columns columns(file, line);
-  TimedClosure closure;
+  StampedClosure closure;
   closure.line = line.number;
   closure.noise = noise;
   closure.stamp_from = columns.number("stamp_from");
@@ -29,7 +29,7 @@ TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& n
   Pose& pose = closure.from_from_to;
   for (double& x : pose.translation) x = columns.number("translation");
   for (double& x : pose.rotation.coeffs()) x = columns.number("quaternion");
-  pose.rotation = unit_rotation(file, line.number, pose.rotation);
+  pose.rotation = normalized_rotation(file, line.number, pose.rotation);
   if (count == 11) {
     closure.noise = {columns.number("sigma_t"), columns.number("sigma_r")};
     if (!(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0)) {
@@ -44,20 +44,20 @@ TimedClosure parse(const TextFile& file, const Line& line, const ClosureNoise& n
 
 }  // namespace
 
-std::vector<TimedClosure> read_closure_file(const std::filesystem::path& path,
-                                            const ClosureNoise& noise) {
+std::vector<StampedClosure> read_closure_file(const std::filesystem::path& path,
+                                              const ClosureNoise& noise) {
   TextFile file(path);
-  std::vector<TimedClosure> out;
+  std::vector<StampedClosure> out;
   for (Line line; file.next(line);) out.push_back(parse(file, line, noise));
   return out;
 }
 
-std::vector<Edge> as_edges(const std::vector<TimedClosure>& closures,
+std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
                            const Trajectory& poses,
                            double max_diff,
                            const std::filesystem::path& file) {
   std::vector<Edge> edges;
-  for (const TimedClosure& closure : closures) {
+  for (const StampedClosure& closure : closures) {
     const auto pose_at = [&](double stamp) {
       const auto index = nearest_pose(poses, stamp, max_diff);
       if (index) return *index;

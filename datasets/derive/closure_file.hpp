@@ -10,7 +10,7 @@
 
 namespace loopbench {
 
-struct TimedClosure {
+struct StampedClosure {
   double stamp_from = 0.0;  ///< [s]
   double stamp_to = 0.0;    ///< [s]
   Pose from_from_to;
@@ -22,13 +22,13 @@ struct TimedClosure {
 /// [m], [rad]. The pose is that of the body at stamp_to in the frame of the body at stamp_from;
 /// either stamp may be the later one. Lines that start with `#` are comments. Lines without sigmas
 /// use `noise`. Throws InputError `file:line: what`. O(size of the file).
-std::vector<TimedClosure> read_closure_file(const std::filesystem::path& file,
-                                            const ClosureNoise& noise);
+std::vector<StampedClosure> read_closure_file(const std::filesystem::path& file,
+                                              const ClosureNoise& noise);
 
 /// Converts closures to edges between the nearest poses in time, at most `max_diff` [s] away. Edges
 /// have from < to and are sorted by (to, from). Throws InputError `file:line: what` if there is no
 /// such pose or if both stamps match the same pose.
-std::vector<Edge> as_edges(const std::vector<TimedClosure>& closures,
+std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
                            const Trajectory& poses,
                            double max_diff,
                            const std::filesystem::path& file);

@@ -17,7 +17,7 @@ struct RunAtKeyframes {
 
 RunAtKeyframes at_keyframes(const Trajectory& keyframes,
                             const Trajectory& run,
-                            const Reach& reach) {
+                            const InterpolationLimits& reach) {
   const auto poses = poses_at(run, stamps(keyframes), reach);
   RunAtKeyframes out;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
@@ -30,19 +30,19 @@ RunAtKeyframes at_keyframes(const Trajectory& keyframes,
 
 }  // namespace
 
-std::vector<Edge> closures_in_run(const Trajectory& keyframes,
-                                  const Trajectory& run,
-                                  const RevisitRule& rule,
-                                  std::size_t max,
-                                  const Reach& reach,
-                                  const ClosureNoise& noise) {
+std::vector<Edge> measure_closures_in_run(const Trajectory& keyframes,
+                                          const Trajectory& run,
+                                          const RevisitRule& rule,
+                                          std::size_t max,
+                                          const InterpolationLimits& reach,
+                                          const ClosureNoise& noise) {
   const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);
   const std::vector<Revisit> revisits = find_revisits(shared.run, rule);
   const Matrix6 information =
       isotropic_information(noise.sigma_t * noise.sigma_t, noise.sigma_r * noise.sigma_r);
   std::vector<Edge> closures;
   for (const std::size_t k :
-       spread(revisits, stamps(shared.run), max == 0 ? revisits.size() : max)) {
+       subsample(revisits, stamps(shared.run), max == 0 ? revisits.size() : max)) {
     const auto [from, to] = revisits[k];
     const Pose from_from_to =
         shared.run[from].world_from_body.inverse() * shared.run[to].world_from_body;
@@ -63,7 +63,9 @@ std::vector<Edge> with_noise(std::vector<Edge> edges,
   return edges;
 }
 
-double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reach& reach) {
+double path_length_ratio(const Trajectory& keyframes,
+                         const Trajectory& run,
+                         const InterpolationLimits& reach) {
   const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);
   Trajectory estimate;
   for (const std::size_t i : shared.keyframe) estimate.push_back(keyframes[i]);
@@ -74,7 +76,7 @@ double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reac
 std::vector<Edge> with_local_scale(std::vector<Edge> edges,
                                    const Trajectory& keyframes,
                                    const Trajectory& run,
-                                   const Reach& reach) {
+                                   const InterpolationLimits& reach) {
   // [keyframes]; scale drifts slowly, while the length of a single step is noisy
   constexpr std::size_t kHalfWindow = 10;
   const RunAtKeyframes shared = at_keyframes(keyframes, run, reach);

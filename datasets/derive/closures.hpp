@@ -20,12 +20,12 @@ struct ClosureNoise {
 /// between the two keyframes, with information from `noise`. At most `max` closures, subsampled
 /// evenly; 0 returns all. Both trajectories must contain poses of the same body; no extrinsic
 /// offset is applied. Sorted by (to, from). O(n + revisits * max).
-std::vector<Edge> closures_in_run(const Trajectory& keyframes,
-                                  const Trajectory& run,
-                                  const RevisitRule& rule,
-                                  std::size_t max,
-                                  const Reach& reach,
-                                  const ClosureNoise& noise);
+std::vector<Edge> measure_closures_in_run(const Trajectory& keyframes,
+                                          const Trajectory& run,
+                                          const RevisitRule& rule,
+                                          std::size_t max,
+                                          const InterpolationLimits& reach,
+                                          const ClosureNoise& noise);
 
 /// Adds noise to edges: measured = true * exp(e), e ~ N(0, diag(sigma_t^2, sigma_r^2)), drawn in
 /// the order of the edges.
@@ -35,7 +35,9 @@ std::vector<Edge> with_noise(std::vector<Edge> edges,
 
 /// Ratio of the path lengths of `run` and `keyframes` over their common stamps; 1 if there are
 /// fewer than two. Runs with different scales (monocular) have a ratio far from 1.
-double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reach& reach);
+double path_length_ratio(const Trajectory& keyframes,
+                         const Trajectory& run,
+                         const InterpolationLimits& reach);
 
 /// Converts closures measured in `run` to Sim(3), for an estimate with scale drift (monocular). The
 /// scale at a keyframe is the path-length ratio of run and estimate over ten common keyframes on
@@ -45,7 +47,7 @@ double path_ratio(const Trajectory& keyframes, const Trajectory& run, const Reac
 std::vector<Edge> with_local_scale(std::vector<Edge> edges,
                                    const Trajectory& keyframes,
                                    const Trajectory& run,
-                                   const Reach& reach);
+                                   const InterpolationLimits& reach);
 
 /// Sorts closures by (to, from), as required by Problem.
 void sort_closures(std::vector<Edge>& closures);

@@ -12,7 +12,7 @@
 
 namespace loopbench {
 
-GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
+GraphParts split_graph(const PoseGraph& graph, const std::filesystem::path& file) {
   const std::size_t size = graph.ids.size();
   GraphParts parts;
   parts.odometry.resize(size > 0 ? size - 1 : 0);
@@ -41,10 +41,10 @@ GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file) {
   return parts;
 }
 
-void refuse_gap(const GraphParts& parts,
-                const PoseGraph& graph,
-                const std::filesystem::path& file,
-                const std::string& why) {
+void require_complete_odometry(const GraphParts& parts,
+                               const PoseGraph& graph,
+                               const std::filesystem::path& file,
+                               const std::string& why) {
   for (std::size_t i = 0; i + 1 < graph.ids.size(); ++i) {
     if (i < parts.odometry.size() && parts.odometry[i].from == i) continue;
     throw input_error(file.string(),
@@ -57,7 +57,7 @@ void refuse_gap(const GraphParts& parts,
   }
 }
 
-std::vector<double> stamps_of(const PoseGraph& graph, double period) {
+std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
   std::vector<double> out;
   out.reserve(graph.ids.size());
   for (const std::int64_t id : graph.ids) out.push_back(static_cast<double>(id) * period);
@@ -66,7 +66,7 @@ std::vector<double> stamps_of(const PoseGraph& graph, double period) {
 
 Trajectory initial_poses(const PoseGraph& graph, double period) {
   const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph) : graph.vertices;
-  const std::vector<double> stamps = stamps_of(graph, period);
+  const std::vector<double> stamps = vertex_stamps(graph, period);
   Trajectory out(stamps.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {stamps[i], poses[i]};
   return out;
@@ -113,12 +113,12 @@ void keep_listed(std::vector<Edge>& closures,
   }
 }
 
-void keep_spread(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max) {
+void subsample_closures(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max) {
   if (max == 0) return;
   std::vector<Revisit> loops;
   for (const Edge& edge : closures) loops.push_back({edge.from, edge.to});
   std::vector<Edge> kept;
-  for (const std::size_t k : spread(loops, stamps(poses), max)) kept.push_back(closures[k]);
+  for (const std::size_t k : subsample(loops, stamps(poses), max)) kept.push_back(closures[k]);
   closures = std::move(kept);
 }
 

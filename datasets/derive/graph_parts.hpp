@@ -19,17 +19,17 @@ struct GraphParts {
 
 /// Separates the edges. Throws InputError `file:line: what` if the information of an edge is not
 /// positive definite or if an edge connects a pose to itself. O(edges).
-GraphParts parts_of(const PoseGraph& graph, const std::filesystem::path& file);
+GraphParts split_graph(const PoseGraph& graph, const std::filesystem::path& file);
 
 /// Throws InputError with the ids if an edge between consecutive poses is missing. `why` states the
 /// condition under which it is required.
-void refuse_gap(const GraphParts& parts,
-                const PoseGraph& graph,
-                const std::filesystem::path& file,
-                const std::string& why);
+void require_complete_odometry(const GraphParts& parts,
+                               const PoseGraph& graph,
+                               const std::filesystem::path& file,
+                               const std::string& why);
 
 /// Stamps of all vertices: id * period [s].
-std::vector<double> stamps_of(const PoseGraph& graph, double period);
+std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
 
 /// The vertices of the graph, or the composed odometry (see chain()) if it has none.
 Trajectory initial_poses(const PoseGraph& graph, double period);
@@ -45,6 +45,6 @@ void keep_listed(std::vector<Edge>& closures,
                  const std::filesystem::path& list);
 
 /// Subsamples at most `max` closures, evenly over time (see spread()); 0 keeps all.
-void keep_spread(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max);
+void subsample_closures(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max);
 
 }  // namespace loopbench

@@ -98,7 +98,7 @@ KeyframeSplit split(const Trajectory& poses, const std::vector<std::size_t>& kep
   return out;
 }
 
-Trajectory frames_between(const Trajectory& keyframes, const Trajectory& frames) {
+Trajectory non_keyframes_between(const Trajectory& keyframes, const Trajectory& frames) {
   Trajectory out;
   std::size_t next = 0;  // first keyframe not before the frame
   for (const StampedPose& frame : frames) {

@@ -40,6 +40,6 @@ KeyframeSplit split(const Trajectory& poses, const std::vector<std::size_t>& kep
 
 /// Returns the frames between the first and the last keyframe that are not keyframes, i.e. differ
 /// by more than 1 ms from all keyframe stamps. O(n + m).
-Trajectory frames_between(const Trajectory& keyframes, const Trajectory& frames);
+Trajectory non_keyframes_between(const Trajectory& keyframes, const Trajectory& frames);
 
 }  // namespace loopbench

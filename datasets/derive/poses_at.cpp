@@ -31,7 +31,7 @@ std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, doub
 
 std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
                                           const std::vector<double>& times,
-                                          const Reach& reach) {
+                                          const InterpolationLimits& reach) {
   std::vector<std::optional<Pose>> out(times.size());
   if (run.empty()) return out;
   const std::vector<double> knots = stamps(run);

@@ -8,7 +8,7 @@
 
 namespace loopbench {
 
-struct Reach {
+struct InterpolationLimits {
   double max_gap = 0.2;    ///< maximum time between interpolated poses [s]
   double max_diff = 0.02;  ///< otherwise, maximum time difference to the nearest pose [s]
 };
@@ -17,7 +17,7 @@ struct Reach {
 /// pose, or nothing if both are too far away. Times may be in any order. O(n + m) for sorted times.
 std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
                                           const std::vector<double>& times,
-                                          const Reach& reach);
+                                          const InterpolationLimits& reach);
 
 /// Returns the index of the nearest pose in time, if it is at most `max_diff` [s] away. O(log n).
 std::optional<std::size_t> nearest_pose(const Trajectory& run, double time, double max_diff);

@@ -20,14 +20,14 @@ Pose pose_of(const ReferenceBody& body) {
   return normalized(out);
 }
 
-bool is_elsewhere(const ReferenceBody& body) {
+bool has_offset(const ReferenceBody& body) {
   const double parts[] = {body.x, body.y, body.z, body.qx, body.qy, body.qz};
   return std::ranges::any_of(parts, [](double part) { return part != 0.0; });
 }
 
-Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body) {
+Trajectory to_estimate_body(Trajectory reference, const ReferenceBody& body) {
   const Pose reference_from_body = pose_of(body).inverse();
-  if (!is_elsewhere(body)) return reference;
+  if (!has_offset(body)) return reference;
   for (auto& [stamp, world_from_body] : reference) {
     world_from_body = normalized(world_from_body * reference_from_body);
   }

@@ -48,11 +48,11 @@ void reference_body_fields(ReferenceBody& o, Visit visit) {
 Pose pose_of(const ReferenceBody& body);
 
 /// Whether the offset is not the identity.
-bool is_elsewhere(const ReferenceBody& body);
+bool has_offset(const ReferenceBody& body);
 
 /// Converts the reference to poses of the estimate's body: world_from_reference *
 /// body_from_reference^-1. The reference is returned unchanged if the offset is the identity.
 /// Throws OptionError like pose_of(). O(n).
-Trajectory of_estimate_body(Trajectory reference, const ReferenceBody& body);
+Trajectory to_estimate_body(Trajectory reference, const ReferenceBody& body);
 
 }  // namespace loopbench

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "datasets/formats/recognise.hpp"
+#include "datasets/formats/detect_format.hpp"
 
 namespace loopbench {
 
@@ -22,7 +22,7 @@ InputError Columns::refusal(const char* what, const std::string& why) const {
                                  tag ? " (looks like g2o)" : ""));
 }
 
-void Columns::refuse_number(const char* what, std::errc error, const char* stop) const {
+void Columns::reject_number(const char* what, std::errc error, const char* stop) const {
   if (error == std::errc::result_out_of_range && ends_column(stop)) {
     throw refusal(what, "is out of the range of a double");
   }
@@ -32,7 +32,7 @@ void Columns::refuse_number(const char* what, std::errc error, const char* stop)
   throw refusal(what, "is not a number");
 }
 
-void Columns::refuse_integer(const char* what, std::errc error, const char* stop) const {
+void Columns::reject_integer(const char* what, std::errc error, const char* stop) const {
   if (error == std::errc::result_out_of_range && ends_column(stop)) {
     throw refusal(what, "is out of the range of a 64-bit whole number");
   }

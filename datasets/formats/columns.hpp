@@ -38,7 +38,7 @@ class Columns {
     const auto [stop, error] = std::from_chars(first, end_, value);
     const bool signed_twice = first != at_ && first != end_ && *first == '-';
     const bool valid = error == std::errc{} && ends_column(stop) && !signed_twice;
-    if (!valid || !std::isfinite(value)) refuse_number(what, error, stop);
+    if (!valid || !std::isfinite(value)) reject_number(what, error, stop);
     advance(stop);
     return value;
   }
@@ -47,7 +47,7 @@ class Columns {
   std::int64_t integer(const char* what) {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(at_, end_, value);
-    if (error != std::errc{} || !ends_column(stop)) refuse_integer(what, error, stop);
+    if (error != std::errc{} || !ends_column(stop)) reject_integer(what, error, stop);
     advance(stop);
     return value;
   }
@@ -73,8 +73,8 @@ class Columns {
     skip_separators();
   }
 
-  [[noreturn]] void refuse_number(const char* what, std::errc error, const char* stop) const;
-  [[noreturn]] void refuse_integer(const char* what, std::errc error, const char* stop) const;
+  [[noreturn]] void reject_number(const char* what, std::errc error, const char* stop) const;
+  [[noreturn]] void reject_integer(const char* what, std::errc error, const char* stop) const;
   InputError refusal(const char* what, const std::string& why) const;
 
   const TextFile& file_;

@@ -1,8 +1,8 @@
 #include "datasets/formats/euroc.hpp"
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/recognise.hpp"
 
 namespace loopbench {
 namespace {
@@ -22,8 +22,8 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   Trajectory out;
   const Line first = first_line(file);
   const std::size_t width = count_columns(file, first);
-  out.reserve(file.lines_like(first));
-  InOrder order(file, options.repeats);
+  out.reserve(file.estimated_lines(first));
+  StampOrder order(file, options.repeats);
   std::array<double, kEurocColumns.size()> v;
   for (Line line; file.next(line);) {
     const std::size_t count = count_columns(file, line);
@@ -40,7 +40,7 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
     Columns columns(file, line);
     const double stamp = seconds_of(columns.integer("nanoseconds"));
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kEurocColumns[i]);
-    const Rotation rotation = unit_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
+    const Rotation rotation = normalized_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
     order.put(stamp, line.number, {rotation, {v[0], v[1], v[2]}}, out);
   }
   return out;

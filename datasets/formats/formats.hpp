@@ -56,7 +56,7 @@ struct ReadOptions {
 Trajectory read_trajectory(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Detects the format from the content. Throws InputError if it is unknown.
-Format recognise(const std::filesystem::path& file);
+Format detect_format(const std::filesystem::path& file);
 
 /// Writes a TUM file. Doubles are printed so that reading them is bit-identical; `comments` become
 /// `# ` lines at the top. Throws InputError for an invalid trajectory and if the file cannot be

@@ -23,12 +23,12 @@ struct PoseGraph {
 /// Convention of the rotation block of the information of :QUAT edges. g2o minimises the vector
 /// part of the quaternion (half angles). GTSAM and SE-Sync, and papers that use them, interpret the
 /// same numbers as information of angles, which is four times larger.
-enum class TurnInformation { half_angles, angles };
+enum class RotationInformation { half_angles, angles };
 
 /// Reads a g2o file. Conventions (g2o wiki and sources; TORO; COP-SLAM):
 /// - Information of :QUAT edges refers to the vector part of the quaternion (half angles) and is
 ///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (except for
-///   TurnInformation::angles).
+///   RotationInformation::angles).
 /// - SE2 is lifted to SE(3): x, y, yaw are from the file; z, roll, pitch get positive diagonal
 ///   information, which does not affect the solution of a planar problem.
 /// - VERTEX3 and EDGE3 contain x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll) and
@@ -42,7 +42,7 @@ enum class TurnInformation { half_angles, angles };
 /// - FIX lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file,
-                   TurnInformation turns = TurnInformation::half_angles);
+                   RotationInformation rotation_information = RotationInformation::half_angles);
 
 /// Writes vertices and edges as SE2 lines if `planar`, as RST3 if `similarity`, else as SE3:QUAT.
 /// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws

@@ -41,7 +41,7 @@ inline Matrix6 lift_planar(const Matrix3& planar) {
   return out;
 }
 
-inline Matrix3 in_plane(const Matrix6& lifted) {
+inline Matrix3 planar_block(const Matrix6& lifted) {
   Matrix3 out;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) out(i, j) = lifted(kPlanarAxes[i], kPlanarAxes[j]);

@@ -67,9 +67,9 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 
 }  // namespace
 
-PoseGraph read_g2o(const std::filesystem::path& path, TurnInformation turns) {
+PoseGraph read_g2o(const std::filesystem::path& path, RotationInformation rotation_information) {
   TextFile file(path);
-  Records records = read_records(file, turns);
+  Records records = read_records(file, rotation_information);
   PoseGraph out;
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;

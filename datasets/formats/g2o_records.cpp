@@ -5,10 +5,10 @@
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/recognise.hpp"
 
 namespace loopbench {
 namespace {
@@ -75,8 +75,15 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
 /// Parser for one line. Throws InputError with the columns required by the tag if one is missing.
 class Record {
  public:
-  Record(const TextFile& file, const Line& line, const Tag& tag, TurnInformation turns)
-      : file_(file), line_(line), tag_(tag), turns_(turns), columns_(file, line) {
+  Record(const TextFile& file,
+         const Line& line,
+         const Tag& tag,
+         RotationInformation rotation_information)
+      : file_(file),
+        line_(line),
+        tag_(tag),
+        rotation_information_(rotation_information),
+        columns_(file, line) {
     columns_.word();
   }
 
@@ -118,7 +125,7 @@ class Record {
     const double y = number("qy");
     const double z = number("qz");
     const double w = number("qw");
-    out.rotation = unit_rotation(file_, line_.number, {w, x, y, z});
+    out.rotation = normalized_rotation(file_, line_.number, {w, x, y, z});
     if (tag_.pose == Layout::quaternion_and_scale) {
       scale = number("scale");
       if (!(scale > 0.0)) {
@@ -150,7 +157,8 @@ class Record {
 
  private:
   Matrix6 of_quaternion(const Matrix6& written) const {
-    return turns_ == TurnInformation::half_angles ? from_half_angles(written) : written;
+    return rotation_information_ == RotationInformation::half_angles ? from_half_angles(written)
+                                                                     : written;
   }
 
   void need_column() const {
@@ -174,7 +182,7 @@ class Record {
   const TextFile& file_;
   const Line& line_;
   const Tag& tag_;
-  TurnInformation turns_;
+  RotationInformation rotation_information_;
   Columns columns_;
 };
 
@@ -211,7 +219,7 @@ struct Part {
   std::size_t lines = 0;
 };
 
-Part read_g2o_part(TextFile& file, TurnInformation turns) {
+Part read_g2o_part(TextFile& file, RotationInformation rotation_information) {
   first_line(file);
   Part part;
   Records& out = part.records;
@@ -232,15 +240,15 @@ Part read_g2o_part(TextFile& file, TurnInformation turns) {
                            " on line " + std::to_string(first_line_number) +
                            ", expected one kind of pose");
     }
-    const Record record(file, line, tag, turns);
+    const Record record(file, line, tag, rotation_information);
     if (tag.is_edge) {
       if (out.edges.empty()) {
-        out.edges.reserve(file.lines_like(line));
-        out.ends.reserve(file.lines_like(line));
+        out.edges.reserve(file.estimated_lines(line));
+        out.ends.reserve(file.estimated_lines(line));
       }
       read_edge(file, record, line, out);
     } else {
-      if (out.vertices.empty()) out.vertices.reserve(file.lines_like(line));
+      if (out.vertices.empty()) out.vertices.reserve(file.estimated_lines(line));
       out.vertices.push_back(read_vertex(record, line));
     }
   }
@@ -251,10 +259,10 @@ Part read_g2o_part(TextFile& file, TurnInformation turns) {
 
 }  // namespace
 
-Records read_records(TextFile& file, TurnInformation turns) {
-  std::vector<Part> parts = read_in_parts(
+Records read_records(TextFile& file, RotationInformation rotation_information) {
+  std::vector<Part> parts = read_parallel(
       file,
-      [turns](TextFile& part) { return read_g2o_part(part, turns); },
+      [rotation_information](TextFile& part) { return read_g2o_part(part, rotation_information); },
       [](const Part& a, const Part& b) { return a.records.kind == b.records.kind; });
   Records out = std::move(parts.front().records);
   std::size_t lines = parts.front().lines;

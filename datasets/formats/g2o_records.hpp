@@ -36,6 +36,6 @@ struct Records {
 /// Reads every VERTEX and EDGE line; FIX lines are skipped. Throws InputError for unknown tags, a
 /// wrong number of columns, mixed kinds, quaternions that are not unit, scales that are not
 /// positive, information that is not positive definite, and edges from a vertex to itself.
-Records read_records(TextFile& file, TurnInformation turns);
+Records read_records(TextFile& file, RotationInformation rotation_information);
 
 }  // namespace loopbench

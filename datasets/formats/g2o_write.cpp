@@ -47,7 +47,7 @@ void write_g2o(const std::filesystem::path& file, const PoseGraph& graph) {
     write_pose(out, graph, e.from_from_to);
     if (graph.similarity) out.number(1.0 / e.scale);
     if (graph.planar) {
-      write_upper(out, in_plane(e.information));
+      write_upper(out, planar_block(e.information));
     } else {
       write_upper(out, to_half_angles(e.information));
     }

@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/recognise.hpp"
 #include "datasets/formats/text_writer.hpp"
 
 namespace loopbench {
@@ -55,7 +55,7 @@ void each_row(TextFile& file, Visit visit) {
 /// Reads the poses of a part of a file; stamps are not set.
 Trajectory read_kitti_part(TextFile& file) {
   Trajectory out;
-  out.reserve(file.lines_like(first_line(file)));
+  out.reserve(file.estimated_lines(first_line(file)));
   each_row(file, [&](const PoseMatrix& m) {
     out.push_back({0.0, {Rotation(Matrix3(m.linear())).normalized(), m.translation()}});
   });
@@ -68,7 +68,7 @@ std::vector<double> read_times(const std::filesystem::path& path) {
   TextFile file(path);
   first_line(file);
   std::vector<double> out;
-  InOrder order(file, Repeats::refuse, "");
+  StampOrder order(file, Repeats::refuse, "");
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     out.push_back(columns.number("time"));
@@ -79,7 +79,7 @@ std::vector<double> read_times(const std::filesystem::path& path) {
 }
 
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
-  Trajectory out = joined(read_in_parts(
+  Trajectory out = joined(read_parallel(
       file, read_kitti_part, [](const Trajectory&, const Trajectory&) { return true; }));
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].stamp = static_cast<double>(i) * options.period;

@@ -14,21 +14,22 @@ namespace loopbench {
 /// back to a single parse(file) if a part throws InputError (its line numbers would be relative to
 /// the part) or if fits(a, b) is false for two neighbouring results.
 template <class Parse, class Fits>
-auto read_in_parts(TextFile& file, const Parse& parse, const Fits& fits) {
+auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
   using Part = decltype(parse(file));
   constexpr std::size_t kMinPartSize = std::size_t{1} << 20;  // [bytes]
   std::vector<Part> parts;
-  if (file.bytes() >= 2 * kMinPartSize && cores() > 1) {
+  if (file.bytes() >= 2 * kMinPartSize && hardware_threads() > 1) {
     try {
-      std::vector<TextFile> texts = file.cut(std::min(cores(), file.bytes() / kMinPartSize));
+      std::vector<TextFile> texts =
+          file.cut(std::min(hardware_threads(), file.bytes() / kMinPartSize));
       parts.resize(texts.size());
-      in_parallel(texts.size(), [&](std::size_t i) { parts[i] = parse(texts[i]); });
+      parallel_invoke(texts.size(), [&](std::size_t i) { parts[i] = parse(texts[i]); });
       bool all_fit = true;
       for (std::size_t i = 1; i < parts.size(); ++i) all_fit &= fits(parts[i - 1], parts[i]);
       if (all_fit) {
         for (const TextFile& text : texts) {
-          file.mended.off_unit = std::max(file.mended.off_unit, text.mended.off_unit);
-          file.mended.repeated += text.mended.repeated;
+          file.repaired.off_unit = std::max(file.repaired.off_unit, text.repaired.off_unit);
+          file.repaired.repeated += text.repaired.repeated;
         }
         return parts;
       }

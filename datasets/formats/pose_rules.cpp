@@ -10,7 +10,7 @@
 
 namespace loopbench {
 
-Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
+Rotation normalized_rotation(const TextFile& file, std::size_t line, Rotation given) {
   constexpr double kTolerance = 1e-2;
   // Quaternions that are unit up to rounding are not changed, so that round trips are
   // bit-identical.
@@ -22,12 +22,12 @@ Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given) {
   if (!(std::abs(norm - 1.0) <= kTolerance)) {
     throw file.error(line, fmt::format("quaternion has norm {:.6g}, expected 1 +- 0.01", norm));
   }
-  file.mended.off_unit = std::max(file.mended.off_unit, std::abs(norm - 1.0));
+  file.repaired.off_unit = std::max(file.repaired.off_unit, std::abs(norm - 1.0));
   given.coeffs() /= norm;
   return given;
 }
 
-void InOrder::refuse_or_drop(double stamp, std::size_t line) const {
+void StampOrder::reject_or_drop(double stamp, std::size_t line) const {
   const std::string on_line = " on line " + std::to_string(last_line_);
   if (stamp < last_stamp_) {
     throw file_.error(line,
@@ -39,7 +39,7 @@ void InOrder::refuse_or_drop(double stamp, std::size_t line) const {
                       "stamp " + to_text(stamp) + " is already" + on_line +
                           ", expected increasing stamps" + hint_);
   }
-  ++file_.mended.repeated;
+  ++file_.repaired.repeated;
 }
 
 }  // namespace loopbench

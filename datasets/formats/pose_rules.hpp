@@ -9,15 +9,15 @@ namespace loopbench {
 
 /// Normalises a quaternion. Throws InputError if it is zero or its norm differs from 1 by more than
 /// 1e-2: rounding in the file causes smaller deviations, a wrong column order larger ones.
-Rotation unit_rotation(const TextFile& file, std::size_t line, Rotation given);
+Rotation normalized_rotation(const TextFile& file, std::size_t line, Rotation given);
 
 /// Enforces strictly increasing stamps. Errors state both lines.
-class InOrder {
+class StampOrder {
  public:
   /// `hint` is appended to the error for a repeated stamp.
-  InOrder(const TextFile& file,
-          Repeats repeats,
-          const char* hint = " (or repeats: keep_first, keep_last)")
+  StampOrder(const TextFile& file,
+             Repeats repeats,
+             const char* hint = " (or repeats: keep_first, keep_last)")
       : file_(file), repeats_(repeats), hint_(hint) {}
 
   /// Appends a pose to `poses`. A pose with a repeated stamp replaces the last one or is dropped,
@@ -33,7 +33,7 @@ class InOrder {
   /// Returns false if `stamp` repeats the last one and repeats are allowed. Throws InputError.
   bool accepts(double stamp, std::size_t line) {
     if (last_line_ != 0 && !(stamp > last_stamp_)) {
-      refuse_or_drop(stamp, line);
+      reject_or_drop(stamp, line);
       return false;
     }
     last_stamp_ = stamp;
@@ -42,7 +42,7 @@ class InOrder {
   }
 
  private:
-  void refuse_or_drop(double stamp, std::size_t line) const;
+  void reject_or_drop(double stamp, std::size_t line) const;
 
   const TextFile& file_;
   Repeats repeats_;

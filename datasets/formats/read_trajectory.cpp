@@ -1,9 +1,9 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/chain.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/euroc.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/kitti.hpp"
-#include "datasets/formats/recognise.hpp"
 #include "datasets/formats/tum.hpp"
 
 namespace loopbench {
@@ -25,11 +25,11 @@ Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double
 }  // namespace
 
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
-  if (!Above{0.0}.holds(options.period)) {
+  if (!GreaterThan{0.0}.holds(options.period)) {
     throw OptionError("period", "period = " + to_text(options.period) + ": expected period > 0");
   }
   TextFile file(path);
-  const Format format = options.format == Format::automatic ? recognise(file) : options.format;
+  const Format format = options.format == Format::automatic ? detect_format(file) : options.format;
   if (options.times && format != Format::kitti) {
     throw file.error(
         0, "has format " + to_text(format) + ", which contains stamps, expected no times file");
@@ -37,7 +37,7 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
   if (format == Format::kitti) return read_kitti(file, options);
   if (format == Format::g2o) return trajectory_of(read_g2o(path), file.name(), options.period);
   Trajectory out = format == Format::euroc ? read_euroc(file, options) : read_tum(file, options);
-  if (options.findings) *options.findings = {file.mended.off_unit, file.mended.repeated};
+  if (options.findings) *options.findings = {file.repaired.off_unit, file.repaired.repeated};
   return out;
 }
 

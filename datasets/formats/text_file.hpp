@@ -51,15 +51,15 @@ class TextFile {
   }
 
   /// Corrections made by the readers in this part.
-  struct Mended {
+  struct Repaired {
     double off_unit = 0.0;
     std::size_t repeated = 0;
   };
-  mutable Mended mended;
+  mutable Repaired repaired;
 
   /// Estimated number of lines, assuming that all are as long as `line`; a hint for reserve(). The
   /// first part counts the whole file, because the results of other parts are appended to it.
-  std::size_t lines_like(const Line& line) const {
+  std::size_t estimated_lines(const Line& line) const {
     return (begin_ == 0 ? size_ : end_ - begin_) / (line.text.size() + 1) + 1;
   }
 

@@ -1,10 +1,10 @@
 #include "datasets/formats/tum.hpp"
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/euroc.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/recognise.hpp"
 #include "datasets/formats/text_writer.hpp"
 
 namespace loopbench {
@@ -27,18 +27,19 @@ double stamp_of(const TextFile& file, const Line& line, double number, bool smal
   constexpr double kNanoseconds = 1e16, kMaxNanoseconds = 9e18;  // 1970 + 115 days, + 285 years
   if (number > kMaxNanoseconds || (number < kNanoseconds && !small_nanoseconds)) return number;
   const std::string_view word = Columns(file, line).word();
-  std::int64_t whole = 0;
-  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
-  const bool is_whole = error == std::errc{} &&
-                        std::string_view(rest, word.data() + word.size()).find_first_not_of(".0") ==
-                            std::string_view::npos;
-  return is_whole ? seconds_of(whole) : 1e-9 * number;
+  std::int64_t integer = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), integer);
+  const bool is_integer =
+      error == std::errc{} &&
+      std::string_view(rest, word.data() + word.size()).find_first_not_of(".0") ==
+          std::string_view::npos;
+  return is_integer ? seconds_of(integer) : 1e-9 * number;
 }
 
 Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds) {
   Trajectory out;
-  out.reserve(file.lines_like(first_line(file)));
-  InOrder order(file, repeats);
+  out.reserve(file.estimated_lines(first_line(file)));
+  StampOrder order(file, repeats);
   std::array<double, kTumColumns.size()> v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
@@ -48,7 +49,7 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds
     }
     if (!columns.done()) throw wrong_row(file, line);
     v[0] = stamp_of(file, line, v[0], small_nanoseconds);
-    const Rotation rotation = unit_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
+    const Rotation rotation = normalized_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
     order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
   return out;
@@ -58,7 +59,7 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds
 
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
   const bool small_nanoseconds = has_small_nanoseconds(file);
-  return joined(read_in_parts(
+  return joined(read_parallel(
       file,
       [&](TextFile& part) { return read_tum_part(part, options.repeats, small_nanoseconds); },
       [](const Trajectory& a, const Trajectory& b) { return a.back().stamp < b.front().stamp; }));

@@ -59,11 +59,11 @@ class SkippedFrames {
   std::vector<std::string> notes_;
 };
 
-Tracked track(const RgbdSource& source,
-              const FrontendOptions& options,
-              const FrontendHooks& hooks,
-              const StageCache& cache,
-              StageTimes& seconds) {
+TrackingResult track(const RgbdSource& source,
+                     const FrontendOptions& options,
+                     const FrontendHooks& hooks,
+                     const StageCache& cache,
+                     StageTimes& seconds) {
   const Camera camera = source.camera();
   Tracker tracker(camera, source.size(), options.track);
   SkippedFrames skipped;
@@ -81,22 +81,27 @@ Tracked track(const RgbdSource& source,
       return made;
     };
     const auto pack = [](const FrameFeatures& frame) { return packed(frame); };
-    out.frame = cache.get(cache.frame(i), unpacked_frame, describe_frame, pack);
+    out.frame = cache.get(cache.frame(i), deserialise_frame, describe_frame, pack);
     return out;
   };
-  ordered_pipeline<TimedFeatures>(
-      source.size(), cores(), 4 * cores(), make, [&](std::size_t i, TimedFeatures timed) {
-        seconds.read += timed.read;
-        seconds.features += timed.find;
-        seconds.frames_read += timed.computed ? 1 : 0;
-        if (hooks.progress) hooks.progress("tracking", i + 1, source.size());
-        if (!timed.frame.features) return skipped.add(timed.frame.why);
-        const double begin = cpu_seconds();
-        tracker.add(i, source.stamp(i), std::move(*timed.frame.features));
-        seconds.track += cpu_since(begin);
-      });
+  ordered_pipeline<TimedFeatures>(source.size(),
+                                  hardware_threads(),
+                                  4 * hardware_threads(),
+                                  make,
+                                  [&](std::size_t i, TimedFeatures timed) {
+                                    seconds.read += timed.read;
+                                    seconds.features += timed.find;
+                                    seconds.frames_read += timed.computed ? 1 : 0;
+                                    if (hooks.progress)
+                                      hooks.progress("tracking", i + 1, source.size());
+                                    if (!timed.frame.features) return skipped.add(timed.frame.why);
+                                    const double begin = cpu_seconds();
+                                    tracker.add(
+                                        i, source.stamp(i), std::move(*timed.frame.features));
+                                    seconds.track += cpu_since(begin);
+                                  });
   seconds.frames_tracked = source.size();
-  Tracked out = tracker.finish();
+  TrackingResult out = tracker.finish();
   const std::vector<std::string> notes = skipped.notes(source.size());
   out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
   const FocalCheck focal = check_focal(out.keyframes, camera, options.track);
@@ -118,10 +123,10 @@ std::string throughput_note(const StageTimes& s) {
   rate(s.keyframes_searched, s.loops, "keyframes searched for loops");
   rate(s.edges_refined, s.refine, "steps and loops measured again by depth");
   if (out.empty()) return "everything from the cache";
-  return fmt::format("in a second of one core: {}; {} threads", out, cores());
+  return fmt::format("in a second of one core: {}; {} threads", out, hardware_threads());
 }
 
-DetectedLoops find_loops(const Tracked& tracked,
+DetectedLoops find_loops(const TrackingResult& tracked,
                          const RgbdSource& source,
                          const FrontendOptions& options,
                          const FrontendHooks& hooks,
@@ -140,13 +145,13 @@ DetectedLoops find_loops(const Tracked& tracked,
     return out;
   };
   const auto pack = [](const DetectedLoops& loops) { return packed(loops); };
-  return cache.get(cache.loops(), unpacked_loops, make, pack);
+  return cache.get(cache.loops(), deserialise_loops, make, pack);
 }
 
 /// Refines odometry and closures by depth and updates keyframes and frames. Returns the factor by
 /// which the differences between feature-based and depth-based edges exceed their stated
 /// uncertainty.
-double refine(Tracked& tracked,
+double refine(TrackingResult& tracked,
               DetectedLoops& loops,
               const RgbdSource& source,
               const FrontendOptions& options,
@@ -168,14 +173,14 @@ double refine(Tracked& tracked,
     return out;
   };
   const auto pack = [](const RefinedEdges& edges) { return packed(edges); };
-  RefinedEdges edges = cache.get(cache.refined(), unpacked_edges, make, pack);
+  RefinedEdges edges = cache.get(cache.refined(), deserialise_edges, make, pack);
   tracked.notes.push_back(fmt::format("measured again by depth: {} of {} steps, {} of {} loops",
                                       edges.odometry_refined,
                                       edges.odometry.size(),
                                       edges.closures_refined,
                                       edges.closures.size()));
-  const double excess = remeasured_excess(tracked.odometry, edges.odometry, kMinGaps);
-  follow_odometry(tracked, edges.odometry);
+  const double excess = repeated_measurement_excess(tracked.odometry, edges.odometry, kMinGaps);
+  update_poses(tracked, edges.odometry);
   loops.closures = std::move(edges.closures);
   return excess;
 }
@@ -183,7 +188,7 @@ double refine(Tracked& tracked,
 /// Divides all information matrices by the factor by which loops disagree with odometry, or depth
 /// with features, more than expected. Information is never increased, because errors common to both
 /// cannot be detected.
-void scale_information(Tracked& tracked, DetectedLoops& loops, double depth_excess) {
+void scale_information(TrackingResult& tracked, DetectedLoops& loops, double depth_excess) {
   const double loop_excess = information_excess(tracked.odometry, loops.closures, kMinGaps);
   const double excess = std::max(loop_excess, depth_excess);
   if (!(excess > 1.0)) return;
@@ -207,8 +212,8 @@ Sequence run_frontend(const RgbdSource& source,
   if (!hooks.cache.empty()) lock.emplace(cache.tracked());
   StageTimes seconds;
   const auto make = [&] { return track(source, options, hooks, cache, seconds); };
-  const auto pack = [](const Tracked& tracked) { return packed(tracked); };
-  Tracked tracked = cache.get(cache.tracked(), unpacked_tracked, make, pack);
+  const auto pack = [](const TrackingResult& tracked) { return packed(tracked); };
+  TrackingResult tracked = cache.get(cache.tracked(), deserialise_tracked, make, pack);
   const double skipped_share =
       static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
   if (skipped_share > options.skipped_max) {
@@ -250,7 +255,7 @@ Sequence run_frontend(const RgbdSource& source,
     out.problem.keyframes.push_back({keyframe.stamp, keyframe.world_from_camera});
   }
   out.problem.odometry = std::move(tracked.odometry);
-  out.problem.common_view = std::move(tracked.common_view);
+  out.problem.shared_landmarks = std::move(tracked.shared_landmarks);
   out.problem.frames = std::move(tracked.frames);
   out.problem.closures = std::move(loops.closures);
   out.reference = source.reference();

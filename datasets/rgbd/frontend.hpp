@@ -45,9 +45,9 @@ struct FrontendHooks {
 /// cores, a few frames ahead of the tracker; only these images are in memory, together with the
 /// features of keyframes (60 kB each) and all poses. With refine.depth, odometry and closures are
 /// refined by refine_by_depth(), and keyframes and frames are updated. If information_excess() or
-/// remeasured_excess() is above 1, all information matrices are divided by the larger one.
-/// Provenance notes report skipped frames, tracking losses, focal lengths that disagree with the
-/// images (check_focal) and the divisor of the information. Throws InputError if more than
+/// repeated_measurement_excess() is above 1, all information matrices are divided by the larger
+/// one. Provenance notes report skipped frames, tracking losses, focal lengths that disagree with
+/// the images (check_focal) and the divisor of the information. Throws InputError if more than
 /// skipped_max of the frames cannot be read or if fewer than two keyframes are tracked.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,

@@ -7,7 +7,7 @@ inline constexpr const char* kWithoutOpencv =
     "this build has no image front end: OpenCV was not found when loopbench was configured "
     "(Debian 12: libopencv-features2d-dev, libopencv-calib3d-dev, libstb-dev)";
 
-/// Whether find_features(), match_everywhere() and pose_by_ransac() can be called; without OpenCV
+/// Whether find_features(), match_exhaustive() and pose_by_ransac() can be called; without OpenCV
 /// they throw MissingPart.
 bool has_opencv();
 

@@ -34,8 +34,8 @@ void each(Io&& io, T& p, const StampedPose*) {
 }
 
 template <class Io, class T>
-void each(Io&& io, T& t, const Tracked*) {
-  io(t.keyframes), io(t.odometry), io(t.common_view), io(t.frames), io(t.lost), io(t.skipped),
+void each(Io&& io, T& t, const TrackingResult*) {
+  io(t.keyframes), io(t.odometry), io(t.shared_landmarks), io(t.frames), io(t.lost), io(t.skipped),
       io(t.notes);
 }
 
@@ -131,7 +131,7 @@ std::string packed(const FrameFeatures& frame) {
   return write.pack.bytes();
 }
 
-FrameFeatures unpacked_frame(const std::string& bytes) {
+FrameFeatures deserialise_frame(const std::string& bytes) {
   FrameFeatures out;
   Read from{Unpack(bytes)};
   bool any = false;
@@ -141,11 +141,11 @@ FrameFeatures unpacked_frame(const std::string& bytes) {
   return out;
 }
 
-std::string packed(const Tracked& tracked) { return serialised(tracked); }
-Tracked unpacked_tracked(const std::string& bytes) { return read<Tracked>(bytes); }
+std::string packed(const TrackingResult& tracked) { return serialised(tracked); }
+TrackingResult deserialise_tracked(const std::string& bytes) { return read<TrackingResult>(bytes); }
 std::string packed(const DetectedLoops& loops) { return serialised(loops); }
-DetectedLoops unpacked_loops(const std::string& bytes) { return read<DetectedLoops>(bytes); }
+DetectedLoops deserialise_loops(const std::string& bytes) { return read<DetectedLoops>(bytes); }
 std::string packed(const RefinedEdges& edges) { return serialised(edges); }
-RefinedEdges unpacked_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
+RefinedEdges deserialise_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
 
 }  // namespace loopbench::rgbd

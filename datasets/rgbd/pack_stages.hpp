@@ -18,12 +18,12 @@ struct FrameFeatures {
 
 /// The unpacked_* functions throw std::runtime_error for bytes in another layout.
 std::string packed(const FrameFeatures& frame);
-FrameFeatures unpacked_frame(const std::string& bytes);
-std::string packed(const Tracked& tracked);
-Tracked unpacked_tracked(const std::string& bytes);
+FrameFeatures deserialise_frame(const std::string& bytes);
+std::string packed(const TrackingResult& tracked);
+TrackingResult deserialise_tracked(const std::string& bytes);
 std::string packed(const DetectedLoops& loops);
-DetectedLoops unpacked_loops(const std::string& bytes);
+DetectedLoops deserialise_loops(const std::string& bytes);
 std::string packed(const RefinedEdges& edges);
-RefinedEdges unpacked_edges(const std::string& bytes);
+RefinedEdges deserialise_edges(const std::string& bytes);
 
 }  // namespace loopbench::rgbd

@@ -14,7 +14,7 @@ Features find_features(const RgbdFrame&, const Camera&, const FeatureOptions&) {
   throw MissingPart(kWithoutOpencv);
 }
 
-std::vector<Match> match_everywhere(const Features&, const Features&, const MatchOptions&) {
+std::vector<Match> match_exhaustive(const Features&, const Features&, const MatchOptions&) {
   throw MissingPart(kWithoutOpencv);
 }
 

@@ -48,9 +48,9 @@ std::pair<std::size_t, std::size_t> unrelated_pair(const Trajectory& truth,
 
 }  // namespace
 
-std::vector<Edge> measure_closures(const Trajectory& truth,
-                                   const RevisitRule& same,
-                                   const SimulatedOptions& options) {
+std::vector<Edge> simulate_closures(const Trajectory& truth,
+                                    const RevisitRule& same,
+                                    const SimulatedOptions& options) {
   const SimulatedClosures& closures = options.closures;
   const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
   std::vector<Edge> out;

@@ -14,8 +14,8 @@ namespace loopbench {
 /// places, until their share is closures.false_share. Sorted by (to, from). `truth` holds the true
 /// poses of the keyframes. Throws OptionError if false closures are requested for a path that stays
 /// at one place. O(poses).
-std::vector<Edge> measure_closures(const Trajectory& truth,
-                                   const RevisitRule& same,
-                                   const SimulatedOptions& options);
+std::vector<Edge> simulate_closures(const Trajectory& truth,
+                                    const RevisitRule& same,
+                                    const SimulatedOptions& options);
 
 }  // namespace loopbench

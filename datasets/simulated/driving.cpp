@@ -116,7 +116,7 @@ class Route {
     const double slope_y = 0.0125 * std::cos(0.025 * y);
     const double ahead = slope_x * std::cos(yaw) + slope_y * std::sin(yaw);
     const double left = slope_y * std::cos(yaw) - slope_x * std::sin(yaw);
-    return {heading(yaw, -std::atan(ahead), std::atan(left)), {x, y, z}};
+    return {rotation_from_yaw_pitch_roll(yaw, -std::atan(ahead), std::atan(left)), {x, y, z}};
   }
 
   std::vector<Piece> pieces_;

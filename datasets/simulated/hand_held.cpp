@@ -34,7 +34,8 @@ struct HandHeld {
   Pose at(double time) const {
     const double uniform_phase = 2.0 * std::numbers::pi * time / duration;
     const double angle = uniform_phase + sum(phase_offset, uniform_phase);
-    return {heading(angle + facing + sum(yaw, angle), sum(pitch, angle), sum(roll, angle)),
+    return {rotation_from_yaw_pitch_roll(
+                angle + facing + sum(yaw, angle), sum(pitch, angle), sum(roll, angle)),
             {sum(x, angle), sum(y, angle), sum(z, angle)}};
   }
 };

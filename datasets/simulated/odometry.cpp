@@ -46,9 +46,9 @@ Matrix6 inverted(const Matrix6& covariance) {
 
 }  // namespace
 
-Odometry measure_odometry(const Trajectory& truth,
-                          const std::vector<std::size_t>& keyframes,
-                          const SimulatedOptions& options) {
+Odometry simulate_odometry(const Trajectory& truth,
+                           const std::vector<std::size_t>& keyframes,
+                           const SimulatedOptions& options) {
   const OdometryNoise& noise = options.noise;
   Random random(noise_stream(options), Purpose::odometry);
   const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();

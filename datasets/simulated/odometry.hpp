@@ -22,8 +22,8 @@ inline constexpr double kSigmaFloor = 1e-6;
 /// edge; exact to first order in the noise. `keyframes` are ascending indices into `truth`. If
 /// options.planar is set, noise affects x, y and yaw only; the information stays positive definite
 /// in all axes. O(frames).
-Odometry measure_odometry(const Trajectory& truth,
-                          const std::vector<std::size_t>& keyframes,
-                          const SimulatedOptions& options);
+Odometry simulate_odometry(const Trajectory& truth,
+                           const std::vector<std::size_t>& keyframes,
+                           const SimulatedOptions& options);
 
 }  // namespace loopbench

@@ -48,7 +48,7 @@ struct SystematicDrift {
 
 /// White noise on every tracked frame, including keyframes, which smoothing can remove. Odometry
 /// edges do not contain it.
-struct Shake {
+struct WhiteNoise {
   double sigma_t = 0.0;  ///< [m]
   double sigma_r = 0.0;  ///< [rad]
 };
@@ -74,7 +74,7 @@ struct SimulatedOptions {
   bool planar = false;
   OdometryNoise noise;
   SystematicDrift drift;
-  Shake shake;
+  WhiteNoise white_noise;
   SimulatedClosures closures;
 };
 
@@ -165,12 +165,12 @@ void fields(SimulatedOptions& o, Visit visit) {
         "systematic pitch error per rotation angle [rad/rad]",
         some);
 
-  visit("shake.sigma_t",
-        o.shake.sigma_t,
+  visit("white_noise.sigma_t",
+        o.white_noise.sigma_t,
         "standard deviation of white position noise on every frame [m]",
         Between{0, 1e3});
-  visit("shake.sigma_r",
-        o.shake.sigma_r,
+  visit("white_noise.sigma_r",
+        o.white_noise.sigma_r,
         "standard deviation of white rotation noise on every frame [rad]",
         Between{0, 1});
 
@@ -186,7 +186,7 @@ void fields(SimulatedOptions& o, Visit visit) {
   visit("closures.min_gap",
         c.min_gap,
         "minimum time between the two poses of a revisit [s]",
-        Above{0});
+        GreaterThan{0});
   visit("closures.max", c.max, "maximum number of true closures, subsampled evenly", Between{0});
   visit("closures.sigma_t",
         c.sigma_t,

@@ -5,7 +5,7 @@
 
 namespace loopbench {
 
-Rotation heading(double yaw, double pitch, double roll) {
+Rotation rotation_from_yaw_pitch_roll(double yaw, double pitch, double roll) {
   return exp_so3(yaw * Vector3::UnitZ()) * exp_so3(pitch * Vector3::UnitY()) *
          exp_so3(roll * Vector3::UnitX());
 }
@@ -33,7 +33,7 @@ Path path_of(SimulatedPath which) {
       return {30.0, 61, 10.0, 0.3, [](double) { return Pose{}; }};
     case SimulatedPath::spin:
       return {20.0, 81, 10.0, 0.3, [](double t) {
-                return Pose{heading(kSpinRate * t, 0.0, 0.0), Vector3::Zero()};
+                return Pose{rotation_from_yaw_pitch_roll(kSpinRate * t, 0.0, 0.0), Vector3::Zero()};
               }};
   }
   throw std::logic_error("unknown simulated path");

@@ -22,7 +22,7 @@ struct Path {
 
 /// Rotation Rz(yaw) Ry(pitch) Rx(roll) [rad]; positive pitch is nose down, positive roll left side
 /// up.
-Rotation heading(double yaw, double pitch, double roll);
+Rotation rotation_from_yaw_pitch_roll(double yaw, double pitch, double roll);
 
 /// Hand-held loop through a small room, looking outwards. Duration, number of keyframes, length,
 /// speeds and bounding box are those of TUM RGB-D fr1_room reported in the paper.

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxCached = 100'000;  // [poses], 6.4 MB
 
 Pose flattened(const Pose& pose) {
   const Vector3 ahead = pose.rotation * Vector3::UnitX();
-  return {heading(std::atan2(ahead.y(), ahead.x()), 0.0, 0.0),
+  return {rotation_from_yaw_pitch_roll(std::atan2(ahead.y(), ahead.x()), 0.0, 0.0),
           {pose.translation.x(), pose.translation.y(), 0.0}};
 }
 

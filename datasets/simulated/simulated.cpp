@@ -49,10 +49,10 @@ Trajectory at(const std::vector<std::size_t>& indices, const Trajectory& poses) 
 
 /// Adds independent noise to each pose, in x, y and yaw only if `planar`.
 void add_white_noise(Trajectory& poses, const SimulatedOptions& options) {
-  const auto [sigma_t, sigma_r] = options.shake;
+  const auto [sigma_t, sigma_r] = options.white_noise;
   if (sigma_t == 0.0 && sigma_r == 0.0) return;
   const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
-  Random random(noise_stream(options), Purpose::shake);
+  Random random(noise_stream(options), Purpose::white_noise);
   for (auto& [stamp, pose] : poses) {
     const Twist noise = mask.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
     pose = normalized(pose * exp_se3(noise));
@@ -78,7 +78,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
                                : sampled(options.path, frame_rate, seconds, options.planar);
   const std::vector<std::size_t> keyframes =
       even_indices(static_cast<std::size_t>(keyframe_count), truth.size());
-  Odometry odometry = measure_odometry(truth, keyframes, options);
+  Odometry odometry = simulate_odometry(truth, keyframes, options);
   add_white_noise(odometry.frames, options);
   const SimulatedClosures& closures = options.closures;
   const RevisitRule same{closures.radius > 0.0 ? closures.radius : path.closure_radius,
@@ -89,7 +89,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.name = "simulated_" + to_text(options.path);
   out.problem.keyframes = at(keyframes, odometry.frames);
   out.problem.odometry = std::move(odometry.edges);
-  out.problem.closures = measure_closures(at(keyframes, truth), same, options);
+  out.problem.closures = simulate_closures(at(keyframes, truth), same, options);
   out.problem.frames = std::move(odometry.frames);
   out.problem.planar = options.planar;
   out.reference = std::move(reference);

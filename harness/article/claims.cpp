@@ -133,10 +133,10 @@ double better_tenths(const metrics::Evaluation& ours, const metrics::Evaluation&
   return static_cast<double>(std::ranges::count_if(sum, [](double s) { return s < 0.0; })) / kParts;
 }
 
-void whole(const Judge& judge,
-           const std::string& sequence,
-           const std::string& variant,
-           std::vector<Claim>& out) {
+void overall(const Judge& judge,
+             const std::string& sequence,
+             const std::string& variant,
+             std::vector<Claim>& out) {
   Claim level =
       judge.claim(sequence, variant + ": the same level as ORB_SLAM2 as a whole (within 5 %)");
   Claim areas = judge.claim(sequence, variant + ": better than ORB_SLAM2 in some areas");
@@ -165,7 +165,7 @@ void whole(const Judge& judge,
 
 }  // namespace
 
-std::vector<Claim> judge_claims(const std::vector<PaperCell>& cells,
+std::vector<Claim> check_claims(const std::vector<PaperCell>& cells,
                                 const std::string& reading,
                                 double tie) {
   const Judge judge(cells, reading, tie);
@@ -182,7 +182,7 @@ std::vector<Claim> judge_claims(const std::vector<PaperCell>& cells,
   out.push_back(best(judge, "fr3_office", "z", "M6", spatial, "Table 4 (ATE)"));
   out.push_back(best(judge, "fr3_office", "z", "M7", spatial, "Text, fr3_office"));
   for (const char* sequence : {"fr1_room", "fr3_office"}) {
-    for (const char* variant : {"N4", "M7"}) whole(judge, sequence, variant, out);
+    for (const char* variant : {"N4", "M7"}) overall(judge, sequence, variant, out);
   }
   return out;
 }

@@ -27,7 +27,7 @@ struct Claim {
 /// Checks one reading on the article's own input, the closed run: each ordering of tables 1 to 4,
 /// the best N and M of text and tables, "the same level as a whole, better in some areas" and
 /// "smoother". Two errors count as equal if they differ by less than `tie` of the larger.
-std::vector<Claim> judge_claims(const std::vector<PaperCell>& cells,
+std::vector<Claim> check_claims(const std::vector<PaperCell>& cells,
                                 const std::string& reading,
                                 double tie = 0.001);
 

@@ -5,7 +5,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/execution/run/run_cell.hpp"
-#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -99,15 +99,15 @@ struct Run {
         kappa(kappas(nodes,
                      raw.keyframes,
                      Kappa::turn_per_kf,
-                     methods::manifold::Plane::space,
+                     methods::manifold::CurveSpace::space,
                      Vector3::UnitZ())) {}
 
   double speed(std::size_t edge) const { return nodes.step(edge).norm() / nodes.duration(edge); }
 
-  bool is_in(std::size_t first, const Range& speeds, const Range& turns) const {
+  bool is_in(std::size_t first, const Range& speeds, const Range& rotation_angles) const {
     for (std::size_t edge = first; edge + 1 < first + kNodes; ++edge) {
       if (!speeds.holds(speed(edge))) return false;
-      if (edge > first && !turns.holds(kappa[edge])) return false;
+      if (edge > first && !rotation_angles.holds(kappa[edge])) return false;
     }
     return true;
   }
@@ -130,20 +130,21 @@ struct Run {
     auto pose = std::ranges::lower_bound(truth, nodes.stamps[range.first], {}, &StampedPose::stamp);
     for (std::size_t edge = range.first; edge < range.last; ++edge) {
       for (; pose != truth.end() && pose->stamp <= nodes.stamps[edge + 1]; ++pose) {
-        const methods::manifold::Place place = spline.at(edge, pose->stamp);
+        const methods::manifold::SplinePoint position = spline.at(edge, pose->stamp);
         const Vector3 reference_point = pose->world_from_body.translation - nodes.base;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-          contest.squares[k] += (asked(pieces[k], place) - reference_point).squaredNorm();
+          contest.squares[k] +=
+              (value_of_piece(pieces[k], position) - reference_point).squaredNorm();
         }
         ++contest.samples;
       }
     }
   }
 
-  Contest contest(const Range& speeds, const Range& turns) const {
+  Contest contest(const Range& speeds, const Range& rotation_angles) const {
     Contest out;
     for (std::size_t first = 0; first + kNodes <= nodes.size(); ++first) {
-      if (is_in(first, speeds, turns)) enter(first, out);
+      if (is_in(first, speeds, rotation_angles)) enter(first, out);
     }
     return out;
   }
@@ -186,8 +187,8 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
   methods::Report unused;
   const auto curve = methods::Dm({.planar = 3,
                                   .gap = {{}, {}},
-                                  .up = methods::manifold::Up::world_z,
-                                  .joint = {.meet = methods::manifold::Meet::none}})
+                                  .up = methods::manifold::UpDirection::world_z,
+                                  .joint = {.kind = methods::manifold::JointKind::none}})
                          .fit(problem, unused, {});
   if (!curve) return claim;
   const Nodes nodes(raw.keyframes);
@@ -201,7 +202,7 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
     const Vector3 before = curve->motion(i - 1, nodes.stamps[i]).first;
     const Vector3 after = curve->motion(i, nodes.stamps[i]).first;
     joints.emplace_back(0.5 * (speed(i - 1) + speed(i)),
-                        methods::manifold::turn_between(before, after));
+                        methods::manifold::angle_between_directions(before, after));
   }
   if (joints.size() < 4) return claim;
   std::ranges::sort(joints);
@@ -224,7 +225,7 @@ Claim smooth_claim(const std::string& sequence, const PaperCell& raw) {
 
 }  // namespace
 
-std::vector<Claim> judge_segment_claims(const std::vector<PaperCell>& cells) {
+std::vector<Claim> check_segment_claims(const std::vector<PaperCell>& cells) {
   std::vector<Claim> out;
   for (const char* sequence : {"fr1_room", "fr3_office"}) {
     PaperCell like;

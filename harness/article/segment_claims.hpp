@@ -19,6 +19,6 @@ namespace loopbench::harness {
 /// "C1 at higher speed": parabolas through three keyframes, concatenated without blending; the
 /// median angle between neighbouring tangents, in the faster and the slower half of the joints. It
 /// holds if the angle is less than a degree in the faster half and more in the slower.
-std::vector<Claim> judge_segment_claims(const std::vector<PaperCell>& cells);
+std::vector<Claim> check_segment_claims(const std::vector<PaperCell>& cells);
 
 }  // namespace loopbench::harness

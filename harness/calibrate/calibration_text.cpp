@@ -34,7 +34,7 @@ std::string likelihood_text(const std::optional<double>& value) {
 
 std::string calibration_yaml(const Calibration& c) {
   std::vector<std::string> trained;
-  for (const Residuals& s : c.sequences) trained.push_back(s.label);
+  for (const CalibrationResiduals& s : c.sequences) trained.push_back(s.label);
   std::string out = fmt::format(
       "# Written by loopbench {} calibrate {}. Use in a config:\n"
       "#   - {{method: motion_drift, calibration: THIS_FILE}}\n"
@@ -52,11 +52,11 @@ std::string calibration_yaml(const Calibration& c) {
       "# Root mean square errors over groups of this many edges, and the power of the group length "
       "they\n"
       "# with which they grow since the row before: 0.5 is noise, 1 is steady drift.\n";
-  for (std::size_t i = 0; i < c.stretches.size(); ++i) {
-    const Calibration::Stretch& s = c.stretches[i];
+  for (std::size_t i = 0; i < c.group_errors.size(); ++i) {
+    const Calibration::GroupErrors& s = c.group_errors[i];
     out += fmt::format("# {:4} edges {:.3g} m {:.3g} rad", s.edges, s.rms[0], s.rms[1]);
     if (i > 0) {
-      const Calibration::Stretch& before = c.stretches[i - 1];
+      const Calibration::GroupErrors& before = c.group_errors[i - 1];
       const double longer = std::log(double(s.edges) / double(before.edges));
       out += fmt::format("; powers {:.2f} {:.2f}",
                          std::log(s.rms[0] / before.rms[0]) / longer,
@@ -65,25 +65,25 @@ std::string calibration_yaml(const Calibration& c) {
     out += "\n";
   }
   out += "# Correlations of the regressors; near 1, two of them cannot be separated.\n";
-  for (std::size_t a = 1; a < methods::kGrowths.size(); ++a) {
-    for (std::size_t b = a + 1; b < methods::kGrowths.size(); ++b) {
-      const double r = correlation(methods::kGrowths[a], methods::kGrowths[b], c.sequences);
+  for (std::size_t a = 1; a < methods::kRegressors.size(); ++a) {
+    for (std::size_t b = a + 1; b < methods::kRegressors.size(); ++b) {
+      const double r = correlation(methods::kRegressors[a], methods::kRegressors[b], c.sequences);
       out += fmt::format("#   {} {}: {}\n",
-                         methods::name_of(methods::kGrowths[a]),
-                         methods::name_of(methods::kGrowths[b]),
+                         methods::name_of(methods::kRegressors[a]),
+                         methods::name_of(methods::kRegressors[b]),
                          std::isfinite(r) ? fmt::format("{:.2f}", r) : "one is constant");
     }
   }
   out += "# Log likelihood per error of held-out sequences: translation, rotation.\n";
-  for (const Rung& rung : c.rungs) {
+  for (const NestedModel& model : c.models) {
     out += fmt::format("#   {:22} {} {}\n",
-                       rung.method,
-                       likelihood_text(rung.held_out[0]),
-                       likelihood_text(rung.held_out[1]));
+                       model.method,
+                       likelihood_text(model.held_out[0]),
+                       likelihood_text(model.held_out[1]));
   }
-  for (std::size_t r = 0; r < c.rungs.size(); ++r) {
-    out += c.rungs[r].method + ":\n";
-    const auto options = options_of(c.rungs[r]);
+  for (std::size_t r = 0; r < c.models.size(); ++r) {
+    out += c.models[r].method + ":\n";
+    const auto options = options_of(c.models[r]);
     for (std::size_t j = 0; j < options.size(); ++j) {
       const RateInterval& interval = c.intervals[r][j];
       out += fmt::format("  {}: {:.6g}  # 90 %: {:.2g} .. {:.2g}\n",

@@ -4,25 +4,25 @@
 #include <string>
 #include <vector>
 
-#include "harness/calibrate/ladder.hpp"
+#include "harness/calibrate/nested_models.hpp"
 
 namespace loopbench::harness {
 
 struct Calibration {
   std::string config;  ///< as given
-  std::vector<Residuals> sequences;
+  std::vector<CalibrationResiduals> sequences;
   std::vector<std::string> sources;  ///< of the sequences, see harness/provenance/sequence_identity
   std::vector<std::string> not_trained_on;  ///< the config's other datasets
   std::size_t every = 1;                    ///< number of keyframe edges combined into one
-  std::vector<Rung> rungs;
+  std::vector<NestedModel> models;
   std::vector<std::vector<RateInterval>> intervals;  ///< by model, as options_of()
   /// Root mean square errors for several group lengths: growth proportional to the length, not to
   /// its square root, indicates steady drift.
-  struct Stretch {
+  struct GroupErrors {
     std::size_t edges;
     double rms[2];  ///< [m], [rad]
   };
-  std::vector<Stretch> stretches;
+  std::vector<GroupErrors> group_errors;
 };
 
 /// YAML: training and test datasets, held-out likelihoods of the nested models, then for each model

@@ -12,12 +12,13 @@ constexpr std::size_t kStretches[] = {1, 5, 20, 50};
 constexpr std::size_t kSegment = 10;  // of the bootstrap, in stretches
 constexpr std::uint64_t kSeed = 1;
 
-std::vector<Residuals> residuals_of(const std::vector<std::shared_ptr<const Sequence>>& sequences,
-                                    const std::vector<std::string>& labels,
-                                    std::size_t every) {
-  std::vector<Residuals> out;
+std::vector<CalibrationResiduals> residuals_of(
+    const std::vector<std::shared_ptr<const Sequence>>& sequences,
+    const std::vector<std::string>& labels,
+    std::size_t every) {
+  std::vector<CalibrationResiduals> out;
   for (std::size_t i = 0; i < sequences.size(); ++i) {
-    Residuals all = residuals(*sequences[i], labels[i], every);
+    CalibrationResiduals all = residuals(*sequences[i], labels[i], every);
     if (all.edges.size() > 1) out.push_back(std::move(all));
   }
   return out;
@@ -52,7 +53,7 @@ Calibration learn(const Sweep& sweep,
   for (const Cell& cell : wanted) {
     loaded.push_back(sequences.get(cell));
     labels.push_back(sweep.datasets[cell.dataset].label);
-    const std::string& source = sequences.facts(cell)->source;
+    const std::string& source = sequences.metadata(cell)->source;
     if (std::ranges::count(out.sources, source) == 0) out.sources.push_back(source);
   }
   out.sequences = residuals_of(loaded, labels, out.every);
@@ -61,15 +62,15 @@ Calibration learn(const Sweep& sweep,
                      std::to_string(out.every) + " edges; make --every smaller");
   }
   for (const std::size_t edges : kStretches) {
-    const std::vector<Residuals> at = residuals_of(loaded, labels, edges);
+    const std::vector<CalibrationResiduals> at = residuals_of(loaded, labels, edges);
     if (at.size() < out.sequences.size()) break;
-    out.stretches.push_back({edges,
-                             {root_mean_square(methods::Half::translation, at),
-                              root_mean_square(methods::Half::rotation, at)}});
+    out.group_errors.push_back({edges,
+                                {root_mean_square(methods::Component::translation, at),
+                                 root_mean_square(methods::Component::rotation, at)}});
   }
-  out.rungs = climb(out.sequences);
-  for (const Rung& rung : out.rungs) {
-    out.intervals.push_back(bootstrap(rung, out.sequences, kSegment, options.draws, kSeed));
+  out.models = fit_nested_models(out.sequences);
+  for (const NestedModel& model : out.models) {
+    out.intervals.push_back(bootstrap(model, out.sequences, kSegment, options.draws, kSeed));
   }
   return out;
 }

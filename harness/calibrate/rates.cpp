@@ -9,8 +9,8 @@
 namespace loopbench::harness {
 namespace {
 
-std::vector<Eigen::Index> axes(methods::Half half, bool planar) {
-  if (half == methods::Half::translation) {
+std::vector<Eigen::Index> axes(methods::Component component, bool planar) {
+  if (component == methods::Component::translation) {
     return planar ? std::vector<Eigen::Index>{0, 1} : std::vector<Eigen::Index>{0, 1, 2};
   }
   return planar ? std::vector<Eigen::Index>{5} : std::vector<Eigen::Index>{3, 4, 5};
@@ -23,17 +23,18 @@ struct Design {
   Eigen::MatrixXd errors;
 };
 
-Design design(const Rates& rates, const Residuals& sequence) {
+Design design(const Rates& rates, const CalibrationResiduals& sequence) {
   const auto n = static_cast<Eigen::Index>(sequence.edges.size());
-  const auto on = axes(rates.half, sequence.planar);
+  const auto on = axes(rates.component, sequence.planar);
   Design out{Eigen::MatrixXd(n, static_cast<Eigen::Index>(rates.noise.size())),
              Eigen::MatrixXd(n, static_cast<Eigen::Index>(rates.drift.size())),
              Eigen::MatrixXd(n, static_cast<Eigen::Index>(on.size()))};
   for (Eigen::Index i = 0; i < n; ++i) {
     const EdgeError& edge = sequence.edges[static_cast<std::size_t>(i)];
-    const auto fill = [&](Eigen::MatrixXd& matrix, const std::vector<methods::Growth>& terms) {
+    const auto fill = [&](Eigen::MatrixXd& matrix, const std::vector<methods::Regressor>& terms) {
       for (std::size_t j = 0; j < terms.size(); ++j) {
-        matrix(i, static_cast<Eigen::Index>(j)) = edge.grown[static_cast<std::size_t>(terms[j])];
+        matrix(i, static_cast<Eigen::Index>(j)) =
+            edge.regressors[static_cast<std::size_t>(terms[j])];
       }
     };
     fill(out.noise, rates.noise);
@@ -72,8 +73,8 @@ struct Inverted {
   }
 
   Eigen::ArrayXd diagonal() const {
-    const Eigen::MatrixXd half = small.matrixL().solve(F.transpose());
-    return weights - weights.square() * half.colwise().squaredNorm().transpose().array();
+    const Eigen::MatrixXd whitened = small.matrixL().solve(F.transpose());
+    return weights - weights.square() * whitened.colwise().squaredNorm().transpose().array();
   }
 
   double log_determinant() const {
@@ -81,23 +82,24 @@ struct Inverted {
   }
 };
 
-std::vector<Design> designs(const Rates& rates, const std::vector<Residuals>& sequences) {
+std::vector<Design> designs(const Rates& rates,
+                            const std::vector<CalibrationResiduals>& sequences) {
   std::vector<Design> out;
-  for (const Residuals& sequence : sequences) out.push_back(design(rates, sequence));
+  for (const CalibrationResiduals& sequence : sequences) out.push_back(design(rates, sequence));
   return out;
 }
 
 }  // namespace
 
-double count(methods::Half half, const std::vector<Residuals>& sequences) {
+double count(methods::Component component, const std::vector<CalibrationResiduals>& sequences) {
   double out = 0.0;
-  for (const Residuals& s : sequences) {
-    out += static_cast<double>(s.edges.size() * axes(half, s.planar).size());
+  for (const CalibrationResiduals& s : sequences) {
+    out += static_cast<double>(s.edges.size() * axes(component, s.planar).size());
   }
   return out;
 }
 
-double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequences) {
+double log_likelihood(const Rates& rates, const std::vector<CalibrationResiduals>& sequences) {
   double sum = 0.0;
   for (const Design& d : designs(rates, sequences)) {
     const Inverted C(rates, d);
@@ -109,17 +111,17 @@ double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequence
   return -0.5 * sum;
 }
 
-Rates fit_rates(methods::Half half,
-                const std::vector<methods::Growth>& noise,
-                const std::vector<methods::Growth>& drift,
-                const std::vector<Residuals>& sequences,
+Rates fit_rates(methods::Component component,
+                const std::vector<methods::Regressor>& noise,
+                const std::vector<methods::Regressor>& drift,
+                const std::vector<CalibrationResiduals>& sequences,
                 int iterations) {
-  Rates out{half, noise, drift, {}, {}};
+  Rates out{component, noise, drift, {}, {}};
   const std::vector<Design> all = designs(out, sequences);
   double squares = 0.0;
   for (const Design& d : all) squares += d.errors.squaredNorm();
   if (!(squares > 0.0)) throw InputError("calibrate: all edges have zero error");
-  squares /= count(half, sequences);
+  squares /= count(component, sequences);
   // Start with equal contributions of every term to the mean square.
   const auto start = [&](const Eigen::MatrixXd Design::*part, Eigen::Index j, int power) {
     double sum = 0.0;

@@ -10,19 +10,19 @@ namespace loopbench::harness {
 
 /// Regressors of the translation or rotation error, with their variances.
 struct Rates {
-  methods::Half half = methods::Half::translation;
-  std::vector<methods::Growth> noise;
-  std::vector<methods::Growth> drift;
+  methods::Component component = methods::Component::translation;
+  std::vector<methods::Regressor> noise;
+  std::vector<methods::Regressor> drift;
   std::vector<double> noise_variance;  ///< [m^2/unit] or [rad^2/unit]
   std::vector<double> drift_variance;  ///< of a rate on one axis [(m/unit)^2] or [(rad/unit)^2]
 };
 
 /// Log density of the errors: on every axis e = sum_j phi_j b_j + w, w_i ~ N(0, sum_j a_j phi_ij),
 /// b_j ~ N(0, v_j) drawn once per sequence. O(edges terms^2).
-double log_likelihood(const Rates& rates, const std::vector<Residuals>& sequences);
+double log_likelihood(const Rates& rates, const std::vector<CalibrationResiduals>& sequences);
 
 /// Number of errors: edges times axes of the component.
-double count(methods::Half half, const std::vector<Residuals>& sequences);
+double count(methods::Component component, const std::vector<CalibrationResiduals>& sequences);
 
 /// Increases log_likelihood in each of `iterations` iterations with non-negative coefficients: with
 /// C the covariance of an axis, Q_j the contribution of a term and alpha = C^-1 e,
@@ -32,10 +32,10 @@ double count(methods::Half half, const std::vector<Residuals>& sequences);
 /// Without drift these are the Itakura-Saito updates of nonnegative matrix factorisation. C is
 /// inverted through the drift terms (Woodbury). O(iterations edges terms^2). Sources: Zhou et al.,
 /// MM algorithms for variance components models, 2019; Fevotte, Bertin, Durrieu, 2009.
-Rates fit_rates(methods::Half half,
-                const std::vector<methods::Growth>& noise,
-                const std::vector<methods::Growth>& drift,
-                const std::vector<Residuals>& sequences,
+Rates fit_rates(methods::Component component,
+                const std::vector<methods::Regressor>& noise,
+                const std::vector<methods::Regressor>& drift,
+                const std::vector<CalibrationResiduals>& sequences,
                 int iterations = 500);
 
 }  // namespace loopbench::harness

@@ -10,12 +10,12 @@
 namespace loopbench::harness {
 
 struct EdgeError {
-  std::array<double, methods::kGrowths.size()>
-      grown{};  ///< regressors of the edge's error, by Growth
-  Twist error;  ///< Log(measured^-1 true), in the end frame
+  std::array<double, methods::kRegressors.size()>
+      regressors{};  ///< regressors of the edge's error, by Regressor
+  Twist error;       ///< Log(measured^-1 true), in the end frame
 };
 
-struct Residuals {
+struct CalibrationResiduals {
   std::string label;
   bool planar = false;  ///< only x, y and yaw are measured
   std::vector<EdgeError> edges;
@@ -24,6 +24,8 @@ struct Residuals {
 /// Combines `every` consecutive edges into one; skips groups with an end outside the reference.
 /// Throws InputError if the reference is empty or has no orientations, or if the odometry is not a
 /// chain. O(keyframes + reference).
-Residuals residuals(const Sequence& sequence, const std::string& label, std::size_t every);
+CalibrationResiduals residuals(const Sequence& sequence,
+                               const std::string& label,
+                               std::size_t every);
 
 }  // namespace loopbench::harness

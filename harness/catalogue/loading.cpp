@@ -43,7 +43,7 @@ std::string loading_line(const std::string& stage, std::size_t done, std::size_t
       "[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", kBar - filled, done, total, stage);
 }
 
-void tell(const std::string& label, const std::vector<std::string>& notes) {
+void print_notes(const std::string& label, const std::vector<std::string>& notes) {
   std::string out;
   for (const std::string& note : notes) out += fmt::format("{}: {}\n", label, note);
   fmt::print(stderr, "{}", out);

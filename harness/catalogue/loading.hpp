@@ -13,7 +13,7 @@ namespace loopbench::harness {
 rgbd::FrontendHooks loading_hooks();
 
 /// Prints the notes of a sequence to stderr, each prefixed with `label`.
-void tell(const std::string& label, const std::vector<std::string>& notes);
+void print_notes(const std::string& label, const std::vector<std::string>& notes);
 
 /// "[####......] 120/415  tracking".
 std::string loading_line(const std::string& stage, std::size_t done, std::size_t total);

@@ -1,6 +1,9 @@
 #include "harness/catalogue/plugins.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstring>
 
 #include "datasets/core/error.hpp"
 #include "methods/plugin.hpp"
@@ -15,12 +18,19 @@ std::vector<methods::MethodEntry> load_plugin(const std::filesystem::path& objec
   const std::string path = std::filesystem::absolute(object).string();
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed, see the header
   if (handle == nullptr) throw refuse(dlerror());
-  auto* describe =
-      reinterpret_cast<const methods::Plugin* (*)()>(dlsym(handle, "loopbench_plugin"));
+  auto* describe = reinterpret_cast<const void* (*)()>(dlsym(handle, "loopbench_plugin"));
   if (describe == nullptr) throw refuse("has no LOOPBENCH_PLUGIN line");
-  const methods::Plugin& plugin = *describe();
+  const void* exported = describe();
+  int interface = 0;
+  std::memcpy(&interface, exported, sizeof interface);
+  if (interface != methods::Abi{}.interface) {
+    throw refuse(fmt::format("was built for plugin interface {}, this program has {}",
+                             interface,
+                             methods::Abi{}.interface));
+  }
+  const auto& plugin = *static_cast<const methods::Plugin*>(exported);
   if (plugin.abi != methods::Abi{}) {
-    throw refuse("was built with another compiler, Eigen, alignment or loopbench interface");
+    throw refuse("was built with another compiler, Eigen or alignment");
   }
   return plugin.methods();
 }

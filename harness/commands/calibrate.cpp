@@ -19,7 +19,7 @@ struct CalibrateArguments {
 };
 
 int calibrate(const CalibrateArguments& arguments) {
-  refuse_to_overwrite({arguments.config}, arguments.out);
+  reject_overwriting({arguments.config}, arguments.out);
   const Catalogue known = catalogue({});
   const Sweep sweep = read_sweep(arguments.config, known);
   const DataRoot root = data_root(sweep, arguments.data);

@@ -35,13 +35,13 @@ int update(const CheckArguments& arguments) {
     baseline.limits.insert(baseline.limits.begin(), time_limit(*arguments.time));
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
-  baseline.made_by = made_by(arguments.store);
-  if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
+  baseline.build_summary = build_summary(arguments.store);
+  if (is_dirty(baseline.build_summary) && !arguments.allow_dirty) {
     throw InputError(arguments.store +
                      ": was computed by a build with uncommitted changes, which cannot be "
                      "reproduced; commit, build and run again, or accept it with --allow-dirty");
   }
-  refuse_to_overwrite({store_file(arguments.store)}, arguments.baseline);
+  reject_overwriting({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
   fmt::print(is_dash(arguments.baseline) ? stderr : stdout,
              "{}: {} cells written\n",
@@ -54,7 +54,7 @@ int check_store(const CheckArguments& arguments) {
   if (arguments.update) return update(arguments);
   if (arguments.time) throw InputError("--time: needs --update, which writes the limit");
   const Baseline baseline = read_baseline(arguments.baseline);
-  if (is_dirty(baseline.made_by) && !arguments.allow_dirty) {
+  if (is_dirty(baseline.build_summary) && !arguments.allow_dirty) {
     throw InputError(arguments.baseline +
                      ": made_by.source: was written by a build with uncommitted changes (dirty), "
                      "expected a clean build; write it again with --update, or accept it with "
@@ -63,13 +63,13 @@ int check_store(const CheckArguments& arguments) {
   const Snapshot now = snapshot(arguments.store, baseline.limits);
   GateReport report;
   try {
-    report = check(baseline, now, arguments.part ? GateExtent::part : GateExtent::whole);
+    report = check(baseline, now, arguments.part ? GateExtent::part : GateExtent::complete);
   } catch (const InputError& error) {
     throw InputError(arguments.baseline + ": " + error.what());
   }
   const std::string text = markdown(report, baseline.snapshot.sweep);
   for (const std::string& out : {arguments.markdown, arguments.junit}) {
-    refuse_to_overwrite({store_file(arguments.store), arguments.baseline}, out);
+    reject_overwriting({store_file(arguments.store), arguments.baseline}, out);
   }
   if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));

@@ -23,7 +23,7 @@ std::string with_hyphens(std::string text) {
 
 }  // namespace
 
-std::vector<std::string> spelt_as_declared(const CLI::App& app, std::vector<std::string> words) {
+std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std::string> words) {
   const auto is_given = [&](const CLI::App* each) {
     return !words.empty() && each->get_name() == words[0];
   };

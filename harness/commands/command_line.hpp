@@ -13,7 +13,7 @@ namespace loopbench::harness {
 
 /// `words` after the program's name, with hyphens and underscores in long options replaced by the
 /// declared spelling: --all-pairs and --all_pairs are equivalent. O(words * options).
-std::vector<std::string> spelt_as_declared(const CLI::App& app, std::vector<std::string> words);
+std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std::string> words);
 
 /// The word of the command line that names no subcommand or option, with a suggestion; empty if
 /// `error` has another cause.

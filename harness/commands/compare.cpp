@@ -2,7 +2,7 @@
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/deliver.hpp"
+#include "harness/commands/write_output.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/text.hpp"
@@ -24,7 +24,7 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
   if (format == ExportFormat::json) return json(comparisons);
   std::string out;
   for (const Comparison& comparison : comparisons) {
-    const Sheet shown = sheet(comparison);
+    const TableView shown = table_view(comparison);
     out += out.empty() ? "" : "\n";
     out += format == ExportFormat::latex      ? latex(shown)
            : format == ExportFormat::terminal ? terminal(shown)
@@ -36,11 +36,11 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
 int print_comparison(const CompareArguments& arguments) {
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
-  deliver(text(comparisons, arguments.format),
-          arguments.format,
-          "comparisons",
-          arguments.store,
-          arguments.out);
+  write_output(text(comparisons, arguments.format),
+               arguments.format,
+               "comparisons",
+               arguments.store,
+               arguments.out);
   return kExitOk;
 }
 

@@ -17,7 +17,7 @@ int eval(const EvalArguments& a) {
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }
-  std::vector<Judgement> all = judge_files(a);
+  std::vector<EvaluationResult> all = judge_files(a);
   if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   if (a.json) {
@@ -28,7 +28,7 @@ int eval(const EvalArguments& a) {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
   const bool all_ok =
-      std::ranges::all_of(all, [](const Judgement& j) { return status(j) == "ok"; });
+      std::ranges::all_of(all, [](const EvaluationResult& j) { return status(j) == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -72,7 +72,9 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   word("--association",
        a.association,
        "Association in time: " + choice_list<metrics::Association>());
-  word("--project_to_plane", a.project, "Plane to project onto: " + choice_list<metrics::Plane>());
+  word("--project_to_plane",
+       a.project,
+       "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
   const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
     command.add_option(name, value, help)->type_name("S")->check(finite_number());
   };

@@ -11,7 +11,7 @@ void note_interruption(int) { interruption = true; }
 
 }  // namespace
 
-const std::atomic<bool>& catch_interruption() {
+const std::atomic<bool>& install_interrupt_handler() {
   std::signal(SIGINT, note_interruption);
   std::signal(SIGTERM, note_interruption);
   return interruption;

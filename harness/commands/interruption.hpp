@@ -6,6 +6,6 @@ namespace loopbench::harness {
 
 /// Installs handlers for SIGINT and SIGTERM that only set the returned flag, which has static
 /// lifetime.
-const std::atomic<bool>& catch_interruption();
+const std::atomic<bool>& install_interrupt_handler();
 
 }  // namespace loopbench::harness

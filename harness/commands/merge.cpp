@@ -24,13 +24,13 @@ void add_merge(CLI::App& app, int& exit_code) {
       ->required();
   command->add_flag("--mixed-builds", arguments->mixed_builds, "Accept cells of different builds");
   command->callback([arguments, &exit_code] {
-    require_no_dash("-o", arguments->out);
+    reject_standard_output("-o", arguments->out);
     std::filesystem::path out = arguments->out;
     if (out.extension() != ".sqlite") out /= "results.sqlite";
     const Merged merged = merge_stores(arguments->stores, out, arguments->mixed_builds);
     fmt::print("{} cells{} in {}\n",
                merged.cells,
-               merged.twice == 0 ? "" : fmt::format(" ({} duplicates)", merged.twice),
+               merged.duplicates == 0 ? "" : fmt::format(" ({} duplicates)", merged.duplicates),
                out.string());
     exit_code = kExitOk;
   });

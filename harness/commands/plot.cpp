@@ -7,7 +7,7 @@
 #include "harness/model/where.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
-#include "harness/tables/origin.hpp"
+#include "harness/tables/store_provenance.hpp"
 #include "harness/text/suggest.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -58,7 +58,7 @@ int write_figures(const PlotArguments& arguments) {
   const std::vector<std::string> methods = arguments.methods.empty()
                                                ? usual_methods(content)
                                                : known_methods(arguments.methods, content.methods);
-  require_no_dash("-o", arguments.folder);
+  reject_standard_output("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
   std::size_t written = 0;
@@ -83,7 +83,7 @@ int write_figures(const PlotArguments& arguments) {
     }
   }
   if (written == 0) throw InputError(arguments.store + ": has no stored trajectories to plot");
-  write_file(folder / "provenance.json", json(read_origin(arguments.store)));
+  write_file(folder / "provenance.json", json(read_store_provenance(arguments.store)));
   return kExitOk;
 }
 

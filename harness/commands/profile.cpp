@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/commands.hpp"
-#include "harness/commands/deliver.hpp"
+#include "harness/commands/write_output.hpp"
 #include "harness/store/read.hpp"
 #include "harness/text/pattern.hpp"
 
@@ -28,18 +28,18 @@ int print_profile(const ProfileArguments& arguments) {
   value(Record{}, arguments.accuracy.value);  // throws for an unknown name before printing
   const bool is_csv = arguments.format == "csv";
   std::string out;
-  for (const Listing& listing :
+  for (const TextTable& listing :
        {costs(cells),
         reported(cells),
         scaling(cells),
         pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
     out += (out.empty() ? "" : "\n") + (is_csv ? csv(listing) : markdown(listing));
   }
-  deliver(out,
-          is_csv ? ExportFormat::csv : ExportFormat::markdown,
-          "profile",
-          arguments.store,
-          arguments.out);
+  write_output(out,
+               is_csv ? ExportFormat::csv : ExportFormat::markdown,
+               "profile",
+               arguments.store,
+               arguments.out);
   return kExitOk;
 }
 

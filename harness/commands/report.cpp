@@ -32,7 +32,7 @@ void add_report(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   command->callback([arguments, &exit_code] {
-    refuse_to_overwrite({store_file(arguments->store)}, arguments->out);
+    reject_overwriting({store_file(arguments->store)}, arguments->out);
     const std::string html = report_html(read_report_content(arguments->store),
                                          static_cast<std::size_t>(1e6 * arguments->megabytes));
     write_file(arguments->out, html);

@@ -52,7 +52,7 @@ int reproduce(const ReproduceArguments& arguments) {
       done.push_back(std::move(cell));
     }
   }
-  require_no_dash("--out", arguments.out);
+  reject_standard_output("--out", arguments.out);
   const std::filesystem::path out(arguments.out);
   std::string claims;
   for (const std::string& reading : readings(done)) {
@@ -60,13 +60,13 @@ int reproduce(const ReproduceArguments& arguments) {
     claims += fmt::format("\n## Claims, reading `{}`{}\n\n",
                           reading,
                           leaks ? " (oracle: uses the reference)" : "") +
-              claim_table(judge_claims(done, reading));
+              claim_table(check_claims(done, reading));
     if (leaks) continue;  // nothing to show: part of the curve is the reference itself
     for (const std::string& name : paper_figures(done, reading, out / reading)) {
       fmt::print("{}\n", (out / reading / name).string());
     }
   }
-  const std::vector<Claim> segments = judge_segment_claims(done);
+  const std::vector<Claim> segments = check_segment_claims(done);
   if (!segments.empty()) claims += "\n## Claims on segments\n\n" + claim_table(segments);
   write_file(out / "tables.md", "# Tables 1 to 4\n" + paper_tables(done));
   write_file(out / "claims.md", "# The article's claims\n" + claims);

@@ -18,10 +18,10 @@
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/model/where.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/made_by.hpp"
+#include "harness/provenance/build_summary.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/origin.hpp"
+#include "harness/tables/store_provenance.hpp"
 #include "harness/tables/text.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
@@ -89,10 +89,10 @@ std::string write_tables(const std::filesystem::path& store,
   write_file(out / "rows.csv", csv(records));
   keep_where(records, sweep.table.where);
   const std::vector<Table> tables = pivot(records, sweep.table);
-  const std::string text = markdown(tables) + "\n" + made_by(read_provenance(store)) + "\n";
-  const Origin origin = read_origin(store);
-  write_file(out / "table.md", text + "\n" + origin_comment(origin));
-  write_file(out / "provenance.json", json(origin));
+  const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
+  const StoreProvenance provenance = read_store_provenance(store);
+  write_file(out / "table.md", text + "\n" + provenance_comment(provenance));
+  write_file(out / "provenance.json", json(provenance));
   write_file(out / "table.csv", csv(tables));
   return text;
 }
@@ -132,10 +132,10 @@ int run(const RunArguments& arguments, const Source& source) {
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));
   }
 
-  require_no_dash("--out", arguments.out);
+  reject_standard_output("--out", arguments.out);
   const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
   const std::filesystem::path file = out / "results.sqlite";
-  CellKeys keys(sweep, known, root, build_id());
+  CellKeys keys(sweep, known, root, build_id(source.code));
   std::optional<Store> store(
       std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
   const Resumed resumed =
@@ -145,7 +145,7 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
-  const std::atomic<bool>& interrupted = catch_interruption();
+  const std::atomic<bool>& interrupted = install_interrupt_handler();
   if (!missing.empty()) {
     Progress progress(missing.size());
     const auto finished = [&](const CellResult& r) {

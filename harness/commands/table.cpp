@@ -3,7 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/deliver.hpp"
+#include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/text.hpp"
@@ -28,7 +28,7 @@ std::string text(const std::vector<Table>& tables, TableFormat format) {
   if (format == TableFormat::markdown) return markdown(tables);
   std::string out;
   for (const Table& table : tables) {
-    const Sheet shown = sheet(table);
+    const TableView shown = table_view(table);
     out += out.empty() ? "" : "\n";
     out += format == TableFormat::latex ? latex(shown) : terminal(shown);
   }
@@ -68,7 +68,7 @@ int print_table(TableArguments arguments) {
       arguments.format == TableFormat::rows
           ? csv(records)
           : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
-  deliver(shown, container_format(arguments.format), "tables", arguments.store, arguments.out);
+  write_output(shown, container_format(arguments.format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
 

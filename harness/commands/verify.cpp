@@ -31,16 +31,15 @@ int run_verify(const VerifyArguments& arguments) {
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known), arguments.only);
   if (planned.empty()) throw InputError(arguments.config + ": no cells to run");
   // The first setting runs twice, because a method alone can differ from run to run.
-  const std::vector<Manner> manners{
+  const std::vector<RunMode> modes{
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
-  const std::atomic<bool>& interrupted = catch_interruption();
+  const std::atomic<bool>& interrupted = install_interrupt_handler();
   std::vector<Difference> found;
   {
-    Progress progress(planned.size() * manners.size());
-    found =
-        verify(sweep, planned, known, root, manners, interrupted, [&](const std::string& label) {
-          progress.step(label);
-        });
+    Progress progress(planned.size() * modes.size());
+    found = verify(sweep, planned, known, root, modes, interrupted, [&](const std::string& label) {
+      progress.step(label);
+    });
   }
   if (interrupted) return kExitInterrupted;
   for (const Difference& difference : found) {
@@ -50,11 +49,11 @@ int run_verify(const VerifyArguments& arguments) {
                sweep.methods[cell.method].label,
                cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "",
                difference.part,
-               difference.manner,
-               manners.front().name());
+               difference.mode,
+               modes.front().name());
   }
   std::string names;
-  for (const Manner& manner : manners) names += (names.empty() ? "" : ", ") + manner.name();
+  for (const RunMode& mode : modes) names += (names.empty() ? "" : ", ") + mode.name();
   fmt::print("{} cells run with {}: {}\n",
              planned.size(),
              names,

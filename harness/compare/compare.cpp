@@ -35,13 +35,13 @@ void add_baseline(MethodVerdict& method, const PairedMethods& pair, const Compar
   method.rank_biserial = -rank_biserial(signed_rank(pair.losses_last));
 }
 
-MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::size_t place) {
+MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::size_t method_index) {
   MethodVerdict out;
-  out.method = all.methods[kept.methods[place]];
+  out.method = all.methods[kept.methods[method_index]];
   std::vector<double> values;
   std::vector<std::string> reasons;
   for (const std::size_t run : kept.runs) {
-    const Observed& one = all.values[kept.methods[place]][run];
+    const Observed& one = all.values[kept.methods[method_index]][run];
     if (one.value) values.push_back(*one.value);
     if (!one.value) reasons.push_back(one.status);
   }
@@ -52,15 +52,18 @@ MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::si
   return out;
 }
 
-void add_claims(Comparison& out, const Ranking& ranking, std::size_t place, std::size_t baseline) {
+void add_claims(Comparison& out,
+                const Ranking& ranking,
+                std::size_t method_index,
+                std::size_t baseline) {
   MethodVerdict& method = out.methods.back();
   const std::size_t first = ranking.order.front();
-  method.is_leader = place == first || ranking.equal[first][place];
-  method.is_beaten_by_leader = ranking.beats[first][place];
-  method.beats_baseline = ranking.beats[place][baseline];
-  method.lowest_rank = ranking.lowest_rank(place);
-  method.highest_rank = ranking.highest_rank(place);
-  if (ranking.can_prove(out.options.alpha)) method.p = ranking.p[place][baseline];
+  method.is_leader = method_index == first || ranking.equal[first][method_index];
+  method.is_beaten_by_leader = ranking.beats[first][method_index];
+  method.beats_baseline = ranking.beats[method_index][baseline];
+  method.lowest_rank = ranking.lowest_rank(method_index);
+  method.highest_rank = ranking.highest_rank(method_index);
+  if (ranking.can_prove(out.options.alpha)) method.p = ranking.p[method_index][baseline];
 }
 
 Comparison compare_one(const Observations& all, std::size_t copies, const CompareOptions& options) {
@@ -81,11 +84,11 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   out.is_ratio = levels.is_ratio();
   out.pairs = ranking.pairs;
   out.groups_needed = ranking.groups_needed;
-  for (const std::size_t place : ranking.order) {
-    out.methods.push_back(counts_of(all, kept, place));
-    out.methods.back().letters = shared[place];
-    add_baseline(out.methods.back(), paired(levels, place, baseline), out);
-    add_claims(out, ranking, place, baseline);
+  for (const std::size_t method_index : ranking.order) {
+    out.methods.push_back(counts_of(all, kept, method_index));
+    out.methods.back().letters = shared[method_index];
+    add_baseline(out.methods.back(), paired(levels, method_index, baseline), out);
+    add_claims(out, ranking, method_index, baseline);
   }
   return out;
 }
@@ -116,7 +119,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   std::vector<Comparison> out;
   for (Observations& table : all) {
     if (table.kind.better == metrics::Better::neither) continue;
-    const std::size_t copies = drop_copies(table);
+    const std::size_t copies = drop_duplicates(table);
     out.push_back(compare_one(table, copies, options));
     out.back().oracles = oracles;
   }

@@ -7,9 +7,9 @@ namespace {
 
 using LetterColumn = std::vector<std::size_t>;  // indices in the ranking, ascending
 
-LetterColumn without(const LetterColumn& column, std::size_t place) {
+LetterColumn without(const LetterColumn& column, std::size_t method_index) {
   LetterColumn out = column;
-  std::erase(out, place);
+  std::erase(out, method_index);
   return out;
 }
 
@@ -26,7 +26,8 @@ void absorb(std::vector<LetterColumn>& columns, const LetterColumn& added) {
 std::vector<std::string> letters(const Ranking& ranking) {
   const std::size_t k = ranking.order.size();
   std::vector<LetterColumn> columns(1);
-  for (std::size_t place = 0; place < k; ++place) columns[0].push_back(place);
+  for (std::size_t method_index = 0; method_index < k; ++method_index)
+    columns[0].push_back(method_index);
   std::vector<std::string> out(k);
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = i + 1; j < k; ++j) {
@@ -52,7 +53,7 @@ std::vector<std::string> letters(const Ranking& ranking) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::string letter(1, static_cast<char>('a' + c % 26));
     if (c >= 26) letter += std::to_string(c / 26);
-    for (const std::size_t place : columns[c]) out[ranking.order[place]] += letter;
+    for (const std::size_t method_index : columns[c]) out[ranking.order[method_index]] += letter;
   }
   return out;
 }

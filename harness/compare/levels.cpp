@@ -50,7 +50,7 @@ double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {
   return level(a, run) - level(b, run);
 }
 
-double Levels::failed_level(std::size_t run) const {
+double Levels::level_of_failure(std::size_t run) const {
   double best = kBeyond;
   double worst = -kBeyond;
   for (std::size_t m = 0; m < methods(); ++m) {
@@ -66,7 +66,7 @@ double Levels::standing(std::size_t method) const {
   for (const std::vector<std::size_t>& runs : runs_of_) {
     double of_group = 0.0;
     for (const std::size_t run : runs) {
-      of_group += has(method, run) ? level(method, run) : failed_level(run);
+      of_group += has(method, run) ? level(method, run) : level_of_failure(run);
     }
     sum += of_group / static_cast<double>(runs.size());
   }

@@ -50,7 +50,7 @@ class Levels {
 
  private:
   double level(std::size_t method, std::size_t run) const;
-  double failed_level(std::size_t run) const;
+  double level_of_failure(std::size_t run) const;
 
   std::vector<std::vector<std::optional<double>>> values_;
   std::vector<std::vector<std::optional<double>>> costs_;

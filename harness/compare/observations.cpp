@@ -42,21 +42,21 @@ std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value_name) {
   NameOrder methods;
   NameOrder runs;
-  std::vector<ObservedRun> facts;
+  std::vector<ObservedRun> found_runs;
   std::map<TableKind, std::size_t> tables;
   std::vector<Observations> out;
   for (const Record& r : records) {
     methods.index(r.method);
-    if (runs.index(run_name(r)) == facts.size()) {
-      facts.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
+    if (runs.index(run_name(r)) == found_runs.size()) {
+      found_runs.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
     }
     if (r.metric.empty() || !tables.emplace(table_kind(r), out.size()).second) continue;
     out.emplace_back().kind = r;
   }
   for (Observations& table : out) {
     table.methods = methods.names();
-    table.runs = facts;
-    table.values.assign(table.methods.size(), std::vector<Observed>(facts.size()));
+    table.runs = found_runs;
+    table.values.assign(table.methods.size(), std::vector<Observed>(found_runs.size()));
   }
   const auto put = [&](Observations& table, const Record& r) {
     table.values[methods.index(r.method)][runs.index(run_name(r))] = observed(r, value_name);
@@ -71,7 +71,7 @@ std::vector<Observations> observations(const std::vector<Record>& records,
   return out;
 }
 
-std::size_t drop_copies(Observations& all) {
+std::size_t drop_duplicates(Observations& all) {
   std::map<std::string, std::size_t> first;  // first run of each content
   std::vector<std::size_t> kept;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {

@@ -51,6 +51,6 @@ std::vector<Observations> observations(const std::vector<Record>& records,
 
 /// Keeps the first run of every set with equal content; a loss on one of them is a loss on the kept
 /// run. Returns the number of dropped runs.
-std::size_t drop_copies(Observations& all);
+std::size_t drop_duplicates(Observations& all);
 
 }  // namespace loopbench::harness

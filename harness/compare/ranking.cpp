@@ -44,7 +44,7 @@ void decide(Ranking& out,
   const bool a_is_better = test.ranks.negative > test.ranks.positive;
   const std::size_t winner = a_is_better ? test.a : test.b;
   const std::size_t loser = a_is_better ? test.b : test.a;
-  const bool is_significant = test.p <= options.alpha;
+  const bool is_significant = out.can_prove(options.alpha) && test.p <= options.alpha;
   if (is_significant && mean_agrees(test, is_ratio, options) &&
       standings[winner] < standings[loser]) {
     out.beats[winner][loser] = true;
@@ -70,7 +70,9 @@ std::vector<Test> tests(const Levels& levels, Ranking& out) {
     }
   }
   out.pairs = found.size();
-  out.least_p = std::min(1.0, least_p(groups) * static_cast<double>(out.pairs));
+  if (groups >= out.groups_needed) {
+    out.least_p = std::min(1.0, least_p(groups) * static_cast<double>(out.pairs));
+  }
   return found;
 }
 

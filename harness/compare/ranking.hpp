@@ -5,9 +5,10 @@
 /// correction covers all pairs, so a best method that was picked by looking is covered too. A
 /// method is proven better than another where that p is at most alpha, and the geometric mean ratio
 /// over common runs agrees: it points the same way, by more than the relevant difference (failures
-/// alone may decide between methods that are equal otherwise), with an interval (where there is
-/// one, see mean_interval.hpp) that excludes 1, and so does the order. Without an interval, as of 6
-/// or 7 groups, the ranks, the direction and the size of the ratio decide.
+/// alone may decide between methods that are equal otherwise), with an interval that excludes 1,
+/// and so does the order. Fewer groups than an interval needs (8) prove nothing. Where there is no
+/// interval for another reason (equal ratios, failures), the ranks, the direction and the size of
+/// the ratio decide.
 #pragma once
 
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "harness/compare/levels.hpp"
 #include "harness/compare/paired.hpp"
+#include "harness/statistics/mean_interval.hpp"
 #include "harness/statistics/ranks.hpp"
 
 namespace loopbench::harness {
@@ -30,8 +32,9 @@ struct Ranking {
   std::vector<std::vector<bool>> equal;  ///< [a][b]: tied on every group
   std::vector<std::vector<double>> p;    ///< [a][b]: at most alpha exactly where one beats
   std::size_t pairs = 0;                 ///< tested: those that are not equal
-  double least_p = 1.0;                  ///< that all groups of one sign reach, corrected
-  std::size_t groups_needed = 0;         ///< fewest with which a pair could be proven
+  double least_p = 1.0;                  ///< that all groups of one sign reach, corrected; or 1
+  /// Fewest with which a pair could be proven.
+  std::size_t groups_needed = kFewestForInterval;
 
   /// Whether so many groups can prove anything about so many methods.
   bool can_prove(double alpha) const { return least_p <= alpha; }

@@ -28,10 +28,10 @@ Lines about_runs(const Comparison& c) {
                               c.copies == 1 ? " repeats" : "s repeat",
                               c.copies == 1 ? "is" : "are"));
   }
-  if (c.options.over == Over::runs && c.stated_groups < c.runs) {
+  if (c.options.over == Over::runs && c.known_groups < c.runs) {
     out.push_back(fmt::format(
         "assumes that all runs are independent (--over runs), although they form {} groups",
-        c.stated_groups));
+        c.known_groups));
   } else if (c.sequences < c.groups) {
     out.push_back(fmt::format(
         "claims hold for other instances of these {} sequence{}; --over sequences tests whether "
@@ -108,7 +108,8 @@ Lines remarks(const Comparison& c) {
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
       "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "
-      "ratio agrees, with its interval where there is one; rank: what the claims leave open; "
+      "ratio agrees, with its interval; fewer than 8 groups prove nothing; rank: what the claims "
+      "leave open; "
       "group: methods that share a letter are not "
       "proven different; differences up to {:g} of a value are ties",
       c.options.baseline,
@@ -116,11 +117,12 @@ Lines remarks(const Comparison& c) {
       c.options.alpha,
       c.options.relevant));
   if (c.pairs > 0 && c.groups < c.groups_needed) {
-    out.push_back(fmt::format("no p: {} cannot reach {:g} in {} tests, {} are needed",
-                              unit_text(c),
-                              c.options.alpha,
-                              c.pairs,
-                              c.groups_needed));
+    out.push_back(
+        fmt::format("no p: {} cannot prove a difference at {:g} in {} tests, {} are needed",
+                    unit_text(c),
+                    c.options.alpha,
+                    c.pairs,
+                    c.groups_needed));
   }
   for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
   return out;

@@ -95,7 +95,7 @@ CommonRuns select_common(const Observations& all, Comparison& out) {
   kept.values.better = all.kind.better;
   kept.values.target = all.kind.target;
   out.groups = count(kept.values.group);
-  out.stated_groups = count(groups(all, kept.runs, Over::groups));
+  out.known_groups = count(groups(all, kept.runs, Over::groups));
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
   out.sequences = sequences.size();

@@ -25,10 +25,10 @@ std::vector<std::string> words(const YamlNode& root, const char* key, const std:
 
 }  // namespace
 
-LearntSettings read_calibration(const std::string& calibration,
-                                const std::vector<std::string>& methods,
-                                const std::string& config,
-                                std::size_t line) {
+CalibratedSettings read_calibration(const std::string& calibration,
+                                    const std::vector<std::string>& methods,
+                                    const std::string& config,
+                                    std::size_t line) {
   const auto refuse = [&](const std::string& what) {
     return input_error(config, line, "calibration: " + what);
   };
@@ -41,7 +41,7 @@ LearntSettings read_calibration(const std::string& calibration,
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const YamlNode root = parse_yaml(text, path.string());
 
-  LearntSettings out;
+  CalibratedSettings out;
   out.trained_on = {calibration,
                     words(root, "trained_on", path.string()),
                     words(root, "trained_on_sources", path.string())};

@@ -10,7 +10,7 @@
 
 namespace loopbench::harness {
 
-struct LearntSettings {
+struct CalibratedSettings {
   TrainingData trained_on;
   std::map<std::string, std::vector<Setting>> by_method;
 };
@@ -18,9 +18,9 @@ struct LearntSettings {
 /// The settings under each of the `methods` in the calibration file, which has at least one. The
 /// file is searched beside the config, then as given. The settings have the line of the config
 /// entry, so that messages refer to it. Throws InputError `config:line:`.
-LearntSettings read_calibration(const std::string& calibration,
-                                const std::vector<std::string>& methods,
-                                const std::string& config,
-                                std::size_t line);
+CalibratedSettings read_calibration(const std::string& calibration,
+                                    const std::vector<std::string>& methods,
+                                    const std::string& config,
+                                    std::size_t line);
 
 }  // namespace loopbench::harness

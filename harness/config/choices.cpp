@@ -129,8 +129,8 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
     throw input_error(file, group->line, "group: expected a string");
   }
   std::vector<DatasetChoice> out;
-  for (GridPoint& point : spread(entry, {"dataset", "label", "group"}, file)) {
-    keep_text(point.settings, known.options);
+  for (GridPoint& point : expand(entry, {"dataset", "label", "group"}, file)) {
+    restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
     located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });
     out.push_back(
@@ -146,8 +146,8 @@ std::vector<MetricChoice> metric_choices(const YamlNode& entry,
   const auto [name, label] = named(entry, "metric", file);
   const metrics::MetricEntry& known = found(find_metric, catalogue, name, file, entry.line);
   std::vector<MetricChoice> out;
-  for (GridPoint& point : spread(entry, {"metric", "label"}, file)) {
-    keep_text(point.settings, known.options);
+  for (GridPoint& point : expand(entry, {"metric", "label"}, file)) {
+    restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
     located(file, entry.line, name, point.settings, known.options, [&] {
       known.check(options);
@@ -168,10 +168,10 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
   for (const std::string& name : split_stages(text)) {
     stages.push_back(&found(find_method, catalogue, name, file, entry.line));
   }
-  if (const std::string why = refuses_stages(stages); !why.empty()) {
+  if (const std::string why = why_not_composable(stages); !why.empty()) {
     throw input_error(file, entry.line, text + ": " + why);
   }
-  LearntSettings calibrated;
+  CalibratedSettings calibrated;
   if (const YamlNode* node = entry.find("calibration")) {
     if (node->type != YamlNode::Type::scalar) {
       throw input_error(file, node->line, "calibration: expected a file name");
@@ -181,12 +181,12 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
     calibrated = read_calibration(node->text, names, file, node->line);
   }
   std::vector<MethodChoice> out;
-  for (GridPoint& point : spread(entry, {"method", "label", "calibration"}, file)) {
+  for (GridPoint& point : expand(entry, {"method", "label", "calibration"}, file)) {
     std::vector<std::vector<Setting>> by_stage(stages.size());
     for (Setting& setting : point.settings) {
       const auto [stage, name] = stage_of(setting, stages, file);
       std::vector<Setting> own{{name, setting.value, setting.line, setting.text}};
-      keep_text(own, stages[stage]->options);
+      restore_text_options(own, stages[stage]->options);
       setting.value = own.front().value;
       by_stage[stage].push_back(own.front());
     }

@@ -64,8 +64,8 @@ const YamlNode& as_map(const YamlNode& node, const std::string& name, const std:
 
 double number(const YamlNode& node, const std::string& name, const std::string& file) {
   if (node.type == YamlNode::Type::scalar) {
-    if (const auto* whole = std::get_if<std::int64_t>(&node.scalar)) {
-      return static_cast<double>(*whole);
+    if (const auto* integer = std::get_if<std::int64_t>(&node.scalar)) {
+      return static_cast<double>(*integer);
     }
     if (const auto* real = std::get_if<double>(&node.scalar); real && std::isfinite(*real)) {
       return *real;
@@ -167,18 +167,18 @@ std::vector<Param> range(const YamlNode& node, const std::string& file) {
     throw input_error(file, node.line, "the range from .. to is too wide for double precision");
   }
   constexpr double kExact = 9007199254740992.0;  // 2^53: larger integers are not all representable
-  const bool whole = !is_log && std::holds_alternative<std::int64_t>(need("from").scalar) &&
-                     std::ranges::all_of(points, [](double p) {
-                       return p == std::round(p) && std::abs(p) <= kExact;
-                     });
+  const bool integer = !is_log && std::holds_alternative<std::int64_t>(need("from").scalar) &&
+                       std::ranges::all_of(points, [](double p) {
+                         return p == std::round(p) && std::abs(p) <= kExact;
+                       });
   std::vector<Param> out;
   for (const double point : points) {
-    out.push_back(whole ? Param(static_cast<std::int64_t>(point)) : Param(point));
+    out.push_back(integer ? Param(static_cast<std::int64_t>(point)) : Param(point));
   }
   return out;
 }
 
-std::vector<GridPoint> spread(const YamlNode& entry,
+std::vector<GridPoint> expand(const YamlNode& entry,
                               const std::vector<std::string>& reserved,
                               const std::string& file) {
   std::vector<GridPoint> points(1);

@@ -25,7 +25,7 @@ struct GridPoint {
 /// Every combination of `entry`'s scalar keys (except those in `reserved`), its `sweep` (each key a
 /// list or {from, to, steps, log}) and its `zip` (lists of equal length, advanced together). The
 /// first swept key varies slowest. Throws InputError `file:line:`.
-std::vector<GridPoint> spread(const YamlNode& entry,
+std::vector<GridPoint> expand(const YamlNode& entry,
                               const std::vector<std::string>& reserved,
                               const std::string& file);
 

@@ -18,7 +18,7 @@ std::vector<std::string> split_stages(const std::string& text) {
   }
 }
 
-std::string refuses_stages(const std::vector<const methods::MethodEntry*>& stages) {
+std::string why_not_composable(const std::vector<const methods::MethodEntry*>& stages) {
   if (stages.size() == 1) return "";
   if (stages.size() == 2 && stages[0]->kind == methods::Kind::corrector &&
       stages[1]->kind == methods::Kind::smoother) {

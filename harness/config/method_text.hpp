@@ -13,6 +13,6 @@ std::vector<std::string> split_stages(const std::string& text);
 
 /// Reason why these stages cannot be combined; empty for corrector, smoother, corrector + smoother,
 /// method.
-std::string refuses_stages(const std::vector<const methods::MethodEntry*>& stages);
+std::string why_not_composable(const std::vector<const methods::MethodEntry*>& stages);
 
 }  // namespace loopbench::harness

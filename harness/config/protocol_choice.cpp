@@ -32,8 +32,8 @@ metrics::NamedProtocol protocol_choice(const YamlNode& node, const std::string& 
       base = given->text;
       base_line = given->line;
     }
-    settings = spread(node, {"base"}, file).front().settings;
-    keep_text(settings, describe(metrics::Protocol{}));
+    settings = expand(node, {"base"}, file).front().settings;
+    restore_text_options(settings, describe(metrics::Protocol{}));
   } else {
     throw input_error(file, node.line, "protocol: expected a name or a map with 'base: NAME'");
   }
@@ -44,8 +44,8 @@ metrics::NamedProtocol protocol_choice(const YamlNode& node, const std::string& 
   } catch (const InputError& error) {
     throw input_error(file, base_line, std::string("protocol: ") + error.what());
   } catch (const OptionError& error) {
-    const auto place = std::ranges::find(settings, error.option(), &Setting::name);
-    const std::size_t line = place == settings.end() ? node.line : place->line;
+    const auto found = std::ranges::find(settings, error.option(), &Setting::name);
+    const std::size_t line = found == settings.end() ? node.line : found->line;
     throw input_error(file, line, std::string("protocol: ") + error.what());
   }
 }

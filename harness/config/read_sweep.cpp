@@ -108,11 +108,12 @@ class SweepReader {
   }
 
   int count(const YamlNode& node, const std::string& key) const {
-    const auto* whole = std::get_if<std::int64_t>(&node.scalar);
-    if (node.type != YamlNode::Type::scalar || whole == nullptr || *whole < 1 || *whole > 1000000) {
+    const auto* integer = std::get_if<std::int64_t>(&node.scalar);
+    if (node.type != YamlNode::Type::scalar || integer == nullptr || *integer < 1 ||
+        *integer > 1000000) {
       throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
     }
-    return static_cast<int>(*whole);
+    return static_cast<int>(*integer);
   }
 
   /// A number of runs; true for timing cells alone; or {runs: N, serial: true}.
@@ -155,7 +156,7 @@ class SweepReader {
       if (node.type != YamlNode::Type::scalar)
         throw OptionError(key, key + ": expected " + expected);
       FieldType<double>::assign(key, out, node.scalar);
-      detail::obey(key, out, rule);
+      detail::check_rule(key, out, rule);
     } catch (const OptionError& error) {
       throw input_error(file_, node.line, error.what());
     }

@@ -16,7 +16,8 @@ inline Param value_for(const OptionInfo& option, const Param& value, const std::
 }
 
 /// Replaces the values of text options; the option check reports unknown names.
-inline void keep_text(std::vector<Setting>& settings, const std::vector<OptionInfo>& options) {
+inline void restore_text_options(std::vector<Setting>& settings,
+                                 const std::vector<OptionInfo>& options) {
   for (Setting& setting : settings) {
     const auto option = std::ranges::find(options, setting.name, &OptionInfo::name);
     if (option != options.end()) setting.value = value_for(*option, setting.value, setting.text);

@@ -28,7 +28,7 @@ Param to_param(const YAML::Node& node) {
   if (node.Tag() == "!") return text;  // quoted
   if (text == "true") return true;
   if (text == "false") return false;
-  if (const auto whole = parse_number<std::int64_t>(text)) return *whole;
+  if (const auto integer = parse_number<std::int64_t>(text)) return *integer;
   if (const auto real = parse_number<double>(text)) return *real;
   return text;
 }

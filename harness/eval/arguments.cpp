@@ -120,8 +120,9 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   return out;
 }
 
-std::vector<MetricQuestion> questions(const EvalArguments& a, const metrics::Protocol& protocol) {
-  if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return usual_questions(protocol);
+std::vector<MetricQuestion> requested_metrics(const EvalArguments& a,
+                                              const metrics::Protocol& protocol) {
+  if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return default_metrics(protocol);
   metrics::Relation relation = metrics::Relation::usual;
   if (!a.relation.empty()) {
     FieldType<metrics::Relation>::assign("pose_relation", relation, our_relation(a.relation));

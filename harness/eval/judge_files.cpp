@@ -13,15 +13,15 @@ namespace {
 struct Loaded {
   Trajectory poses;
   std::vector<PoseMatrix> matrices;
-  ReadFindings mended;
+  ReadFindings repaired;
   std::string unstamped;  ///< file and format if the stamps were generated, otherwise empty
 };
 
-Judgement failure(const EvalArguments& a,
-                  const FilePair& pair,
-                  const metrics::NamedProtocol& protocol,
-                  const std::string& why) {
-  Judgement out;
+EvaluationResult failure(const EvalArguments& a,
+                         const FilePair& pair,
+                         const metrics::NamedProtocol& protocol,
+                         const std::string& why) {
+  EvaluationResult out;
   out.reference_body = a.reference_body.value_or("");
   out.reference = pair.reference;
   out.estimate = pair.estimate;
@@ -41,14 +41,14 @@ struct Reader {
     FieldType<Format>::assign("format", options.format, format_word);
     FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
     if (arguments.period) options.period = *arguments.period;
-    if (options.format == Format::automatic) options.format = recognise(file);
+    if (options.format == Format::automatic) options.format = detect_format(file);
     const bool is_kitti = options.format == Format::kitti;
     if (!arguments.times.empty() && is_kitti) {
       options.times = arguments.times;
       has_used_times = true;
     }
     Loaded out;
-    options.findings = &out.mended;
+    options.findings = &out.repaired;
     out.poses = read_trajectory(file, options);
     if (options.format == Format::g2o || (is_kitti && !options.times)) {
       out.unstamped = file + ": is " + to_text(options.format);
@@ -85,32 +85,32 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 
 }  // namespace
 
-std::vector<Judgement> judge_files(const EvalArguments& a) {
+std::vector<EvaluationResult> judge_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
-    questions(a, protocol.rules);  // refuses slips early
+    requested_metrics(a, protocol.rules);  // refuses slips early
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
-      !is_elsewhere(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
+      !has_offset(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
         return p.rules.form == metrics::ErrorForm::kitti ||
                p.rules.association == metrics::Association::evo;
       });
   const std::vector<FilePair> files = file_pairs(a);
-  refuse_to_overwrite(all_files(a, files), a.per_pose);
+  reject_overwriting(all_files(a, files), a.per_pose);
   const bool is_alone = files.size() * rules.size() == 1;
   Reader reader{a, wants_digits};
-  std::vector<Judgement> out;
+  std::vector<EvaluationResult> out;
   std::string read_last;
   Trajectory reference;
-  ReadFindings mended;  // these two of the reference
+  ReadFindings repaired;  // these two of the reference
   std::string unstamped;
   metrics::PrintedPoses printed;
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
       Loaded loaded = reader.read_reference(pair.reference);
-      reference = of_estimate_body(std::move(loaded.poses), body);
+      reference = to_estimate_body(std::move(loaded.poses), body);
       unstamped = loaded.unstamped;
-      mended = loaded.mended;
+      repaired = loaded.repaired;
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
     }
@@ -126,13 +126,13 @@ std::vector<Judgement> judge_files(const EvalArguments& a) {
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const metrics::NamedProtocol& protocol : rules) {
-      const JudgeOptions options{questions(a, protocol.rules),
-                                 !a.per_pose.empty(),
-                                 a.min_coverage.value_or(0.0),
-                                 are_printed ? &printed : nullptr,
-                                 {std::max(mended.off_unit, loaded.mended.off_unit),
-                                  mended.repeated + loaded.mended.repeated},
-                                 pose_of(body)};
+      const EvaluationOptions options{requested_metrics(a, protocol.rules),
+                                      !a.per_pose.empty(),
+                                      a.min_coverage.value_or(0.0),
+                                      are_printed ? &printed : nullptr,
+                                      {std::max(repaired.off_unit, loaded.repaired.off_unit),
+                                       repaired.repeated + loaded.repaired.repeated},
+                                      pose_of(body)};
       const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
       if (is_alone && !why.empty()) throw InputError(why);
       if (!why.empty()) {

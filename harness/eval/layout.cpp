@@ -68,12 +68,13 @@ Params rpg_settings(const Path& folder) {
   }
   std::int64_t frames = -1;
   if (const YamlNode* given = node.find("align_num_frames")) {
-    const auto* whole = std::get_if<std::int64_t>(&given->scalar);
-    if (given->type != YamlNode::Type::scalar || whole == nullptr || *whole < -1 || *whole == 0) {
+    const auto* integer = std::get_if<std::int64_t>(&given->scalar);
+    if (given->type != YamlNode::Type::scalar || integer == nullptr || *integer < -1 ||
+        *integer == 0) {
       throw input_error(
           file, given->line, "align_num_frames: expected -1 or a whole number above 0");
     }
-    frames = *whole;
+    frames = *integer;
   }
   Params out;
   for (const auto& [key, value] : node.map) {

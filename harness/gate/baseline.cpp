@@ -19,9 +19,9 @@ bool limits_time(const std::vector<Tolerance>& limits) {
   });
 }
 
-bool is_dirty(const std::map<std::string, std::string>& made_by) {
-  const auto source = made_by.find("source");
-  return source != made_by.end() && source->second.find("dirty") != std::string::npos;
+bool is_dirty(const std::map<std::string, std::string>& build_summary) {
+  const auto source = build_summary.find("source");
+  return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
 }
 
 bool has_number(const std::string& status) { return status == "ok" || status == "incomplete"; }
@@ -104,9 +104,9 @@ std::vector<GateCell> gate_cells(const std::vector<Record>& records,
     }
   }
   std::vector<GateCell> out;
-  std::map<std::int64_t, std::size_t> places;
+  std::map<std::int64_t, std::size_t> positions;
   for (const Record& r : records) {
-    const auto [found, is_new] = places.emplace(r.cell, out.size());
+    const auto [found, is_new] = positions.emplace(r.cell, out.size());
     if (is_new) out.push_back(gate_cell(r));
     GateCell& cell = out[found->second];
     if (r.metric.empty()) {

@@ -74,13 +74,14 @@ struct Snapshot {
 };
 
 struct Baseline {
-  std::map<std::string, std::string> made_by;  ///< version, compiler, commit, source clean or dirty
+  std::map<std::string, std::string>
+      build_summary;                           ///< version, compiler, commit, source clean or dirty
   std::vector<Tolerance> limits{Tolerance{}};  ///< the first whose `where` matches a score applies
   Snapshot snapshot;
 };
 
 /// Whether some of its cells were computed by a build with uncommitted changes.
-bool is_dirty(const std::map<std::string, std::string>& made_by);
+bool is_dirty(const std::map<std::string, std::string>& build_summary);
 
 /// Whether scores with the status have a number: ok or incomplete.
 bool has_number(const std::string& status);

@@ -33,13 +33,13 @@ struct GateReport {
 };
 
 /// Whether `now` is the complete sweep, or a part whose missing cells are accepted.
-enum class GateExtent { whole, part };
+enum class GateExtent { complete, part };
 
 /// Throws InputError if the baseline was computed with other definitions (see definitions.hpp), or
 /// has no cell in common with the results. Removed sequences or methods are reported as missing
 /// cells, not as other definitions. O(n log n) and one joint test of all methods and scores.
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
-                 GateExtent extent = GateExtent::whole);
+                 GateExtent extent = GateExtent::complete);
 
 }  // namespace loopbench::harness

@@ -77,7 +77,7 @@ ConsistentLosses::Moves ConsistentLosses::moves(const Series& series) {
   return out;
 }
 
-std::string ConsistentLosses::text(const Place& place,
+std::string ConsistentLosses::text(const ScoreKey& key,
                                    const Series& series,
                                    double p,
                                    std::size_t others) const {
@@ -86,7 +86,7 @@ std::string ConsistentLosses::text(const Place& place,
   const std::size_t groups = found.by_group.size();
   const double middle = std::abs(mean_move(found.by_group));
   return fmt::format("{} worse over {} runs{}, by {:.3g}{} on average: p = {:.2g}{}",
-                     place.statistic,
+                     key.statistic,
                      runs,
                      groups == runs ? "" : fmt::format(" in {} independent groups", groups),
                      found.is_ratio ? 100.0 * std::expm1(middle) : middle,
@@ -98,44 +98,44 @@ std::string ConsistentLosses::text(const Place& place,
 std::vector<Finding> ConsistentLosses::findings() const {
   std::vector<RunDifferences> comparisons;
   double level = 1.0;
-  for (const auto& [place, series] : series_) {
+  for (const auto& [key, series] : series_) {
     comparisons.push_back(moves(series).by_group);
     level = std::min(level, *series.limit.alpha);
   }
   const std::vector<double> p = sign_flip_test(comparisons, groups_.size(), level);
   struct Loss {
-    const Place* place;
+    const ScoreKey* key;
     const Series* series;
     double p;
     std::size_t others;
   };
   std::map<std::string, Loss> losses;  // by method, in its most significant score
   std::size_t i = 0;
-  for (const auto& [place, series] : series_) {
+  for (const auto& [key, series] : series_) {
     const double own = p[i++];
     if (own >= *series.limit.alpha) continue;
-    const auto [found, is_new] = losses.try_emplace(place.method, Loss{&place, &series, own, 0});
+    const auto [found, is_new] = losses.try_emplace(key.method, Loss{&key, &series, own, 0});
     if (is_new) continue;
     Loss& loss = found->second;
     const std::size_t others = loss.others + 1;
-    if (own < loss.p) loss = {&place, &series, own, 0};
+    if (own < loss.p) loss = {&key, &series, own, 0};
     loss.others = others;
   }
   std::vector<Finding> out;
   for (const auto& [method, loss] : losses) {
     out.push_back({Finding::Kind::regression,
                    method,
-                   loss.place->score,
-                   text(*loss.place, *loss.series, loss.p, loss.others)});
+                   loss.key->score,
+                   text(*loss.key, *loss.series, loss.p, loss.others)});
   }
   return out;
 }
 
 std::vector<std::string> ConsistentLosses::notes() const {
   std::map<std::string, std::pair<std::size_t, double>> most;  // by method: groups, level
-  for (const auto& [place, series] : series_) {
+  for (const auto& [key, series] : series_) {
     const std::set<std::size_t> groups(series.groups.begin(), series.groups.end());
-    auto& [count, level] = most.try_emplace(place.method, 0, 0.0).first->second;
+    auto& [count, level] = most.try_emplace(key.method, 0, 0.0).first->second;
     count = std::max(count, groups.size());
     level = std::max(level, *series.limit.alpha);
   }

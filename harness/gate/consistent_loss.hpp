@@ -32,11 +32,11 @@ class ConsistentLosses {
   std::vector<std::string> notes() const;
 
  private:
-  struct Place {
+  struct ScoreKey {
     std::string method;
     std::string score;
     std::string statistic;
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const ScoreKey&) const = default;
   };
   struct Series {
     std::vector<std::size_t> groups;    // per run
@@ -52,9 +52,9 @@ class ConsistentLosses {
     bool is_ratio = false;    // logarithms of ratios
   };
   static Moves moves(const Series& series);
-  std::string text(const Place& place, const Series& series, double p, std::size_t others) const;
+  std::string text(const ScoreKey& key, const Series& series, double p, std::size_t others) const;
 
-  std::map<Place, Series> series_;
+  std::map<ScoreKey, Series> series_;
   std::map<std::string, std::size_t> groups_;
 };
 

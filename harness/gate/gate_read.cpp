@@ -31,7 +31,7 @@ class BaselineReader {
                          kBaselineFormat));
     }
     Baseline out;
-    out.made_by = texts(root, "made_by");
+    out.build_summary = texts(root, "made_by");
     out.limits = limits(root);
     out.snapshot.sweep = text(root, "sweep", "");
     out.snapshot.machine = text(root, "machine", "");
@@ -63,10 +63,10 @@ class BaselineReader {
   }
 
   const Json& member(const Json& node, const std::string& key, const std::string& at) const {
-    const std::string place = at.empty() ? "" : at;
-    if (!node.is_object()) refuse(place.empty() ? "baseline" : place, "expected an object");
+    const std::string location = at.empty() ? "" : at;
+    if (!node.is_object()) refuse(location.empty() ? "baseline" : location, "expected an object");
     const auto found = node.find(key);
-    if (found == node.end()) refuse(place + (place.empty() ? "" : ".") + key, "is missing");
+    if (found == node.end()) refuse(location + (location.empty() ? "" : ".") + key, "is missing");
     return *found;
   }
 
@@ -171,10 +171,10 @@ class BaselineReader {
     return found;
   }
 
-  std::int64_t whole(const Json& node,
-                     const std::string& key,
-                     std::size_t i,
-                     const std::string& at) const {
+  std::int64_t integer(const Json& node,
+                       const std::string& key,
+                       std::size_t i,
+                       const std::string& at) const {
     const Json& entry = list(node, key, at)[i];
     if (!entry.is_number_integer()) {
       refuse(fmt::format("{}.{}[{}]", at, key, i),
@@ -189,9 +189,9 @@ class BaselineReader {
                   const std::string& at,
                   const std::vector<Tolerance>& limits) const {
     GateScore out = questions_[i];
-    out.pairs = whole(node, "pairs", i, at);
-    out.possible = whole(node, node.contains("possible") ? "possible" : "pairs", i, at);
-    out.count = whole(node, node.contains("counts") ? "counts" : "pairs", i, at);
+    out.pairs = integer(node, "pairs", i, at);
+    out.possible = integer(node, node.contains("possible") ? "possible" : "pairs", i, at);
+    out.count = integer(node, node.contains("counts") ? "counts" : "pairs", i, at);
     if (node.contains("statuses")) {
       const Json& status = list(node, "statuses", at)[i];
       if (!status.is_string()) {

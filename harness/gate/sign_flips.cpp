@@ -73,21 +73,21 @@ std::vector<double> sign_flip_test(const std::vector<RunDifferences>& comparison
                                    double level) {
   std::vector<double> p(comparisons.size(), 1.0);
   std::vector<SignedRanks> tested;
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> positions;
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     SignedRanks ranks = signed_ranks(comparisons[i]);
     if (ranks.by_run.empty()) continue;
     tested.push_back(std::move(ranks));
-    places.push_back(i);
+    positions.push_back(i);
   }
   if (tested.empty()) return p;
   std::vector<double> largest = largest_of_flips(tested, runs, level);
   std::ranges::sort(largest);
-  const std::vector<bool> as_they_are(runs, false);
+  const std::vector<bool> unflipped(runs, false);
   for (std::size_t i = 0; i < tested.size(); ++i) {
-    const double own = standardised(tested[i], as_they_are);
+    const double own = standardised(tested[i], unflipped);
     const auto at_least = largest.end() - std::ranges::lower_bound(largest, own);
-    p[places[i]] = static_cast<double>(at_least) / static_cast<double>(largest.size());
+    p[positions[i]] = static_cast<double>(at_least) / static_cast<double>(largest.size());
   }
   return p;
 }

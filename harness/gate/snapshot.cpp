@@ -92,7 +92,7 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   return out;
 }
 
-std::map<std::string, std::string> made_by(const std::filesystem::path& store) {
+std::map<std::string, std::string> build_summary(const std::filesystem::path& store) {
   std::map<std::string, std::string> out{{"loopbench", read_run(store).at("loopbench")}};
   for (const auto& [key, value] : read_provenance(store)) {
     for (const char* kept : {"commit", "source", "compiler", "flags"}) {

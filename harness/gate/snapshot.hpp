@@ -13,6 +13,6 @@ namespace loopbench::harness {
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits);
 
 /// Provenance of a baseline from this store.
-std::map<std::string, std::string> made_by(const std::filesystem::path& store);
+std::map<std::string, std::string> build_summary(const std::filesystem::path& store);
 
 }  // namespace loopbench::harness

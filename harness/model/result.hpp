@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "harness/model/cells.hpp"
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 #include "methods/report.hpp"
 #include "metrics/metric.hpp"
 
@@ -76,7 +76,7 @@ struct CellResult {
   std::vector<ScoreResult> scores;
   bool oracle_method = false;  ///< it uses the reference, or was trained on it
   CellTrace trace;             ///< under the first protocol, dense if the sweep evaluates densely
-  std::shared_ptr<const SequenceFacts> facts;  ///< null if its sequence could not be loaded
+  std::shared_ptr<const SequenceMetadata> metadata;  ///< null if its sequence could not be loaded
 };
 
 }  // namespace loopbench::harness

@@ -25,7 +25,7 @@ Trajectory aligned_reference(const Trajectory& keyframes,
 }
 
 /// Mean squared distance to the reference over the edges of a window [m^2].
-methods::manifold::PieceJudge nearest_to(const Polyline& reference) {
+methods::manifold::PieceCost nearest_to(const Polyline& reference) {
   return [&reference](const methods::manifold::PlanarPiece& piece,
                       const methods::manifold::Window& window,
                       const methods::manifold::Nodes& nodes,
@@ -39,7 +39,7 @@ methods::manifold::PieceJudge nearest_to(const Polyline& reference) {
         const double time = std::lerp(nodes.stamps[edge], nodes.stamps[edge + 1], u);
         if (!(time >= reference.start() && time <= reference.end())) continue;
         const Vector3 reference_point = reference.at(time).translation - nodes.base;
-        sum += (asked(piece, spline.at(edge, time)) - reference_point).squaredNorm();
+        sum += (value_of_piece(piece, spline.at(edge, time)) - reference_point).squaredNorm();
         ++count;
       }
     }
@@ -60,7 +60,7 @@ std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,
                                                  methods::Report& report) const {
   Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
-  methods::manifold::PieceJudge judge;
+  methods::manifold::PieceCost judge;
   if (options_.reference_families) judge = nearest_to(reference);
   std::shared_ptr<const methods::manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
   report.notes.push_back("oracle: uses the reference");

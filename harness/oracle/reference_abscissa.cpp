@@ -3,7 +3,7 @@
 namespace loopbench::harness {
 namespace {
 
-using methods::manifold::Graph;
+using methods::manifold::GraphPiece;
 using methods::manifold::Height;
 using methods::manifold::Parts;
 using methods::manifold::PlanarPiece;
@@ -11,15 +11,15 @@ using methods::manifold::PlanarPiece;
 template <class Piece>
 constexpr bool is_function_of_x = false;
 template <class Function>
-constexpr bool is_function_of_x<Graph<Function>> = true;
+constexpr bool is_function_of_x<GraphPiece<Function>> = true;
 
 }  // namespace
 
 Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& reference) const {
   const Parts& parts = curve_->parts();
-  const methods::manifold::Place own = parts.spline.at(edge, time);
+  const methods::manifold::SplinePoint own = parts.spline.at(edge, time);
   const Vector3 projected = reference + parts.up.dot(own.point - reference) * parts.up;
-  const methods::manifold::Place seen{projected, own.way, own.time};
+  const methods::manifold::SplinePoint seen{projected, own.distance, own.time};
   const auto ask = [&](const PlanarPiece& piece) {
     return std::visit(
         [&](const auto& shape) {

@@ -6,6 +6,7 @@
 
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -21,7 +22,7 @@ std::string median_text(const std::vector<const CellRecord*>& cells, Get get, Te
   for (const CellRecord* cell : cells) {
     if (const auto value = get(*cell)) values.push_back(static_cast<double>(*value));
   }
-  return values.empty() ? "-" : text(median_of(std::move(values)));
+  return values.empty() ? "-" : text(metrics::median(values));
 }
 
 template <class Get>
@@ -40,7 +41,8 @@ std::optional<double> iterations(const CellRecord& cell) {
 
 std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& cells) {
   std::vector<const CellRecord*> out;
-  std::ranges::copy_if(cells, std::back_inserter(out), [](const auto* c) { return is_timed(*c); });
+  std::ranges::copy_if(
+      cells, std::back_inserter(out), [](const auto* c) { return is_finished(*c); });
   return out;
 }
 
@@ -54,9 +56,12 @@ class ByName {
     values_[name].push_back(value);
   }
   template <class Text>
-  void add_rows(Listing& out, const std::string& method, const std::string& what, Text text) const {
+  void add_rows(TextTable& out,
+                const std::string& method,
+                const std::string& what,
+                Text text) const {
     for (const std::string& name : names_) {
-      out.rows.push_back({method, what, name, text(median_of(values_.at(name)))});
+      out.rows.push_back({method, what, name, text(metrics::median(values_.at(name)))});
     }
   }
 
@@ -67,30 +72,30 @@ class ByName {
 
 }  // namespace
 
-Listing costs(const std::vector<CellRecord>& cells) {
-  Listing out{"costs",
-              {"method",
-               "cells",
-               "failed",
-               "wall [ms]",
-               "CPU [ms]",
-               "peak memory [MB]",
-               "added [MB]",
-               "allocations",
-               "iterations"},
-              {},
-              {}};
+TextTable costs(const std::vector<CellRecord>& cells) {
+  TextTable out{"costs",
+                {"method",
+                 "cells",
+                 "failed",
+                 "wall [ms]",
+                 "CPU [ms]",
+                 "peak memory [MB]",
+                 "added [MB]",
+                 "allocations",
+                 "iterations"},
+                {},
+                {}};
   bool shared = false;
   bool alone = false;
   for (const auto& [method, all] : by_method(cells)) {
     const std::vector<const CellRecord*> timed = timed_of(all);
     std::size_t failed = 0;
     for (const CellRecord* cell : all) {
-      if (!is_timed(*cell) && cell->status != "declined") ++failed;
+      if (!is_finished(*cell) && cell->status != "declined") ++failed;
       (cell->worker.find("serial") == std::string::npos ? shared : alone) = true;
     }
     out.rows.push_back(
-        {shown_name(method, all),
+        {table_name(method, all),
          std::to_string(all.size()),
          std::to_string(failed),
          median_text(
@@ -115,8 +120,8 @@ Listing costs(const std::vector<CellRecord>& cells) {
   return out;
 }
 
-Listing reported(const std::vector<CellRecord>& cells) {
-  Listing out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
+TextTable reported(const std::vector<CellRecord>& cells) {
+  TextTable out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const auto& [method, all] : by_method(cells)) {
     ByName phases;
     ByName counts;
@@ -124,8 +129,8 @@ Listing reported(const std::vector<CellRecord>& cells) {
       for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
       for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
     }
-    phases.add_rows(out, shown_name(method, all), "phase [ms]", milliseconds);
-    counts.add_rows(out, shown_name(method, all), "count", plain);
+    phases.add_rows(out, table_name(method, all), "phase [ms]", milliseconds);
+    counts.add_rows(out, table_name(method, all), "count", plain);
   }
   std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;

@@ -28,7 +28,7 @@ inline bool is_oracle(const std::vector<const CellRecord*>& cells) {
 }
 
 /// Name of the method in tables.
-inline std::string shown_name(const std::string& method,
+inline std::string table_name(const std::string& method,
                               const std::vector<const CellRecord*>& cells) {
   return method + (is_oracle(cells) ? " (oracle)" : "");
 }
@@ -53,15 +53,8 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
 }
 
 /// Whether the method of the cell finished.
-inline bool is_timed(const CellRecord& cell) {
+inline bool is_finished(const CellRecord& cell) {
   return cell.runs > 0 && (cell.status == "ok" || cell.status == "incomplete");
-}
-
-/// Geometric mean of at least one value.
-inline double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 }  // namespace loopbench::harness

@@ -9,6 +9,7 @@
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
 #include "harness/statistics/ranks.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -77,7 +78,7 @@ std::vector<Point> points_of(const std::vector<CellRecord>& cells,
     std::vector<double> times;
     for (const auto& [sequence, values] : by_sequence) {
       errors.push_back(mean(values.first));
-      times.push_back(median_of(values.second));
+      times.push_back(metrics::median(values.second));
     }
     points.push_back({method, is_oracle(all), runs, geometric_mean(errors), geometric_mean(times)});
   }
@@ -107,9 +108,9 @@ std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t 
 
 }  // namespace
 
-Listing pareto(const std::vector<CellRecord>& cells,
-               const std::vector<Record>& records,
-               const Accuracy& accuracy) {
+TextTable pareto(const std::vector<CellRecord>& cells,
+                 const std::vector<Record>& records,
+                 const Accuracy& accuracy) {
   const Chosen chosen = choose(records, accuracy);
   std::map<std::int64_t, double> error_of;  // by position
   std::string unit;
@@ -125,14 +126,14 @@ Listing pareto(const std::vector<CellRecord>& cells,
   for (const CellRecord& cell : cells) all_runs.emplace(cell.sequence, cell.repeat);
   const std::vector<Point> points = points_of(cells, error_of);
   const std::vector<std::string> front = on_front(points, all_runs.size());
-  Listing out{"accuracy and time",
-              {"method",
-               "runs",
-               accuracy.metric + " " + accuracy.value + " [" + unit + "]",
-               "wall [ms]",
-               "front"},
-              {},
-              {}};
+  TextTable out{"accuracy and time",
+                {"method",
+                 "runs",
+                 accuracy.metric + " " + accuracy.value + " [" + unit + "]",
+                 "wall [ms]",
+                 "front"},
+                {},
+                {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& point = points[i];
     out.rows.push_back({point.method + (point.is_oracle ? " (oracle)" : ""),

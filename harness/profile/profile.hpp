@@ -31,14 +31,14 @@ std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<d
 
 /// One row per method: wall and CPU time, memory, allocations, iterations. Medians over its
 /// finished cells, maximum for memory.
-Listing costs(const std::vector<CellRecord>& cells);
+TextTable costs(const std::vector<CellRecord>& cells);
 
 /// One row per phase and count that a method reports: medians over its cells.
-Listing reported(const std::vector<CellRecord>& cells);
+TextTable reported(const std::vector<CellRecord>& cells);
 
 /// One row per method with cells of three sizes or more: exponent of its time in the number of
 /// keyframes. One point per size: the median over the cells of that size.
-Listing scaling(const std::vector<CellRecord>& cells);
+TextTable scaling(const std::vector<CellRecord>& cells);
 
 /// The score used as accuracy.
 struct Accuracy {
@@ -51,8 +51,8 @@ struct Accuracy {
 /// One row per method: geometric means over all sequences of its mean error and median time over
 /// repeats, and whether it is on the Pareto front of methods that have all runs and do not use the
 /// reference. Errors are those of the store's first protocol, dense if available.
-Listing pareto(const std::vector<CellRecord>& cells,
-               const std::vector<Record>& records,
-               const Accuracy& accuracy);
+TextTable pareto(const std::vector<CellRecord>& cells,
+                 const std::vector<Record>& records,
+                 const Accuracy& accuracy);
 
 }  // namespace loopbench::harness

@@ -6,28 +6,31 @@
 
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 
-Listing scaling(const std::vector<CellRecord>& cells) {
-  Listing out{"scaling: time ~ keyframes^exponent",
-              {"method", "sizes", "keyframes", "exponent", "standard error", "R2", "largest [ms]"},
-              {},
-              {}};
+TextTable scaling(const std::vector<CellRecord>& cells) {
+  TextTable out{
+      "scaling: time ~ keyframes^exponent",
+      {"method", "sizes", "keyframes", "exponent", "standard error", "R2", "largest [ms]"},
+      {},
+      {}};
   for (const auto& [method, all] : by_method(cells)) {
     std::map<std::int64_t, std::vector<double>> by_size;
     for (const CellRecord* cell : all) {
-      if (is_timed(*cell) && cell->keyframes > 0) by_size[cell->keyframes].push_back(cell->seconds);
+      if (is_finished(*cell) && cell->keyframes > 0)
+        by_size[cell->keyframes].push_back(cell->seconds);
     }
     std::vector<double> sizes;
     std::vector<double> times;
     for (const auto& [size, seconds] : by_size) {
       sizes.push_back(static_cast<double>(size));
-      times.push_back(median_of(seconds));
+      times.push_back(metrics::median(seconds));
     }
     const auto law = power_law(sizes, times);
     if (!law) continue;
-    out.rows.push_back({shown_name(method, all),
+    out.rows.push_back({table_name(method, all),
                         std::to_string(sizes.size()),
                         fmt::format("{} to {}", by_size.begin()->first, by_size.rbegin()->first),
                         fmt::format("{:.2f}", law->exponent),

@@ -8,12 +8,11 @@
 namespace loopbench::harness {
 
 /// Version, compiler, flags, versions of the libraries it was built with, by name.
-std::vector<std::pair<std::string, std::string>> build_facts();
+std::vector<std::pair<std::string, std::string>> build_metadata();
 
-/// Hash of the running program's code and constants, of build_facts(), of the names of its shared
+/// Hash of `code` (Source::code), of build_metadata(), of the names of the program's shared
 /// libraries (which contain their versions) and of the C library's version: it differs for every
-/// build that could give other results. Constant during a run; takes some milliseconds on the first
-/// call.
-const std::string& build_id();
+/// build that could give other results, and not for changes of commands, tables or reports.
+std::string build_id(const std::string& code);
 
 }  // namespace loopbench::harness

@@ -15,10 +15,10 @@ Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
   Params out;
   for (const OptionInfo& option : options) out.emplace(option.name, option.value);
   for (const auto& [name, value] : given) {
-    const auto place = out.find(name);
-    const auto* whole = std::get_if<std::int64_t>(&value);
-    const bool real = place != out.end() && std::holds_alternative<double>(place->second);
-    out[name] = real && whole != nullptr ? Param(static_cast<double>(*whole)) : value;
+    const auto found = out.find(name);
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    const bool real = found != out.end() && std::holds_alternative<double>(found->second);
+    out[name] = real && integer != nullptr ? Param(static_cast<double>(*integer)) : value;
   }
   return out;
 }
@@ -71,30 +71,30 @@ CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root
       catalogue_(catalogue),
       root_(std::move(root)),
       build_(std::move(build)),
-      judged_(evaluation_fields(sweep, catalogue)) {
+      evaluation_(evaluation_fields(sweep, catalogue)) {
   for (const MethodChoice& choice : sweep.methods) methods_.push_back(of_method(choice, catalogue));
 }
 
 const std::string& CellKeys::asked(const Cell& cell) {
-  const auto [place, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
-  if (!fresh) return place->second;
+  const auto [found, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
+  if (!fresh) return found->second;
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
   const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
-  return place->second = fields.hashed();
+  return found->second = fields.hashed();
 }
 
-std::string CellKeys::dataset_in_full(const Cell& cell) const {
+std::string CellKeys::dataset_text(const Cell& cell) const {
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
   const Params options = in_full(entry.options, full_options(choice, entry, cell.repeat));
   return choice.dataset.name + ": " + to_text(options);
 }
 
-std::string CellKeys::metrics_in_full() const {
+std::string CellKeys::metric_definitions() const {
   std::string out;
   for (const MetricChoice& metric : sweep_.metrics) {
     const metrics::MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
@@ -103,7 +103,7 @@ std::string CellKeys::metrics_in_full() const {
   return out;
 }
 
-std::string CellKeys::methods_in_full() const {
+std::string CellKeys::method_definitions() const {
   std::string out;
   for (const MethodChoice& method : sweep_.methods) {
     std::string stages;
@@ -116,8 +116,8 @@ std::string CellKeys::methods_in_full() const {
   return out;
 }
 
-std::vector<InputFile> CellKeys::as_they_are(const Cell& cell,
-                                             std::vector<InputFile> inputs) const {
+std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
+                                                std::vector<InputFile> inputs) const {
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
   const Params options =
       in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
@@ -146,7 +146,7 @@ std::string CellKeys::sequence_key(const Cell& cell, const std::vector<InputFile
 
 std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {
   Fields fields;
-  fields.add(build_).add(asked(cell)).add(methods_[cell.method]).add(judged_);
+  fields.add(build_).add(asked(cell)).add(methods_[cell.method]).add(evaluation_);
   for (const InputFile& input : inputs) fields.add(input.hash);
   return fields.hashed();
 }

@@ -12,14 +12,14 @@
 
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/cells.hpp"
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
 class CellKeys {
  public:
-  /// `build` identifies the program: build_id() outside tests. Sweep and catalogue must outlive
+  /// `build` identifies the program: build_id(). Sweep and catalogue must outlive
   /// this.
   CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build);
 
@@ -27,12 +27,12 @@ class CellKeys {
   const std::string& asked(const Cell& cell);
 
   /// The same as text: "simulated: closures.angle=30.0, ..." with all options.
-  std::string dataset_in_full(const Cell& cell) const;
+  std::string dataset_text(const Cell& cell) const;
 
   /// Definitions of the labels of metrics and methods: one line "LABEL\tNAME, all options" each;
   /// the stages of a method are joined by "; +".
-  std::string metrics_in_full() const;
-  std::string methods_in_full() const;
+  std::string metric_definitions() const;
+  std::string method_definitions() const;
 
   /// Key of a sequence's stored metadata: configuration, content of its files and build.
   std::string sequence_key(const Cell& cell, const std::vector<InputFile>& inputs);
@@ -43,7 +43,7 @@ class CellKeys {
   /// Current state of files that the sequence was read from earlier: searches again for files named
   /// by an option and hashes all of them again. A file that does not exist is assumed unchanged.
   /// Throws InputError for a file that cannot be read.
-  std::vector<InputFile> as_they_are(const Cell& cell, std::vector<InputFile> inputs) const;
+  std::vector<InputFile> current_inputs(const Cell& cell, std::vector<InputFile> inputs) const;
 
   const Sweep& sweep() const { return sweep_; }
 
@@ -54,7 +54,7 @@ class CellKeys {
   const Catalogue& catalogue_;
   DataRoot root_;
   std::string build_;
-  std::string judged_;                ///< protocols, metrics, times and so on, common to all cells
+  std::string evaluation_;            ///< protocols, metrics, times and so on, common to all cells
   std::vector<std::string> methods_;  ///< for each method of the sweep
   std::map<std::pair<std::size_t, int>, std::string> asked_;
 };

@@ -66,8 +66,8 @@ std::string content_of(const Sequence& sequence) {
   hash.add(problem.closures);
   hash.add(problem.frames);
   hash.add(std::uint64_t{problem.planar});
-  hash.add(std::uint64_t{problem.common_view.size()});
-  for (const std::size_t count : problem.common_view) hash.add(std::uint64_t{count});
+  hash.add(std::uint64_t{problem.shared_landmarks.size()});
+  for (const std::size_t count : problem.shared_landmarks) hash.add(std::uint64_t{count});
   hash.add(sequence.reference);
   return hash.text();
 }

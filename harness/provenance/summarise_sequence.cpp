@@ -6,7 +6,7 @@
 #include "harness/provenance/oracle_closures.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/text/hash.hpp"
-#include "metrics/checks/body_offset.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/correction/loop_detection.hpp"
 #include "metrics/trajectory/position_only.hpp"
 
@@ -25,14 +25,14 @@ std::string reference_of_other_body(const Sequence& sequence) {
     estimate.push_back(keyframes[i]);
     reference.push_back({keyframes[i].stamp, *reference_poses[i]});
   }
-  const auto offset = metrics::body_offset(reference, estimate, {});
+  const auto offset = metrics::extrinsic_offset(reference, estimate, {});
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
   const std::string text = offset ? metrics::other_body(*offset, stated.value_or(Pose{})) : "";
   return text.empty() || !stated ? text : text + "; see reference_body of the dataset";
 }
 
 /// Marks closures that equal the reference as oracle closures, for any source file.
-void flag_oracle_closures(SequenceFacts& out, const Sequence& sequence) {
+void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
   if (out.oracle_closures) return;
   const std::size_t all = sequence.problem.closures.size();
   const std::size_t equal = closures_equal_to_reference(sequence);
@@ -63,8 +63,8 @@ std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
   return out;
 }
 
-SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
-  SequenceFacts out;
+SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
+  SequenceMetadata out;
   out.inputs = hashed_inputs(sequence.provenance.inputs);
   out.closures = sequence.provenance.closures;
   out.oracle_closures = sequence.provenance.oracle_closures;
@@ -81,7 +81,7 @@ SequenceFacts sequence_facts(const Sequence& sequence, bool with_trace) {
   out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
-    out.notes.push_back(to_text(metrics::judge_detection(sequence, {})));
+    out.notes.push_back(to_text(metrics::evaluate_detection(sequence, {})));
   }
   if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
     out.notes.push_back(note);

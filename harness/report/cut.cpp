@@ -34,7 +34,7 @@ std::string cut_text(const nlohmann::json& json) {
 
 }  // namespace
 
-std::string cut_json(const std::vector<methods::Section>& sections, double origin) {
+std::string sections_json(const std::vector<methods::Section>& sections, double origin) {
   std::vector<std::string> order;
   std::map<std::string, CutKind> kinds;
   for (const methods::Section& section : sections) {

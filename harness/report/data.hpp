@@ -20,11 +20,11 @@ struct Thinning {
 
 /// As many repeats as allow kGoodPoints per cell (harness/report/drawn.cpp), and as many points as
 /// take about `bytes`.
-Thinning usual_thinning(const ReportContent& content, std::size_t bytes);
+Thinning initial_thinning(const ReportContent& content, std::size_t bytes);
 
 /// Reduces to about `share` of the bytes: points down to kFewestPoints, then repeats, then points
 /// down to kLeastPoints. False if no further reduction is possible.
-bool thin(Thinning& thinning, double share);
+bool reduce(Thinning& thinning, double share);
 
 /// {points, sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
 /// Cells: grid, errors, and sections of the path; the evaluation times of a cell are in its grid,
@@ -33,7 +33,7 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning);
 
 /// [{kind, all, b, e, names, w}], a list of sections for each kind: begin and end relative to
 /// `origin` [s], and indices into `names` of the choices. At most kMostSections per kind.
-std::string cut_json(const std::vector<methods::Section>& sections, double origin);
+std::string sections_json(const std::vector<methods::Section>& sections, double origin);
 
 /// Maximum number of poses drawn per cell if `cells` share `bytes`.
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes);

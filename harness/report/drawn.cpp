@@ -33,7 +33,7 @@ std::string json(const DrawnPath& path) {
 
 std::string reference_json(const SequenceTrace& trace, std::size_t most) {
   DrawnPath path;
-  for (const std::size_t i : thinned_places(trace.reference.size(), most)) {
+  for (const std::size_t i : subsampled_indices(trace.reference.size(), most)) {
     const TracePose& pose = trace.reference[i];
     path.t.push_back(pose.stamp);
     path.x.push_back(pose.x);
@@ -45,7 +45,7 @@ std::string reference_json(const SequenceTrace& trace, std::size_t most) {
 
 std::string closures_json(const SequenceTrace& trace) {
   std::string out;
-  for (const std::size_t i : thinned_places(trace.closures.size(), kMostClosures)) {
+  for (const std::size_t i : subsampled_indices(trace.closures.size(), kMostClosures)) {
     out += fmt::format("{}[{:.7g},{:.7g}]",
                        out.empty() ? "" : ",",
                        trace.closures[i].from_stamp,
@@ -61,7 +61,7 @@ struct CellErrors {
 
 CellErrors errors(const CellTrace& trace, std::size_t most) {
   CellErrors out;
-  for (const std::size_t i : thinned_places(trace.samples.size(), most)) {
+  for (const std::size_t i : subsampled_indices(trace.samples.size(), most)) {
     const TraceSample& s = trace.samples[i];
     out.reference.t.push_back(s.estimate.stamp);
     out.reference.x.push_back(s.estimate.x - s.error_x);
@@ -118,7 +118,7 @@ std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
       static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPointsOfACell);
 }
 
-Thinning usual_thinning(const ReportContent& content, std::size_t bytes) {
+Thinning initial_thinning(const ReportContent& content, std::size_t bytes) {
   std::size_t repeats = 1;
   for (const auto& [sequence, own] : repeats_of(content.cells)) {
     repeats = std::max(repeats, own.size());
@@ -129,7 +129,7 @@ Thinning usual_thinning(const ReportContent& content, std::size_t bytes) {
   }
 }
 
-bool thin(Thinning& thinning, double share) {
+bool reduce(Thinning& thinning, double share) {
   const bool is_fine = thinning.points > kFewestPoints;
   if (!is_fine && thinning.repeats > 1) {
     thinning.repeats = (thinning.repeats + 1) / 2;
@@ -171,7 +171,7 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning) 
     const std::vector<methods::Section> sections = traces.sections(cell.position);
     const std::string cut = sections.empty() || sequence == nullptr
                                 ? ""
-                                : ",\"cut\":" + cut_json(sections, sequence->origin);
+                                : ",\"cut\":" + sections_json(sections, sequence->origin);
     cells +=
         fmt::format("{}\"{}\":{{\"g\":{},\"times\":\"{}\",\"x\":{},\"y\":{},\"z\":{},\"a\":{}{}}}",
                     cells.empty() ? "" : ",\n",

@@ -22,7 +22,7 @@ struct Affected {
 };
 
 /// Cells without scores, or with too little coverage.
-Listing of_cells(const ReportContent& content) {
+TextTable of_cells(const ReportContent& content) {
   std::map<Reason, Affected> reasons;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == "ok" && cell.why.empty()) continue;
@@ -32,7 +32,7 @@ Listing of_cells(const ReportContent& content) {
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
   }
-  Listing out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  TextTable out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
     out.rows.push_back(
@@ -42,7 +42,7 @@ Listing of_cells(const ReportContent& content) {
 }
 
 /// Scores missing from cells that finished.
-Listing of_scores(const ReportContent& content) {
+TextTable of_scores(const ReportContent& content) {
   std::set<std::int64_t> ended;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == "ok" || cell.status == "incomplete") ended.insert(cell.position);
@@ -56,7 +56,7 @@ Listing of_scores(const ReportContent& content) {
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
   }
-  Listing out{
+  TextTable out{
       "undefined scores", {"method", "status", "scores", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
@@ -74,7 +74,7 @@ Listing of_scores(const ReportContent& content) {
 
 std::string failures_html(const ReportContent& content) {
   std::string out;
-  for (const Listing& listing : {of_cells(content), of_scores(content)}) {
+  for (const TextTable& listing : {of_cells(content), of_scores(content)}) {
     if (!listing.rows.empty()) out += html_text_table(listing);
   }
   if (!out.empty()) return out;

@@ -29,7 +29,7 @@ std::string close_table(const std::vector<std::string>& notes) {
   return "</tbody></table></div>" + notes_list(notes) + "</figure>\n";
 }
 
-std::string listing_table(const Listing& listing, bool of_words) {
+std::string listing_table(const TextTable& listing, bool of_words) {
   std::string out = open_table(listing.title, listing.columns, "", of_words);
   for (const std::vector<std::string>& row : listing.rows) {
     out += "<tr>";
@@ -84,9 +84,9 @@ std::string script_text(std::string json) {
   return out;
 }
 
-std::string html_table(const Sheet& sheet, const std::string& attributes) {
-  std::string out = open_table(sheet.title, sheet.headings, attributes);
-  for (const std::vector<SheetEntry>& line : sheet.lines) {
+std::string html_table(const TableView& table_view, const std::string& attributes) {
+  std::string out = open_table(table_view.title, table_view.headings, attributes);
+  for (const std::vector<TableViewEntry>& line : table_view.lines) {
     out += "<tr>";
     for (std::size_t c = 0; c < line.size(); ++c) {
       const std::string text = html_text(line[c].text);
@@ -100,11 +100,11 @@ std::string html_table(const Sheet& sheet, const std::string& attributes) {
     }
     out += "</tr>\n";
   }
-  return out + close_table(sheet.notes);
+  return out + close_table(table_view.notes);
 }
 
-std::string html_table(const Listing& listing) { return listing_table(listing, false); }
+std::string html_table(const TextTable& listing) { return listing_table(listing, false); }
 
-std::string html_text_table(const Listing& listing) { return listing_table(listing, true); }
+std::string html_text_table(const TextTable& listing) { return listing_table(listing, true); }
 
 }  // namespace loopbench::harness

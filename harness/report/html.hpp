@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "harness/tables/listing.hpp"
-#include "harness/tables/sheet.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
@@ -16,10 +16,10 @@ std::string html_text(std::string_view text);
 std::string script_text(std::string json);
 
 /// A table with its caption and a list of notes. `attributes` is inserted into the figure's tag.
-std::string html_table(const Sheet& sheet, const std::string& attributes = "");
-std::string html_table(const Listing& listing);
+std::string html_table(const TableView& table_view, const std::string& attributes = "");
+std::string html_table(const TextTable& listing);
 
 /// The same for columns of words instead of numbers.
-std::string html_text_table(const Listing& listing);
+std::string html_text_table(const TextTable& listing);
 
 }  // namespace loopbench::harness

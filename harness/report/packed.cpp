@@ -51,7 +51,7 @@ std::string packed(const std::vector<double>& values) {
   return fmt::format("{{\"lo\":{:.7g},\"step\":{:.7g},\"b\":\"{}\"}}", low, step, base64(bytes));
 }
 
-std::vector<std::size_t> thinned_places(std::size_t count, std::size_t most) {
+std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most) {
   const std::size_t kept = std::min(count, most);
   std::vector<std::size_t> out(kept);
   for (std::size_t i = 0; i < kept; ++i) out[i] = kept == 1 ? 0 : i * (count - 1) / (kept - 1);

@@ -11,6 +11,6 @@ namespace loopbench::harness {
 std::string packed(const std::vector<double>& values);
 
 /// At most `most` evenly spaced indices of 0..count-1, including both ends.
-std::vector<std::size_t> thinned_places(std::size_t count, std::size_t most);
+std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most);
 
 }  // namespace loopbench::harness

@@ -82,14 +82,14 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
                       {"scripts", scripts()}};
   std::size_t taken = scores.size();
   for (const auto& [name, text] : values) taken += text.size();
-  Thinning thinning = usual_thinning(content, bytes - std::min(bytes, taken));
+  Thinning thinning = initial_thinning(content, bytes - std::min(bytes, taken));
   for (;;) {
     values["data"] = script_text(scores + traces_json(content, thinning) + "}");
     std::string html = filled(asset_text("page/report.html"), values);
     if (html.size() <= bytes) return html;
     const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));
     const double room = static_cast<double>(bytes - std::min(bytes, taken));
-    if (thin(thinning, room / std::max(1.0, traces))) continue;
+    if (reduce(thinning, room / std::max(1.0, traces))) continue;
     throw InputError(fmt::format("{}: the report needs at least {:.2f} MB, --size is {:.2f}",
                                  content.store.string(),
                                  std::ceil(1e-4 * static_cast<double>(html.size())) / 100.0,

@@ -35,12 +35,12 @@ std::string better_name(const Record& r) {
 }  // namespace
 
 std::string scores_json(const ReportContent& content) {
-  std::map<ScoreKind, std::size_t> place;
+  std::map<ScoreKind, std::size_t> index_of_kind;
   nlohmann::json kinds = nlohmann::json::array();
   std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
   for (const Record& r : content.records) {
     if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != "ok") continue;
-    const auto [found, is_new] = place.emplace(score_kind(r), kinds.size());
+    const auto [found, is_new] = index_of_kind.emplace(score_kind(r), kinds.size());
     if (is_new) {
       kinds.push_back({{"label", field(r, "score")},
                        {"protocol", r.protocol},

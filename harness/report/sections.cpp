@@ -94,7 +94,7 @@ std::string summary_html(const ReportContent& content) {
 
 std::string verdicts_html(const ReportContent& content) {
   if (content.comparisons.empty()) return "<p>No baseline, so no verdicts.</p>\n";
-  Listing out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
+  TextTable out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
   for (const Comparison& c : content.comparisons) {
     if (c.methods.size() < 2) continue;
     out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
@@ -106,7 +106,7 @@ std::string verdicts_html(const ReportContent& content) {
 
 std::string comparison_html(const ReportContent& content) {
   const Comparison* headline = content.headline();
-  return headline == nullptr ? "" : html_table(sheet(*headline));
+  return headline == nullptr ? "" : html_table(table_view(*headline));
 }
 
 std::string scores_html(const ReportContent& content) {
@@ -119,7 +119,7 @@ std::string scores_html(const ReportContent& content) {
     if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
     for (const Table& table : pivot(records, TableSpec{})) {
       out +=
-          html_table(sheet(table),
+          html_table(table_view(table),
                      "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
     }
   };
@@ -132,10 +132,10 @@ std::string scores_html(const ReportContent& content) {
 
 std::string costs_html(const ReportContent& content) {
   std::string out;
-  for (const Listing& listing : {costs(content.cells),
-                                 reported(content.cells),
-                                 scaling(content.cells),
-                                 pareto(content.cells, content.records, Accuracy{})}) {
+  for (const TextTable& listing : {costs(content.cells),
+                                   reported(content.cells),
+                                   scaling(content.cells),
+                                   pareto(content.cells, content.records, Accuracy{})}) {
     if (!listing.rows.empty()) out += html_table(listing);
   }
   return out;
@@ -149,11 +149,11 @@ std::string provenance_html(const ReportContent& content) {
   };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
          html_text(value_of("protocol")) + "</pre>\n";
-  Listing made{"provenance", {"item", "value"}, {}, {}};
+  TextTable made{"provenance", {"item", "value"}, {}, {}};
   for (const auto& [key, value] : content.provenance) made.rows.push_back({key, value});
   out += html_text_table(made);
   if (!content.inputs.empty()) {
-    Listing files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    TextTable files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
       for (const InputFile& input : inputs) {
         files.rows.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});

@@ -66,7 +66,7 @@ CellRows read_cell_rows(Database& database) {
   Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
   while (rows.step()) {
     CellRow& cell = out.cells.emplace_back(cell_row(rows));
-    cell.whole = digest_of_columns(rows, 0, rows.columns() - 1) == cell.digest;
+    cell.intact = digest_of_columns(rows, 0, rows.columns() - 1) == cell.digest;
     sum.add(cell.digest);
   }
   out.complete = sum.text() == written_digest(database, "cell");
@@ -94,24 +94,24 @@ void read_details(Database& database,
   }
   const std::size_t number = detail_number(table);
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    if (digests[i].text() != rows.cells[i].details[number]) rows.cells[i].whole = false;
+    if (digests[i].text() != rows.cells[i].details[number]) rows.cells[i].intact = false;
   }
 }
 
-void refuse_damaged(const std::filesystem::path& file, const std::string& what) {
+void throw_damaged(const std::filesystem::path& file, const std::string& what) {
   throw InputError(file.string() + ": is damaged: " + what +
                    " not as written; run 'loopbench run' with its config and '--retry damaged' "
                    "to recompute it");
 }
 
-void require_whole(const CellRows& rows, const std::filesystem::path& file) {
-  const auto damaged = std::ranges::count(rows.cells, false, &CellRow::whole);
+void require_intact(const CellRows& rows, const std::filesystem::path& file) {
+  const auto damaged = std::ranges::count(rows.cells, false, &CellRow::intact);
   if (damaged == 0 && rows.complete) return;
-  if (damaged == 0) refuse_damaged(file, "its list of cells is");
-  const auto first = std::ranges::find(rows.cells, false, &CellRow::whole);
-  refuse_damaged(file,
-                 label_of(first->record) +
-                     (damaged == 1 ? " is" : " and " + std::to_string(damaged - 1) + " more are"));
+  if (damaged == 0) throw_damaged(file, "its list of cells is");
+  const auto first = std::ranges::find(rows.cells, false, &CellRow::intact);
+  throw_damaged(file,
+                label_of(first->record) +
+                    (damaged == 1 ? " is" : " and " + std::to_string(damaged - 1) + " more are"));
 }
 
 std::string label_of(const CellRecord& cell) {

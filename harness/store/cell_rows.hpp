@@ -20,8 +20,8 @@ struct CellRow {
   std::int64_t failed_scores = 0;
   std::array<std::string, 6> details;  ///< digests of its rows by detail_number()
   std::string digest;
-  bool whole = false;  ///< unchanged since it was written, as far as checked
-  CellRecord record;   ///< without phases, counts, notes and sequence data
+  bool intact = false;  ///< unchanged since it was written, as far as checked
+  CellRecord record;    ///< without phases, counts, notes and sequence data
 };
 
 struct CellRows {
@@ -43,10 +43,10 @@ void read_details(Database& database,
 std::size_t detail_number(const std::string& table);
 
 /// Throws InputError naming the first damaged cell, or if a cell is missing.
-void require_whole(const CellRows& rows, const std::filesystem::path& file);
+void require_intact(const CellRows& rows, const std::filesystem::path& file);
 
 /// Throws InputError: `what` in `file` is not as written.
-[[noreturn]] void refuse_damaged(const std::filesystem::path& file, const std::string& what);
+[[noreturn]] void throw_damaged(const std::filesystem::path& file, const std::string& what);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
 std::string label_of(const CellRecord& cell);

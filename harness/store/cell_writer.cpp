@@ -70,7 +70,7 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
     digests_.remove("cell", digest);
   }
 
-  if (result.facts) write_facts(result.cell, keys, *result.facts);
+  if (result.metadata) write_metadata(result.cell, keys, *result.metadata);
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
   for (const methods::Phase& p : result.report.phases)
@@ -93,8 +93,8 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
 std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const DatasetChoice& dataset = keys.sweep().datasets[result.cell.dataset];
   const MethodChoice& method = keys.sweep().methods[result.cell.method];
-  const SequenceFacts none;
-  const SequenceFacts& facts = result.facts ? *result.facts : none;
+  const SequenceMetadata none;
+  const SequenceMetadata& metadata = result.metadata ? *result.metadata : none;
   const auto [low, high] = std::ranges::minmax_element(result.seconds);
   const bool timed = !result.seconds.empty();
   const auto cpu = result.cpu_seconds.empty()
@@ -102,17 +102,17 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
                        : std::optional<double>(metrics::median(result.cpu_seconds));
   const auto failed_scores = std::ranges::count_if(result.scores, is_failure, &ScoreResult::status);
   cell_.bind(static_cast<std::int64_t>(result.cell.index))
-      .bind(keys.key(result.cell, facts.inputs))
+      .bind(keys.key(result.cell, metadata.inputs))
       .bind(keys.build())
-      .bind(keys.sequence_key(result.cell, facts.inputs))
+      .bind(keys.sequence_key(result.cell, metadata.inputs))
       .bind(made_)
       .bind(dataset.label)
       .bind(std::int64_t{result.cell.repeat})
       .bind(method.label)
       .bind(option_text({dataset.dataset}))
       .bind(option_text(method.stages))
-      .bind(facts.closures)
-      .bind(std::int64_t{facts.oracle_closures})
+      .bind(metadata.closures)
+      .bind(std::int64_t{metadata.oracle_closures})
       .bind(std::int64_t{result.oracle_method})
       .bind(text_of(result.worker))
       .bind(static_cast<std::int64_t>(result.seconds.size()))
@@ -163,13 +163,15 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
   }
 }
 
-void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts) {
-  const std::string sequence_key = keys.sequence_key(cell, facts.inputs);
-  if (facts_.contains(sequence_key)) return;
+void CellWriter::write_metadata(const Cell& cell,
+                                CellKeys& keys,
+                                const SequenceMetadata& metadata) {
+  const std::string sequence_key = keys.sequence_key(cell, metadata.inputs);
+  if (metadata_.contains(sequence_key)) return;
   database_.prepare("DELETE FROM input WHERE sequence_key = ?").bind(sequence_key).run();
   Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?)");
   std::int64_t number = 0;
-  for (const InputFile& file : facts.inputs) {
+  for (const InputFile& file : metadata.inputs) {
     input.bind(sequence_key)
         .bind(number++)
         .bind(file.option)
@@ -178,7 +180,7 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .bind(file.hash)
         .run();
   }
-  const SequenceSize& size = facts.size;
+  const SequenceSize& size = metadata.size;
   Statement stored = database_.prepare("SELECT digest FROM sequence WHERE sequence_key = ?");
   if (stored.bind(sequence_key).step()) digests_.remove("sequence", stored.text());
   stored.reset();
@@ -189,16 +191,16 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
           "reference, content, group_name) VALUES (?,?,?,?,?,?,?,?,?,?)")
       .bind(sequence_key)
       .bind(keys.asked(cell))
-      .bind(keys.dataset_in_full(cell))
+      .bind(keys.dataset_text(cell))
       .bind(size.keyframes)
       .bind(size.odometry)
       .bind(size.closures)
       .bind(size.frames)
       .bind(size.reference)
-      .bind(facts.content)
-      .bind(facts.group)
+      .bind(metadata.content)
+      .bind(metadata.group)
       .run();
-  const SequenceTrace& trace = facts.trace;
+  const SequenceTrace& trace = metadata.trace;
   if (!trace.keyframes.empty()) {
     database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?)")
         .bind(sequence_key)
@@ -212,7 +214,7 @@ void CellWriter::write_facts(const Cell& cell, CellKeys& keys, const SequenceFac
         .run();
   }
   digests_.add_sequence(sequence_key);
-  facts_.insert(sequence_key);
+  metadata_.insert(sequence_key);
 }
 
 }  // namespace loopbench::harness

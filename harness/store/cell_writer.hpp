@@ -25,7 +25,7 @@ class CellWriter {
   void write_rows(const CellResult& result, CellKeys& keys);
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
-  void write_facts(const Cell& cell, CellKeys& keys, const SequenceFacts& facts);
+  void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
   Database& database_;
   std::string made_;
@@ -38,7 +38,7 @@ class CellWriter {
   Statement section_;
   Statement trace_;
   DigestWriter digests_;
-  std::set<std::string> facts_;  ///< keys of sequences whose metadata are written
+  std::set<std::string> metadata_;  ///< keys of sequences whose metadata are written
 };
 
 /// Removes the cell with that id from every table, but not from the sum of digests.

@@ -20,17 +20,17 @@ void check_sequence_traces(Database& database, SequenceRows& sequences) {
     found[row.text()] = digest;
   }
   for (auto& [sequence_key, sequence] : sequences.by_key) {
-    if (found[sequence_key] != sequence.trace_digest) sequence.whole = false;
+    if (found[sequence_key] != sequence.trace_digest) sequence.intact = false;
   }
 }
 
-bool all_whole(const SequenceRows& sequences) {
+bool all_intact(const SequenceRows& sequences) {
   return std::ranges::all_of(sequences.by_key,
-                             [](const auto& entry) { return entry.second.whole; });
+                             [](const auto& entry) { return entry.second.intact; });
 }
 
-Sound look(Database& database, bool traces) {
-  Sound out;
+CheckedStore look(Database& database, bool traces) {
+  CheckedStore out;
   out.cells = read_cell_rows(database);
   for (const char* table : {"score", "phase", "count", "note", "section"}) {
     read_details(database, table, out.cells);
@@ -40,28 +40,28 @@ Sound look(Database& database, bool traces) {
     read_details(database, "trace", out.cells);
     check_sequence_traces(database, out.sequences);
   }
-  const bool lost = !out.sequences.complete || !all_whole(out.sequences);
+  const bool lost = !out.sequences.complete || !all_intact(out.sequences);
   for (CellRow& cell : out.cells.cells) {
     const auto sequence = out.sequences.by_key.find(cell.sequence_key);
     if (sequence != out.sequences.by_key.end()) {
-      if (!sequence->second.whole) cell.whole = false;
+      if (!sequence->second.intact) cell.intact = false;
       continue;
     }
     // Only a failed cell can have none, because its sequence could not be loaded.
     const auto status = from_text<Status>(cell.record.status);
-    if (lost && !(status && is_failure(*status))) cell.whole = false;
+    if (lost && !(status && is_failure(*status))) cell.intact = false;
   }
   return out;
 }
 
-bool is_whole(const Sound& found) {
+bool is_intact(const CheckedStore& found) {
   return found.cells.complete && found.sequences.complete &&
-         std::ranges::all_of(found.cells.cells, &CellRow::whole) && all_whole(found.sequences);
+         std::ranges::all_of(found.cells.cells, &CellRow::intact) && all_intact(found.sequences);
 }
 
-void remove(Database& database, const Sound& found) {
+void remove(Database& database, const CheckedStore& found) {
   for (const CellRow& cell : found.cells.cells) {
-    if (!cell.whole) remove_cell(database, cell.id);
+    if (!cell.intact) remove_cell(database, cell.id);
   }
   // Rows of a removed cell must not be assigned to a later cell with the same id.
   for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
@@ -69,51 +69,51 @@ void remove(Database& database, const Sound& found) {
                      " WHERE cell NOT IN (SELECT id FROM cell)");
   }
   for (const auto& [sequence_key, sequence] : found.sequences.by_key) {
-    if (sequence.whole) continue;
+    if (sequence.intact) continue;
     for (const char* table : {"input", "sequence", "sequence_trace"}) {
       database.prepare(std::string("DELETE FROM ") + table + " WHERE sequence_key = ?")
           .bind(sequence_key)
           .run();
     }
   }
-  renew_sum(database, "cell");
-  renew_sum(database, "sequence");
+  update_sum(database, "cell");
+  update_sum(database, "sequence");
 }
 
 }  // namespace
 
-Sound remove_damaged(Database& database, const std::filesystem::path& file, bool traces) {
-  require_whole_texts(database, "run", file);
-  require_whole_texts(database, "provenance", file);
+CheckedStore remove_damaged(Database& database, const std::filesystem::path& file, bool traces) {
+  require_intact_texts(database, "run", file);
+  require_intact_texts(database, "provenance", file);
   if (traces) database.execute("REINDEX");
-  Sound found = look(database, traces);
-  if (is_whole(found)) return found;
+  CheckedStore found = look(database, traces);
+  if (is_intact(found)) return found;
   remove(database, found);
-  Sound out = look(database, traces);
-  if (!is_whole(out)) {
+  CheckedStore out = look(database, traces);
+  if (!is_intact(out)) {
     throw InputError(
         file.string() +
         ": is damaged and cannot be repaired; --fresh keeps it as previous.sqlite and starts "
         "a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
-    if (!cell.whole) out.removed.push_back(label_of(cell.record));
+    if (!cell.intact) out.removed.push_back(label_of(cell.record));
   }
   out.lost = !found.cells.complete;
   return out;
 }
 
-void require_whole_store(const std::filesystem::path& file) {
+void require_intact_store(const std::filesystem::path& file) {
   Database database = open_store(file);
-  for (const char* table : {"run", "provenance"}) require_whole_texts(database, table, file);
-  const Sound found = look(database, true);
-  require_whole(found.sequences, file);
-  require_whole(found.cells, file);
+  for (const char* table : {"run", "provenance"}) require_intact_texts(database, table, file);
+  const CheckedStore found = look(database, true);
+  require_intact(found.sequences, file);
+  require_intact(found.cells, file);
 }
 
-void require_whole_texts(Database& database,
-                         const std::string& table,
-                         const std::filesystem::path& file) {
+void require_intact_texts(Database& database,
+                          const std::string& table,
+                          const std::filesystem::path& file) {
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
   throw InputError(file.string() + ": is damaged: its table " + table +
                    " is not as written; run 'loopbench run' with its config and '--fresh', which "

@@ -10,7 +10,7 @@
 
 namespace loopbench::harness {
 
-struct Sound {
+struct CheckedStore {
   CellRows cells;
   SequenceRows sequences;
   std::vector<std::string> removed;  ///< labels of the damaged cells
@@ -20,14 +20,14 @@ struct Sound {
 /// Removes every cell that is damaged, or whose sequence is; it counts as not run. Checks traces
 /// (nearly all of the file) and indexes only with `traces`. Call within a transaction. O(rows).
 /// Throws InputError if the damage is outside the cells.
-Sound remove_damaged(Database& database, const std::filesystem::path& file, bool traces);
+CheckedStore remove_damaged(Database& database, const std::filesystem::path& file, bool traces);
 
 /// Throws InputError unless the complete store, including traces, is as written. O(bytes).
-void require_whole_store(const std::filesystem::path& file);
+void require_intact_store(const std::filesystem::path& file);
 
 /// Throws InputError unless `table`, run or provenance, is as written.
-void require_whole_texts(Database& database,
-                         const std::string& table,
-                         const std::filesystem::path& file);
+void require_intact_texts(Database& database,
+                          const std::string& table,
+                          const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -59,7 +59,7 @@ class Merge {
 
   void add(const std::filesystem::path& store) {
     store_ = store_file(store).string();
-    require_whole_store(store_);  // also recovers the log of a killed process
+    require_intact_store(store_);  // also recovers the log of a killed process
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
@@ -73,8 +73,8 @@ class Merge {
 
   Merged done() {
     Transaction transaction(database_);
-    for (const char* table : {"cell", "sequence"}) renew_sum(database_, table);
-    for (const char* table : {"run", "provenance"}) renew_texts(database_, table);
+    for (const char* table : {"cell", "sequence"}) update_sum(database_, table);
+    for (const char* table : {"run", "provenance"}) update_texts(database_, table);
     transaction.commit();
     return {known_.size(), twice_};
   }
@@ -147,7 +147,7 @@ class Merge {
         .bind(cell.method)
         .bind(id)
         .run();
-    digests_.renew_cell(id);
+    digests_.update_cell(id);
     for (const auto& [table, fields] : kDetails) {
       const std::string name = table;
       const std::string list = fields;
@@ -234,7 +234,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
       for (const std::filesystem::path& store : stores) merge.add(store);
       merged = merge.done();
     }
-    require_whole_store(partial);  // detects rows that a damaged index did not find
+    require_intact_store(partial);  // detects rows that a damaged index did not find
     std::filesystem::rename(partial, out);
     return merged;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -8,7 +8,7 @@ namespace loopbench::harness {
 
 struct Merged {
   std::size_t cells = 0;
-  std::size_t twice = 0;  ///< duplicate cells that were skipped
+  std::size_t duplicates = 0;  ///< duplicate cells that were skipped
 };
 
 /// Writes the cells of all `stores` (those of their current configs) into the new store `out`; on

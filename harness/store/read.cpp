@@ -7,9 +7,9 @@
 
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/damage.hpp"
+#include "harness/store/failed_metrics.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/sequence_rows.hpp"
-#include "harness/store/whole_failures.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -83,9 +83,9 @@ template <class Add>
 void for_sequences(const std::filesystem::path& file, Add add) {
   Database database = open_store(file);
   const CellRows rows = read_cell_rows(database);
-  require_whole(rows, store_file(file));
+  require_intact(rows, store_file(file));
   const SequenceRows sequences = read_sequence_rows(database);
-  require_whole(sequences, store_file(file));
+  require_intact(sequences, store_file(file));
   std::set<std::pair<std::string, std::string>> seen;
   for (const std::size_t i : in_order(rows)) {
     const CellRow& cell = rows.cells[i];
@@ -105,9 +105,9 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   read_details(database, "score", rows, [&](std::size_t cell, Statement& row) {
     if (rows.cells[cell].placed) add_score(rows.cells[cell].record, row, scores[cell]);
   });
-  require_whole(rows, store_file(file));
+  require_intact(rows, store_file(file));
   const SequenceRows sequences = read_sequence_rows(database);
-  require_whole(sequences, store_file(file));
+  require_intact(sequences, store_file(file));
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
     const auto sequence = sequences.by_key.find(rows.cells[cell].sequence_key);
@@ -120,7 +120,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     }
     std::ranges::move(scores[cell], std::back_inserter(out));
   }
-  name_failed_scores(out);
+  expand_failed_metrics(out);
   return out;
 }
 
@@ -139,9 +139,9 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   read_details(database, "note", rows, [&](std::size_t cell, Statement& row) {
     record(cell).notes.push_back(row.text());
   });
-  require_whole(rows, store_file(file));
+  require_intact(rows, store_file(file));
   const SequenceRows sequences = read_sequence_rows(database);
-  require_whole(sequences, store_file(file));
+  require_intact(sequences, store_file(file));
   std::vector<CellRecord> out;
   for (const std::size_t cell : in_order(rows)) {
     out.push_back(std::move(record(cell)));
@@ -155,7 +155,7 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
   Database database = open_store(file);
-  require_whole_texts(database, "run", store_file(file));
+  require_intact_texts(database, "run", store_file(file));
   Statement rows = database.prepare("SELECT key, value FROM run NOT INDEXED");
   std::map<std::string, std::string> out;
   while (rows.step()) {
@@ -167,7 +167,7 @@ std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {
   Database database = open_store(file);
-  require_whole_texts(database, "provenance", store_file(file));
+  require_intact_texts(database, "provenance", store_file(file));
   Statement rows = database.prepare(
       "SELECT key, value FROM provenance NOT INDEXED JOIN (SELECT made, min(position) AS first "
       "FROM cell NOT INDEXED WHERE position IS NOT NULL GROUP BY made) USING (made) ORDER BY "
@@ -176,8 +176,8 @@ std::map<std::string, std::string> read_provenance(const std::filesystem::path& 
   while (rows.step()) {
     const std::string key = rows.text();
     const std::string value = rows.text();
-    if (const auto [place, is_new] = out.emplace(key, value); !is_new) {
-      add_lines(place->second, value);
+    if (const auto [entry, is_new] = out.emplace(key, value); !is_new) {
+      add_lines(entry->second, value);
     }
   }
   return out;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
 

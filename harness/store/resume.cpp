@@ -50,7 +50,7 @@ bool same_content(const Inputs& a, const Inputs& b) {
 Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, const Cell& cell) {
   Inputs now;
   for (const SequenceRow* sequence : known) {
-    now = keys.as_they_are(cell, sequence->inputs);
+    now = keys.current_inputs(cell, sequence->inputs);
     if (same_content(now, sequence->inputs)) break;
   }
   return now;
@@ -67,9 +67,9 @@ std::vector<std::string> keys_now(const SequenceRows& sequences,
   out.reserve(all.size());
   for (const Cell& cell : all) {
     const std::string& asked = keys.asked(cell);
-    const auto [place, is_new] = inputs.try_emplace(asked);
-    if (is_new) place->second = inputs_now(known[asked], keys, cell);
-    out.push_back(keys.key(cell, place->second));
+    const auto [entry, is_new] = inputs.try_emplace(asked);
+    if (is_new) entry->second = inputs_now(known[asked], keys, cell);
+    out.push_back(keys.key(cell, entry->second));
   }
   return out;
 }
@@ -103,7 +103,7 @@ std::vector<Row*> claim(Rows& rows,
 }  // namespace
 
 Resumed match(Database& database,
-              const Sound& stored_rows,
+              const CheckedStore& stored_rows,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,
@@ -123,11 +123,11 @@ Resumed match(Database& database,
     for (const Row& row : same_key) {
       if (row.claimed || row.position < 0) continue;
       set_aside.bind(row.id).run();
-      digests.renew_cell(row.id);
+      digests.update_cell(row.id);
       out.unchanged = false;
     }
   }
-  Statement place = database.prepare(
+  Statement entry = database.prepare(
       "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
   std::unordered_map<std::size_t, const Row*> by_position;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -140,15 +140,15 @@ Resumed match(Database& database,
     const auto position = static_cast<std::int64_t>(all[i].index);
     if (row.position == position && same_labels(row, all[i], sweep)) continue;
     out.unchanged = false;
-    place.bind(position)
+    entry.bind(position)
         .bind(sweep.datasets[all[i].dataset].label)
         .bind(std::int64_t{all[i].repeat})
         .bind(sweep.methods[all[i].method].label)
         .bind(row.id)
         .run();
-    digests.renew_cell(row.id);
+    digests.update_cell(row.id);
   }
-  if (!out.unchanged) renew_sum(database, "cell");
+  if (!out.unchanged) update_sum(database, "cell");
   for (const Cell& cell : planned) {
     const auto found = by_position.find(cell.index);
     const Row* row = found == by_position.end() ? nullptr : found->second;

@@ -10,7 +10,7 @@ namespace loopbench::harness {
 
 /// See Store::resume. `there`: cells of the store. Call within a transaction.
 Resumed match(Database& database,
-              const Sound& there,
+              const CheckedStore& there,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,

@@ -26,7 +26,7 @@ SequenceRows read_sequence_rows(Database& database) {
     input_digests[sequence_key] = rows.text();
     s.trace_digest = rows.text();
     s.digest = rows.text();
-    s.whole = digest_of_columns(rows, 0, rows.columns() - 1) == s.digest;
+    s.intact = digest_of_columns(rows, 0, rows.columns() - 1) == s.digest;
     sum.add(s.digest);
   }
   out.complete = sum.text() == written_digest(database, "sequence");
@@ -45,15 +45,15 @@ SequenceRows read_sequence_rows(Database& database) {
     file.hash = files.text();
   }
   for (auto& [sequence_key, row] : out.by_key) {
-    if (inputs[sequence_key].text() != input_digests[sequence_key]) row.whole = false;
+    if (inputs[sequence_key].text() != input_digests[sequence_key]) row.intact = false;
   }
   return out;
 }
 
-void require_whole(const SequenceRows& rows, const std::filesystem::path& file) {
-  if (!rows.complete) refuse_damaged(file, "the table of sequences is");
+void require_intact(const SequenceRows& rows, const std::filesystem::path& file) {
+  if (!rows.complete) throw_damaged(file, "the table of sequences is");
   for (const auto& [sequence_key, row] : rows.by_key) {
-    if (!row.whole) refuse_damaged(file, "the metadata of sequence " + row.options + " is");
+    if (!row.intact) throw_damaged(file, "the metadata of sequence " + row.options + " is");
   }
 }
 

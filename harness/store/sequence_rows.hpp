@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
@@ -22,7 +22,7 @@ struct SequenceRow {
   std::vector<InputFile> inputs;
   std::string trace_digest;
   std::string digest;
-  bool whole = false;  ///< it and its inputs are as written
+  bool intact = false;  ///< it and its inputs are as written
 };
 
 struct SequenceRows {
@@ -34,6 +34,6 @@ struct SequenceRows {
 SequenceRows read_sequence_rows(Database& database);
 
 /// Throws InputError if a row is damaged or missing.
-void require_whole(const SequenceRows& rows, const std::filesystem::path& file);
+void require_intact(const SequenceRows& rows, const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -75,10 +75,10 @@ void write_run(Database& database, const CellKeys& keys) {
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
   set_value("protocol", rules);
-  set_value("metrics", keys.metrics_in_full());
-  set_value("methods", keys.methods_in_full());
+  set_value("metrics", keys.metric_definitions());
+  set_value("methods", keys.method_definitions());
   set_value("baseline", sweep.baseline);
-  renew_texts(database, "run");
+  update_texts(database, "run");
 }
 
 /// Whether the stored description of the run is current: a default in the code can have changed.
@@ -87,8 +87,8 @@ bool is_run_current(Database& database, const CellKeys& keys) {
     Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
     return row.bind(key).step() && row.text() == text;
   };
-  return is("config", keys.sweep().text) && is("metrics", keys.metrics_in_full()) &&
-         is("methods", keys.methods_in_full());
+  return is("config", keys.sweep().text) && is("metrics", keys.metric_definitions()) &&
+         is("methods", keys.method_definitions());
 }
 
 /// Provenance of the cells of this run.
@@ -102,7 +102,7 @@ void write_provenance(Database& database, const std::map<std::string, std::strin
   const std::string made = made_key(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
   for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
-  renew_texts(database, "provenance");
+  update_texts(database, "provenance");
 }
 
 }  // namespace
@@ -158,9 +158,9 @@ void Store::create() {
   database_->execute(kSchema);
   database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   write_run(*database_, keys_);
-  renew_texts(*database_, "provenance");
-  renew_sum(*database_, "cell");
-  renew_sum(*database_, "sequence");
+  update_texts(*database_, "provenance");
+  update_sum(*database_, "cell");
+  update_sum(*database_, "sequence");
   transaction.commit();
 }
 
@@ -171,7 +171,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
-  const Sound there = remove_damaged(*database_, file_, retry == Retry::damaged);
+  const CheckedStore there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
   out.unchanged = out.unchanged && is_run_current(*database_, keys_);
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
@@ -201,13 +201,13 @@ void Store::write(const CellResult& result) {
 
 void Store::changes() {
   database_->execute("DELETE FROM run WHERE key = 'exported'");
-  renew_texts(*database_, "run");
+  update_texts(*database_, "run");
 }
 
 void Store::exported() {
   Transaction transaction(*database_);
   database_->execute("INSERT OR REPLACE INTO run VALUES ('exported', 'yes')");
-  renew_texts(*database_, "run");
+  update_texts(*database_, "run");
   transaction.commit();
 }
 

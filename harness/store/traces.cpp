@@ -35,8 +35,8 @@ Traces::Traces(const std::filesystem::path& file)
     section.end = row.real();
     section.what = row.text();
   });
-  require_whole(rows_, file_);
-  require_whole(sequences_, file_);
+  require_intact(rows_, file_);
+  require_intact(sequences_, file_);
   database_.execute("COMMIT");  // a report takes long and must not block writers
   for (const std::size_t i : in_order(rows_))
     by_position_.emplace(rows_.cells[i].record.position, i);
@@ -54,7 +54,7 @@ std::optional<CellTrace> Traces::cell(std::int64_t position) {
   Statement found = database_.prepare("SELECT * FROM trace WHERE cell = ?");
   if (!found.bind(cell->id).step() ||
       digest_of_columns(found, 1, found.columns()) != cell->details[detail_number("trace")]) {
-    refuse_damaged(file_, "the trace of " + label_of(cell->record) + " is");
+    throw_damaged(file_, "the trace of " + label_of(cell->record) + " is");
   }
   CellTrace out;
   found.integer();  // cell
@@ -77,7 +77,7 @@ std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?");
   if (!found.bind(cell->sequence_key).step() ||
       digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
-    refuse_damaged(file_, "the trace of sequence " + cell->record.sequence + " is");
+    throw_damaged(file_, "the trace of sequence " + cell->record.sequence + " is");
   }
   SequenceTrace out;
   found.text();  // sequence_key

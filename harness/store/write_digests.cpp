@@ -43,7 +43,7 @@ std::string DigestWriter::digest_of(Statement& rows, const Key& key) {
 }
 
 template <class Key>
-std::string DigestWriter::renew(Statement& row, Statement& set, const Key& key) {
+std::string DigestWriter::update(Statement& row, Statement& set, const Key& key) {
   row.bind(key);
   if (!row.step()) throw std::runtime_error("no row to take a digest of");
   const std::string digest = digest_of_columns(row, 0, row.columns() - 1);
@@ -55,17 +55,17 @@ std::string DigestWriter::renew(Statement& row, Statement& set, const Key& key) 
 void DigestWriter::add_cell(std::int64_t id) {
   for (Statement& rows : details_) set_details_.bind(digest_of(rows, id));
   set_details_.bind(id).run();
-  change_sum("cell", renew(cell_, set_cell_, id), &SumOfDigests::add);
+  change_sum("cell", update(cell_, set_cell_, id), &SumOfDigests::add);
 }
 
-void DigestWriter::renew_cell(std::int64_t id) { renew(cell_, set_cell_, id); }
+void DigestWriter::update_cell(std::int64_t id) { update(cell_, set_cell_, id); }
 
 void DigestWriter::add_sequence(const std::string& sequence_key) {
   set_sequence_details_.bind(digest_of(inputs_, sequence_key))
       .bind(digest_of(sequence_trace_, sequence_key))
       .bind(sequence_key)
       .run();
-  change_sum("sequence", renew(sequence_, set_sequence_, sequence_key), &SumOfDigests::add);
+  change_sum("sequence", update(sequence_, set_sequence_, sequence_key), &SumOfDigests::add);
 }
 
 void DigestWriter::remove(const std::string& table, const std::string& digest) {
@@ -101,11 +101,11 @@ std::string written_digest(Database& database, const std::string& table) {
   return row.bind(table).step() ? row.text() : "";
 }
 
-void renew_sum(Database& database, const std::string& table) {
+void update_sum(Database& database, const std::string& table) {
   set_written(database, table, sum_of_digests(database, table));
 }
 
-void renew_texts(Database& database, const std::string& table) {
+void update_texts(Database& database, const std::string& table) {
   set_written(database, table, digest_of_texts(database, table));
 }
 

@@ -18,7 +18,7 @@ class DigestWriter {
   void add_cell(std::int64_t id);
 
   /// Updates the digest of the cell's own row after a change of labels or position. Not the sum.
-  void renew_cell(std::int64_t id);
+  void update_cell(std::int64_t id);
 
   /// Updates the digest of that sequence's row, inputs and trace, and the sum.
   void add_sequence(const std::string& sequence_key);
@@ -30,7 +30,7 @@ class DigestWriter {
   template <class Key>
   std::string digest_of(Statement& rows, const Key& key);
   template <class Key>
-  std::string renew(Statement& row, Statement& set, const Key& key);
+  std::string update(Statement& row, Statement& set, const Key& key);
   void change_sum(const std::string& table,
                   const std::string& digest,
                   void (SumOfDigests::*change)(std::string_view));
@@ -50,11 +50,11 @@ class DigestWriter {
 
 /// Sum of a table's digests, cell or sequence, computed from its rows. O(rows).
 std::string sum_of_digests(Database& database, const std::string& table);
-void renew_sum(Database& database, const std::string& table);
+void update_sum(Database& database, const std::string& table);
 
 /// Digest of a table of texts, run or provenance.
 std::string digest_of_texts(Database& database, const std::string& table);
-void renew_texts(Database& database, const std::string& table);
+void update_texts(Database& database, const std::string& table);
 
 /// Stored digest of a table: cell, sequence, run or provenance.
 std::string written_digest(Database& database, const std::string& table);

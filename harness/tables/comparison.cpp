@@ -45,20 +45,20 @@ Mark mark_of(const Comparison& c, const MethodVerdict& m) {
 
 }  // namespace
 
-Sheet sheet(const Comparison& c) {
+TableView table_view(const Comparison& c) {
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
-  Sheet out{title(c),
-            {"method",
-             "median" + unit,
-             "ratio",
-             fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
-             "better/worse/equal",
-             "p",
-             "effect",
-             "rank",
-             "group"},
-            {},
-            {verdict(c)}};
+  TableView out{title(c),
+                {"method",
+                 "median" + unit,
+                 "ratio",
+                 fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
+                 "better/worse/equal",
+                 "p",
+                 "effect",
+                 "rank",
+                 "group"},
+                {},
+                {verdict(c)}};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   for (const MethodVerdict& m : c.methods) {

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/tables/sheet.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
 /// One line per method, best first: median, ratio to the baseline with its interval, wins, losses
 /// and ties against it, p, effect size, range of possible ranks, and letters. The best method is
 /// marked if it is significantly better. Notes: verdict, remarks.
-Sheet sheet(const Comparison& comparison);
+TableView table_view(const Comparison& comparison);
 
 /// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);

@@ -11,7 +11,7 @@
 namespace loopbench::harness {
 namespace {
 
-auto place(const Record& r) {
+auto comparison_key(const Record& r) {
   return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
 }
 using RowPlace =
@@ -57,11 +57,11 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
   std::map<RowPlace, const metrics::Statistics*> base;
   for (const Record& r : records) {
-    if (is_gain_source(r) && r.method == baseline) base.emplace(place(r), &r.statistics);
+    if (is_gain_source(r) && r.method == baseline) base.emplace(comparison_key(r), &r.statistics);
   }
   std::vector<Record> out;
   for (const Record& r : records) {
-    const auto found = is_gain_source(r) ? base.find(place(r)) : base.end();
+    const auto found = is_gain_source(r) ? base.find(comparison_key(r)) : base.end();
     if (found == base.end()) continue;
     const metrics::Statistics& b = *found->second;
     Record g = r;

@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "harness/tables/sheet.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -41,7 +41,7 @@ std::string escaped_latex(const std::string& text) {
   return out;
 }
 
-std::string marked_latex(const SheetEntry& entry) {
+std::string marked_latex(const TableViewEntry& entry) {
   const std::string text = escaped_latex(entry.text);
   if (entry.mark == Mark::best) return "\\textbf{" + text + "}";
   if (entry.mark == Mark::second) return "\\underline{" + text + "}";
@@ -50,20 +50,20 @@ std::string marked_latex(const SheetEntry& entry) {
 
 }  // namespace
 
-std::string latex(const Sheet& sheet) {
-  std::string out = sheet.title.empty() ? "" : "% " + one_line(sheet.title) + "\n";
-  out += "\\begin{tabular}{l" + std::string(sheet.headings.size() - 1, 'r') + "}\n\\toprule\n";
-  for (std::size_t c = 0; c < sheet.headings.size(); ++c) {
-    out += (c == 0 ? "" : " & ") + escaped_latex(sheet.headings[c]);
+std::string latex(const TableView& table_view) {
+  std::string out = table_view.title.empty() ? "" : "% " + one_line(table_view.title) + "\n";
+  out += "\\begin{tabular}{l" + std::string(table_view.headings.size() - 1, 'r') + "}\n\\toprule\n";
+  for (std::size_t c = 0; c < table_view.headings.size(); ++c) {
+    out += (c == 0 ? "" : " & ") + escaped_latex(table_view.headings[c]);
   }
   out += " \\\\\n\\midrule\n";
-  for (const auto& line : sheet.lines) {
+  for (const auto& line : table_view.lines) {
     for (std::size_t c = 0; c < line.size(); ++c)
       out += (c == 0 ? "" : " & ") + marked_latex(line[c]);
     out += " \\\\\n";
   }
   out += "\\bottomrule\n\\end{tabular}\n";
-  for (const std::string& note : sheet.notes) out += "% " + one_line(note) + "\n";
+  for (const std::string& note : table_view.notes) out += "% " + one_line(note) + "\n";
   return out;
 }
 

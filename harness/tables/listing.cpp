@@ -20,7 +20,7 @@ std::string escaped_cell(const std::string& text) {
 
 }  // namespace
 
-std::string markdown(const Listing& listing) {
+std::string markdown(const TextTable& listing) {
   std::vector<std::size_t> widths;
   for (const std::string& column : listing.columns) {
     widths.push_back(std::max<std::size_t>(2, escaped_cell(column).size()));  // a dash and a colon
@@ -50,7 +50,7 @@ std::string markdown(const Listing& listing) {
   return out;
 }
 
-std::string csv(const Listing& listing) {
+std::string csv(const TextTable& listing) {
   std::string out = "table";
   for (const std::string& column : listing.columns) out += "," + quoted(column);
   out += "\n";

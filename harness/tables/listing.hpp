@@ -6,7 +6,7 @@
 
 namespace loopbench::harness {
 
-struct Listing {
+struct TextTable {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  ///< each as long as columns
@@ -15,9 +15,9 @@ struct Listing {
 
 /// Padded for reading on a terminal; the first column is left-aligned, the others right-aligned.
 /// Pipes are escaped.
-std::string markdown(const Listing& listing);
+std::string markdown(const TextTable& listing);
 
 /// RFC 4180, with the title as first column.
-std::string csv(const Listing& listing);
+std::string csv(const TextTable& listing);
 
 }  // namespace loopbench::harness

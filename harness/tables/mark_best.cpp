@@ -17,7 +17,7 @@ struct MarkContest {
   std::size_t groups = 0;
 };
 
-MarkContest mark_contest(const Lane& lane) {
+MarkContest mark_contest(const MarkInput& lane) {
   MarkContest out;
   std::set<std::string> runs;
   for (std::size_t i = 0; i < lane.competitors.size(); ++i) {
@@ -52,7 +52,7 @@ const char* mark_name(Mark mark) {
   return mark == Mark::best ? "best" : mark == Mark::second ? "second" : "";
 }
 
-Marks mark_best(const Lane& lane, const RankingOptions& options) {
+Marks mark_best(const MarkInput& lane, const RankingOptions& options) {
   Marks out{std::vector<Mark>(lane.competitors.size(), Mark::none), ""};
   const MarkContest all = mark_contest(lane);
   if (all.entries.size() < 2 || all.groups == 0) return out;

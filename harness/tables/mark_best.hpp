@@ -19,7 +19,7 @@ const char* mark_name(Mark mark);
 using ByRun = std::map<std::string, std::optional<double>>;
 
 /// Input of the comparison for marks.
-struct Lane {
+struct MarkInput {
   std::vector<ByRun> competitors;
   std::map<std::string, std::string> group;  ///< group of each run; without entry, the run itself
   metrics::Better better = metrics::Better::lower;
@@ -35,6 +35,6 @@ struct Marks {
 /// best: significantly better than all except the best. Equal methods share a mark. A competitor
 /// that lacks a run without having failed on it is compared on the common runs, but never marked.
 /// Competitors without values are ignored.
-Marks mark_best(const Lane& lane, const RankingOptions& options);
+Marks mark_best(const MarkInput& lane, const RankingOptions& options);
 
 }  // namespace loopbench::harness

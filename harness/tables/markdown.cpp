@@ -31,7 +31,7 @@ std::string escaped_markdown(const std::string& text) {
   return out;
 }
 
-std::string marked_markdown(const SheetEntry& entry) {
+std::string marked_markdown(const TableViewEntry& entry) {
   const char* around = entry.mark == Mark::best ? "**" : entry.mark == Mark::second ? "_" : "";
   return around + escaped_markdown(entry.text) + around;
 }
@@ -45,15 +45,17 @@ std::string line_of(const std::vector<std::string>& texts, const std::vector<std
 
 }  // namespace
 
-std::string markdown(const Sheet& sheet) {
+std::string markdown(const TableView& table_view) {
   std::vector<std::vector<std::string>> grid(1);
-  for (const std::string& heading : sheet.headings) grid[0].push_back(escaped_markdown(heading));
-  for (const auto& line : sheet.lines) {
+  for (const std::string& heading : table_view.headings)
+    grid[0].push_back(escaped_markdown(heading));
+  for (const auto& line : table_view.lines) {
     grid.emplace_back();
-    for (const SheetEntry& entry : line) grid.back().push_back(marked_markdown(entry));
+    for (const TableViewEntry& entry : line) grid.back().push_back(marked_markdown(entry));
   }
   const std::vector<std::size_t> wide = widths(grid);
-  std::string out = sheet.title.empty() ? "" : "### " + escaped_markdown(sheet.title) + "\n\n";
+  std::string out =
+      table_view.title.empty() ? "" : "### " + escaped_markdown(table_view.title) + "\n\n";
   out += line_of(grid[0], wide);
   std::vector<std::string> rule;
   for (std::size_t c = 0; c < wide.size(); ++c) {
@@ -61,12 +63,12 @@ std::string markdown(const Sheet& sheet) {
   }
   out += line_of(rule, wide);
   for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
-  if (!sheet.notes.empty()) out += "\n";
-  for (const std::string& note : sheet.notes) out += "- " + escaped_markdown(note) + "\n";
+  if (!table_view.notes.empty()) out += "\n";
+  for (const std::string& note : table_view.notes) out += "- " + escaped_markdown(note) + "\n";
   return out;
 }
 
-std::string markdown(const Table& table) { return markdown(sheet(table)); }
+std::string markdown(const Table& table) { return markdown(table_view(table)); }
 
 std::string markdown(const std::vector<Table>& tables) {
   std::string out;

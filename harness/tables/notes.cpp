@@ -22,9 +22,9 @@ template <class Key>
 class Lists {
  public:
   std::vector<std::string>& of(const Key& key) {
-    const auto [place, is_new] = place_.emplace(key, lists.size());
+    const auto [entry, is_new] = place_.emplace(key, lists.size());
     if (is_new) lists.emplace_back(key, std::vector<std::string>());
-    return lists[place->second].second;
+    return lists[entry->second].second;
   }
 
   std::vector<std::pair<Key, std::vector<std::string>>> lists;

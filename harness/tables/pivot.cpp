@@ -78,8 +78,8 @@ void mark(Table& out,
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const std::vector<TablePosition> cells = places(table, l, along_columns);
-    const Lane all = lane(table, cells, along_columns);
+    const std::vector<TablePosition> cells = cell_indices(table, l, along_columns);
+    const MarkInput all = lane(table, cells, along_columns);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
                             : mark_best(all, options);
@@ -107,7 +107,7 @@ void mark(Table& out,
 void explain_averages(Table& out, const TableNumbers& table) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const auto& [place, numbers] : table.numbers) {
+  for (const auto& [cell_index, numbers] : table.numbers) {
     most = std::max(most, numbers.averaged());
     has_gain = has_gain || numbers.is_gain();
   }

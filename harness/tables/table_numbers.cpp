@@ -7,21 +7,21 @@ namespace {
 
 /// What the cells of a column (or a row) tried and finished.
 std::vector<CellRuns> cell_runs(const TableNumbers& table,
-                                const std::vector<TablePosition>& places,
+                                const std::vector<TablePosition>& cell_indices,
                                 bool along_columns) {
   std::vector<CellRuns> out;
-  for (const TablePosition& place : places) {
+  for (const TablePosition& cell_index : cell_indices) {
     CellRuns& own = out.emplace_back();
-    const auto found = table.numbers.find(place);
+    const auto found = table.numbers.find(cell_index);
     if (found == table.numbers.end()) continue;
     own.finished = found->second.finished();
-    own.tried = table.tried.at(place);
+    own.tried = table.tried.at(cell_index);
     const auto add = [&](const auto& losses, const auto& key) {
       if (const auto lost = losses.find(key); lost != losses.end()) {
         own.tried.insert(lost->second.begin(), lost->second.end());
       }
     };
-    if (along_columns) add(table.lost_by_row, place.first);
+    if (along_columns) add(table.lost_by_row, cell_index.first);
     if (!along_columns) add(table.lost_by_method, found->second.method());
   }
   return out;
@@ -29,7 +29,9 @@ std::vector<CellRuns> cell_runs(const TableNumbers& table,
 
 }  // namespace
 
-std::vector<TablePosition> places(const TableNumbers& table, std::size_t lane, bool along_columns) {
+std::vector<TablePosition> cell_indices(const TableNumbers& table,
+                                        std::size_t lane,
+                                        bool along_columns) {
   const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
   std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
@@ -38,12 +40,14 @@ std::vector<TablePosition> places(const TableNumbers& table, std::size_t lane, b
   return out;
 }
 
-Lane lane(const TableNumbers& table, const std::vector<TablePosition>& cells, bool along_columns) {
-  Lane out{{}, table.groups, metrics::Better::neither, 0.0};
+MarkInput lane(const TableNumbers& table,
+               const std::vector<TablePosition>& cells,
+               bool along_columns) {
+  MarkInput out{{}, table.groups, metrics::Better::neither, 0.0};
   std::set<std::string> runs;
-  for (const TablePosition& place : cells) {
+  for (const TablePosition& cell_index : cells) {
     ByRun& own = out.competitors.emplace_back();
-    const auto found = table.numbers.find(place);
+    const auto found = table.numbers.find(cell_index);
     if (found == table.numbers.end() || found->second.runs().empty()) continue;
     own = found->second.runs();
     out.better = found->second.better();
@@ -71,7 +75,7 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   const std::vector<std::string> names = (along_columns ? table.columns : table.rows).names();
   CommonRunsNote note;
   for (std::size_t l = 0; l < names.size(); ++l) {
-    const std::vector<TablePosition> lane_places = places(table, l, along_columns);
+    const std::vector<TablePosition> lane_places = cell_indices(table, l, along_columns);
     const std::vector<CellRuns> cells = cell_runs(table, lane_places, along_columns);
     const auto common = common_runs(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -83,7 +87,7 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   return note.text();
 }
 
-std::size_t possible(const Lane& lane, std::size_t i) {
+std::size_t possible(const MarkInput& lane, std::size_t i) {
   std::set<std::string> out;
   for (const ByRun& other : lane.competitors) {
     const bool shares = std::ranges::any_of(

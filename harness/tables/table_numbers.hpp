@@ -42,16 +42,20 @@ struct TableNumbers {
 };
 
 /// The cells of one column (or row).
-std::vector<TablePosition> places(const TableNumbers& table, std::size_t lane, bool along_columns);
+std::vector<TablePosition> cell_indices(const TableNumbers& table,
+                                        std::size_t lane,
+                                        bool along_columns);
 
 /// The cells of a column (or a row) that compete, with the runs on which they failed.
-Lane lane(const TableNumbers& table, const std::vector<TablePosition>& cells, bool along_columns);
+MarkInput lane(const TableNumbers& table,
+               const std::vector<TablePosition>& cells,
+               bool along_columns);
 
 /// Leaves only runs to the means that the cells compared with them finished too. Returns the note
 /// on this; empty where all finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
 
 /// Runs of the competitors that share one with competitor `i`: what its number could be over.
-std::size_t possible(const Lane& lane, std::size_t i);
+std::size_t possible(const MarkInput& lane, std::size_t i);
 
 }  // namespace loopbench::harness

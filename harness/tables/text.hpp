@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/tables/pivot.hpp"
-#include "harness/tables/sheet.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 

@@ -62,14 +62,14 @@ Hash hash_of_file(const std::filesystem::path& file) {
   };
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw refuse();
-  struct stat facts {};
-  if (fstat(descriptor, &facts) != 0 || S_ISDIR(facts.st_mode)) {
-    if (S_ISDIR(facts.st_mode)) errno = EISDIR;
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode)) errno = EISDIR;
     const InputError error = refuse();
     close(descriptor);
     throw error;
   }
-  const auto size = static_cast<std::size_t>(facts.st_size);
+  const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0) {
     close(descriptor);
     return hash_of("");

@@ -78,7 +78,7 @@ int create_beside(const FilePath& file, FilePath& part) {
 
 bool is_dash(const FilePath& file) { return file == "-"; }
 
-void require_no_dash(const std::string& option, const FilePath& file) {
+void reject_standard_output(const std::string& option, const FilePath& file) {
   if (!is_dash(file)) return;
   throw InputError(option + " -: cannot be written to standard output, expected a name");
 }
@@ -115,7 +115,7 @@ void write_file(const FilePath& file, const std::string& text) {
   throw cannot_write(file, why);
 }
 
-void refuse_to_overwrite(const std::vector<FilePath>& inputs, const FilePath& file) {
+void reject_overwriting(const std::vector<FilePath>& inputs, const FilePath& file) {
   std::error_code error;
   if (is_dash(file) || !std::filesystem::is_regular_file(file, error)) return;
   for (const FilePath& input : inputs) {

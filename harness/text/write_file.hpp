@@ -11,7 +11,7 @@ namespace loopbench::harness {
 bool is_dash(const std::filesystem::path& file);
 
 /// Throws InputError if `option` is a dash but needs a folder or a database.
-void require_no_dash(const std::string& option, const std::filesystem::path& file);
+void reject_standard_output(const std::string& option, const std::filesystem::path& file);
 
 /// Writes a temporary file and renames it, so that readers never see a partial file; creates
 /// missing folders. Follows symbolic links. Writes into an existing file that is not a regular file
@@ -20,7 +20,7 @@ void require_no_dash(const std::string& option, const std::filesystem::path& fil
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Throws InputError if `file` is one of `inputs`, under any name. A missing file is none of them.
-void refuse_to_overwrite(const std::vector<std::filesystem::path>& inputs,
-                         const std::filesystem::path& file);
+void reject_overwriting(const std::vector<std::filesystem::path>& inputs,
+                        const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -5,12 +5,14 @@
 
 namespace loopbench::methods {
 
-bool is_bounded(Loss loss) { return loss == Loss::dcs || loss == Loss::switchable; }
+bool is_bounded(RobustLoss loss) {
+  return loss == RobustLoss::dcs || loss == RobustLoss::switchable;
+}
 
 std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared) {
   const double width = settings.loss_width;
   for (double& x : squared) {
-    const double root = (settings.loss == Loss::dcs ? 2.0 : 1.0) * width / (width + x);
+    const double root = (settings.loss == RobustLoss::dcs ? 2.0 : 1.0) * width / (width + x);
     x = std::min(1.0, root * root);
   }
   return squared;
@@ -28,7 +30,7 @@ double anneal(const std::vector<Edge>& closures,
   intermediate.max_iterations = std::min(settings.max_iterations, 30);
   intermediate.tolerance = std::max(settings.tolerance, 1e-6);
   // The switchable loss is smoother than dcs and also bounded, so it has fewer false minima.
-  intermediate.loss = Loss::switchable;
+  intermediate.loss = RobustLoss::switchable;
   double width = *std::ranges::max_element(squared);
   for (; width > 1.4 * settings.loss_width; width *= 0.7) {
     intermediate.loss_width = width;

@@ -10,7 +10,7 @@
 namespace loopbench::methods {
 
 /// Whether the loss is bounded, so that closures with large errors have no influence.
-bool is_bounded(Loss loss);
+bool is_bounded(RobustLoss loss);
 
 /// Derivative of the bounded loss in `settings` with respect to the squared error, per closure [-].
 std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared);

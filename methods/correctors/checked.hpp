@@ -8,13 +8,13 @@
 namespace loopbench::methods {
 
 template <class Base>
-struct CheckedOptions {
+struct PairwiseConsistentOptions {
   typename Base::Options base = {};
-  Consistency check = {};
+  ConsistencyOptions check = {};
 };
 
 template <class Base, class Visit>
-void fields(CheckedOptions<Base>& o, Visit visit) {
+void fields(PairwiseConsistentOptions<Base>& o, Visit visit) {
   fields(o.base, visit);
   consistency_fields(o.check, visit);
 }
@@ -22,19 +22,22 @@ void fields(CheckedOptions<Base>& o, Visit visit) {
 /// Runs consistent_closures(), then `Base` on the remaining closures. Returns the keyframes
 /// unchanged when no two closures agree. Frames are not passed on.
 template <class Base>
-class Checked final : public Corrector {
+class PairwiseConsistent final : public Corrector {
  public:
-  using Options = CheckedOptions<Base>;
-  explicit Checked(const Options& options) : check_(options.check), base_(options.base) {}
+  using Options = PairwiseConsistentOptions<Base>;
+  explicit PairwiseConsistent(const Options& options)
+      : check_(options.check), base_(options.base) {}
 
   std::optional<std::string> declines(const Problem& problem) const override {
     if (problem.closures.empty()) return "the problem has no loop closures";
-    if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+    if (auto fault = chain_fault(problem)) return fault;
     if (problem.closures.size() > static_cast<std::size_t>(check_.max_closures)) {
       return std::to_string(problem.closures.size()) +
              " closures exceed pcm.max_closures = " + std::to_string(check_.max_closures);
     }
-    return std::nullopt;
+    // What the base declines with a single closure, it declines with any of them.
+    return base_.declines(
+        {problem.keyframes, problem.odometry, {problem.closures.front()}, {}, problem.planar});
   }
 
   /// Counts: those of `Base`, and `closures_consistent`. Throws std::runtime_error when `Base`
@@ -62,7 +65,7 @@ class Checked final : public Corrector {
   }
 
  private:
-  Consistency check_;
+  ConsistencyOptions check_;
   Base base_;
 };
 

@@ -67,7 +67,7 @@ PairError pair_error(const Problem& problem, const Edge& first, const Edge& seco
   return CheckedChain(problem, 1.0).loop(first, second);
 }
 
-ConsistentClosures consistent_closures(const Problem& problem, const Consistency& options) {
+ConsistentClosures consistent_closures(const Problem& problem, const ConsistencyOptions& options) {
   const std::vector<Edge>& closures = problem.closures;
   if (closures.size() < 2) return {std::vector<std::size_t>(closures.size(), 0), true};
   const CheckedChain chain(problem, options.odometry_scale);
@@ -78,7 +78,7 @@ ConsistentClosures consistent_closures(const Problem& problem, const Consistency
       if (squared(chain.loop(closures[k], closures[l])) < threshold) agree.join(k, l);
     }
   }
-  Clique clique = max_clique(agree, static_cast<std::size_t>(options.most_steps));
+  Clique clique = max_clique(agree, static_cast<std::size_t>(options.max_steps));
   if (clique.members.size() < 2) clique.members.clear();
   return {std::move(clique.members), clique.is_largest};
 }

@@ -10,25 +10,25 @@
 
 namespace loopbench::methods {
 
-struct Consistency {
+struct ConsistencyOptions {
   std::optional<double> chi2 = std::nullopt;
   double odometry_scale = 1.0;
-  std::int64_t most_steps = 100000;
+  std::int64_t max_steps = 100000;
   std::int64_t max_closures = 1500;
 };
 
 template <class Visit>
-void consistency_fields(Consistency& o, Visit visit) {
+void consistency_fields(ConsistencyOptions& o, Visit visit) {
   visit("pcm.chi2",
         o.chi2,
         "maximum squared Mahalanobis error of a loop through two closures [-]; none: 99 % quantile",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("pcm.odometry_scale",
         o.odometry_scale,
         "factor on the odometry's standard deviations, above 1 for systematic drift [-]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("pcm.most_steps",
-        o.most_steps,
+        o.max_steps,
         "maximum number of steps of the exact clique search; above it the best clique found so far "
         "is used",
         Between{0});
@@ -58,6 +58,6 @@ struct ConsistentClosures {
 /// no other is dropped, unless it is the only one. Requires complete odometry: see chain_fault().
 /// O(n + K^2) plus a clique search. Source: Mangelson, Dominic, Eustice, Vasudevan, Pairwise
 /// consistent measurement set maximization, ICRA 2018.
-ConsistentClosures consistent_closures(const Problem& problem, const Consistency& options);
+ConsistentClosures consistent_closures(const Problem& problem, const ConsistencyOptions& options);
 
 }  // namespace loopbench::methods

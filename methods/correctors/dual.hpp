@@ -22,7 +22,7 @@ namespace loopbench::methods {
 /// the better choice.
 ///
 /// If edges change the scale (monocular chains, Sim(3)), scale drift is estimated and removed
-/// first, also in closed form (unit_of_length.hpp). With `scale` off, poses are rigid and the
+/// first, also in closed form (scale_drift.hpp). With `scale` off, poses are rigid and the
 /// scales of edges are ignored.
 ///
 /// The initial values are the keyframes. If chi2 at that minimum is larger than its distribution

@@ -121,7 +121,7 @@ std::optional<std::string> Elch::declines(const Problem& problem) const {
 
 Trajectory Elch::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "elch");
-  LoopGraph graph(step_shares(problem.keyframes, options_.weights));
+  LoopGraph graph(step_weights(problem.keyframes, options_.weights));
   Trajectory out = problem.keyframes;
   for (const Edge& loop : problem.closures) {
     distribute_error(out, loop, graph.shares(loop.from, loop.to));

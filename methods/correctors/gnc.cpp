@@ -15,11 +15,12 @@ double gnc_weight(Gnc kind, double squared, double c2, double mu) {
   return std::sqrt(c2 * mu * (mu + 1.0) / squared) - mu;
 }
 
-GncResult graduate(Gnc kind,
-                   double c2,
-                   std::vector<double> squared,
-                   std::optional<double> begin,
-                   const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
+GncResult graduate_weights(
+    Gnc kind,
+    double c2,
+    std::vector<double> squared,
+    std::optional<double> begin,
+    const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
   GncResult out;
   out.weights.assign(squared.size(), 1.0);
   const double largest = *std::ranges::max_element(squared);

@@ -30,10 +30,11 @@ struct GncResult {
 /// and the schedule starts at that convexity. `solve` takes weights and returns the squared errors
 /// at their solution. Truncated least squares ends when every weight is 0 or 1, Geman-McClure when
 /// mu is 1, both after at most 100 rounds.
-GncResult graduate(Gnc kind,
-                   double c2,
-                   std::vector<double> squared,
-                   std::optional<double> mu,
-                   const std::function<std::vector<double>(const std::vector<double>&)>& solve);
+GncResult graduate_weights(
+    Gnc kind,
+    double c2,
+    std::vector<double> squared,
+    std::optional<double> mu,
+    const std::function<std::vector<double>(const std::vector<double>&)>& solve);
 
 }  // namespace loopbench::methods

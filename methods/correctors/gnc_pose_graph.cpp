@@ -29,9 +29,9 @@ bool any_edge_has_scale(const Problem& problem) {
 
 /// Returns the indices of the consistent closures, or none when the check is not applicable.
 std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
-  const Consistency rules;
+  const ConsistencyOptions rules;
   if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
-  if (!chain_fault(problem).empty() || any_edge_has_scale(problem)) return {};
+  if (chain_fault(problem) || any_edge_has_scale(problem)) return {};
   std::vector<std::size_t> found = consistent_closures(problem, rules).kept;
   if (found.size() < 2) found.clear();
   return found;
@@ -90,7 +90,8 @@ class GncRuns {
       solve();
       return squared();
     };
-    const GncResult result = graduate(of_.kind, of_.inlier_chi2, squared(), start.mu, solved_with);
+    const GncResult result =
+        graduate_weights(of_.kind, of_.inlier_chi2, squared(), start.mu, solved_with);
     out.weights = result.weights;
     out.rounds = result.rounds;
     const double cost = cost_of(out.poses);

@@ -35,8 +35,8 @@ struct GncSolution {
 /// keeps fewer than half of them. Returns the solution of lowest cost, where the cost of a closure
 /// is the final loss of `kind`, bounded by `inlier_chi2`.
 ///
-/// Adds the phases "check" and "graduate", and a note when fewer than half of the closures are
-/// kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.
+/// Adds the phases "check" and "graduate_weights", and a note when fewer than half of the closures
+/// are kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.
 GncSolution solve_gnc(const GncProblem& of, Report& report);
 
 }  // namespace loopbench::methods

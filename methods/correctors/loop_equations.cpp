@@ -15,21 +15,21 @@ auto of_loop(Vector& all, std::size_t k) {
 
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
-                             const ChainBelief& belief) {
-  Eigen::MatrixXd matrix =
-      through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                      return jacobian.edge[i] * belief.covariance[i] * jacobian.edge[i].transpose();
-                    }));
+                             const NoiseModel& noise_model) {
+  Eigen::MatrixXd matrix = propagate_covariance(
+      jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+        return jacobian.edge[i] * noise_model.covariance[i] * jacobian.edge[i].transpose();
+      }));
   for (std::size_t k = 0; k < sums.loops(); ++k) {
     const auto row = static_cast<Eigen::Index>(6 * k);
-    matrix.block<6, 6>(row, row) += belief.closure_covariance[k];
+    matrix.block<6, 6>(row, row) += noise_model.closure_covariance[k];
   }
   LoopEquations out;
-  for (const ChainBelief::Drift& drift : belief.drift) {
+  for (const NoiseModel::Drift& drift : noise_model.drift) {
     out.shapes.push_back(
-        through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                             return jacobian.edge[i] * drift.shape[i].asDiagonal();
-                           })));
+        propagate_drift(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                          return jacobian.edge[i] * drift.shape[i].asDiagonal();
+                        })));
     const Eigen::MatrixXd weighted = out.shapes.back() * drift.variance.asDiagonal();
     matrix.triangularView<Eigen::Lower>() += weighted * out.shapes.back().transpose();
   }
@@ -41,32 +41,32 @@ LoopEquations loop_equations(LoopJacobian jacobian,
   return out;
 }
 
-Corrections least_cost(const LoopEquations& equations,
-                       const Eigen::VectorXd& gap,
-                       const std::vector<Edge>& closures,
-                       const ChainBelief& belief) {
+Corrections minimum_cost_corrections(const LoopEquations& equations,
+                                     const Eigen::VectorXd& gap,
+                                     const std::vector<Edge>& closures,
+                                     const NoiseModel& noise_model) {
   const Eigen::VectorXd lambda = equations.factor.solve(gap);
   Corrections out;
-  for (std::size_t j = 0; j < belief.drift.size(); ++j) {
-    out.drift.push_back(
-        -belief.drift[j].variance.cwiseProduct(Twist(equations.shapes[j].transpose() * lambda)));
+  for (std::size_t j = 0; j < noise_model.drift.size(); ++j) {
+    out.drift.push_back(-noise_model.drift[j].variance.cwiseProduct(
+        Twist(equations.shapes[j].transpose() * lambda)));
   }
-  const std::vector<Twist> pull = loop_pull(equations.jacobian, closures, lambda);
+  const std::vector<Twist> pull = constraint_force_increments(equations.jacobian, closures, lambda);
   out.errors.resize(equations.jacobian.edge.size());
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < out.errors.size(); ++i) {
     sum += pull[i];
-    out.errors[i] = -belief.covariance[i] * (equations.jacobian.edge[i].transpose() * sum);
+    out.errors[i] = -noise_model.covariance[i] * (equations.jacobian.edge[i].transpose() * sum);
     for (std::size_t j = 0; j < out.drift.size(); ++j) {
-      out.errors[i] += belief.drift[j].shape[i].cwiseProduct(out.drift[j]);
+      out.errors[i] += noise_model.drift[j].shape[i].cwiseProduct(out.drift[j]);
     }
   }
   return out;
 }
 
-Eigen::VectorXd along_loops(const LoopJacobian& jacobian,
-                            const LoopSums& sums,
-                            const std::vector<Twist>& errors) {
+Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
+                                  const LoopSums& sums,
+                                  const std::vector<Twist>& errors) {
   std::vector<Twist> running;
   running.reserve(sums.cuts().size());
   Twist total = Twist::Zero();
@@ -82,9 +82,9 @@ Eigen::VectorXd along_loops(const LoopJacobian& jacobian,
   return out;
 }
 
-std::vector<Twist> loop_pull(const LoopJacobian& jacobian,
-                             const std::vector<Edge>& closures,
-                             const Eigen::VectorXd& lambda) {
+std::vector<Twist> constraint_force_increments(const LoopJacobian& jacobian,
+                                               const std::vector<Edge>& closures,
+                                               const Eigen::VectorXd& lambda) {
   std::vector<Twist> out(jacobian.edge.size() + 1, Twist::Zero());
   for (std::size_t k = 0; k < closures.size(); ++k) {
     const Twist pull = jacobian.loop[k].transpose() * of_loop(lambda, k);
@@ -94,9 +94,9 @@ std::vector<Twist> loop_pull(const LoopJacobian& jacobian,
   return out;
 }
 
-Eigen::MatrixXd through_loops(const LoopJacobian& jacobian,
-                              const LoopSums& sums,
-                              const std::vector<Matrix6>& running) {
+Eigen::MatrixXd propagate_covariance(const LoopJacobian& jacobian,
+                                     const LoopSums& sums,
+                                     const std::vector<Matrix6>& running) {
   const auto size = static_cast<Eigen::Index>(6 * sums.loops());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t k = 0; k < sums.loops(); ++k) {
@@ -109,9 +109,9 @@ Eigen::MatrixXd through_loops(const LoopJacobian& jacobian,
   return out;
 }
 
-Eigen::MatrixXd through_loops_once(const LoopJacobian& jacobian,
-                                   const LoopSums& sums,
-                                   const std::vector<Matrix6>& running) {
+Eigen::MatrixXd propagate_drift(const LoopJacobian& jacobian,
+                                const LoopSums& sums,
+                                const std::vector<Matrix6>& running) {
   Eigen::MatrixXd out(static_cast<Eigen::Index>(6 * sums.loops()), 6);
   for (std::size_t k = 0; k < sums.loops(); ++k) {
     out.middleRows<6>(static_cast<Eigen::Index>(6 * k)) = jacobian.loop[k] * sums.over(running, k);

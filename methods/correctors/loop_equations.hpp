@@ -12,7 +12,7 @@ namespace loopbench::methods {
 /// Noise model of a chain. The error e_i of odometry edge i, in X_i = X_{i-1} Z_i Exp(e_i), is e_i
 /// = sum_j diag(f_ji) beta_j + w_i with w_i ~ N(0, S_i) and beta_j ~ N(0, diag(variance)); each
 /// beta_j is constant along the chain.
-struct ChainBelief {
+struct NoiseModel {
   struct Drift {
     std::vector<Twist> shape;  ///< f_ji, one per edge
     Twist variance;            ///< of beta_j; an axis with variance 0 has no drift
@@ -51,35 +51,35 @@ struct LoopEquations {
 /// positive definite. O(edges + (6 closures)^3).
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
-                             const ChainBelief& belief);
+                             const NoiseModel& noise_model);
 
 /// Returns the corrections of minimum cost for loop errors `gap` + A e. O(edges + closures^2).
-Corrections least_cost(const LoopEquations& equations,
-                       const Eigen::VectorXd& gap,
-                       const std::vector<Edge>& closures,
-                       const ChainBelief& belief);
+Corrections minimum_cost_corrections(const LoopEquations& equations,
+                                     const Eigen::VectorXd& gap,
+                                     const std::vector<Edge>& closures,
+                                     const NoiseModel& noise_model);
 
 /// Returns A e. O(edges + closures).
-Eigen::VectorXd along_loops(const LoopJacobian& jacobian,
-                            const LoopSums& sums,
-                            const std::vector<Twist>& errors);
+Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
+                                  const LoopSums& sums,
+                                  const std::vector<Twist>& errors);
 
 /// Returns increments of A' lambda along the chain: A' lambda at edge i is edge[i]' times the sum
 /// of out[0] to out[i]. The size is the number of edges + 1. O(edges + closures).
-std::vector<Twist> loop_pull(const LoopJacobian& jacobian,
-                             const std::vector<Edge>& closures,
-                             const Eigen::VectorXd& lambda);
+std::vector<Twist> constraint_force_increments(const LoopJacobian& jacobian,
+                                               const std::vector<Edge>& closures,
+                                               const Eigen::VectorXd& lambda);
 
 /// Returns the lower triangle of A S A'. `running` holds the sum of edge[i] S_i edge[i]' before
 /// each cut. O(closures^2).
-Eigen::MatrixXd through_loops(const LoopJacobian& jacobian,
-                              const LoopSums& sums,
-                              const std::vector<Matrix6>& running);
+Eigen::MatrixXd propagate_covariance(const LoopJacobian& jacobian,
+                                     const LoopSums& sums,
+                                     const std::vector<Matrix6>& running);
 
 /// Returns A f, 6 closures x 6. `running` holds the sum of edge[i] diag(f_i) before each cut.
-Eigen::MatrixXd through_loops_once(const LoopJacobian& jacobian,
-                                   const LoopSums& sums,
-                                   const std::vector<Matrix6>& running);
+Eigen::MatrixXd propagate_drift(const LoopJacobian& jacobian,
+                                const LoopSums& sums,
+                                const std::vector<Matrix6>& running);
 
 /// Returns the sums of of(i) over the edges before each cut. O(edges).
 template <class Of>

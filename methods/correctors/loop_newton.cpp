@@ -23,41 +23,41 @@ class NewtonSystem {
   NewtonSystem(const LoopEquations& equations,
                const LoopSums& sums,
                const std::vector<Edge>& closures,
-               const ChainBelief& belief)
+               const NoiseModel& noise_model)
       : jacobian_(equations.jacobian),
         equations_(equations),
         sums_(sums),
         closures_(closures),
-        belief_(belief),
+        noise_model_(noise_model),
         edges_(jacobian_.edge.size()) {
     const Eigen::VectorXd lambda = equations.factor.solve(jacobian_.gap);
     for (std::size_t k = 0; k < closures.size(); ++k) {
       wrench_of_.push_back(jacobian_.loop[k].transpose() *
                            lambda.segment<6>(static_cast<Eigen::Index>(6 * k)));
     }
-    wrench_ = loop_pull(jacobian_, closures, lambda);
+    wrench_ = constraint_force_increments(jacobian_, closures, lambda);
     for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
   }
 
   /// Returns M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v, with the drift as additional columns.
   Twists preconditioned(const Twists& v) const {
     Twists out(v.size());
-    for (std::size_t i = 0; i < edges_; ++i) out[i] = belief_.covariance[i] * v[i];
-    Eigen::VectorXd gap = along_loops(jacobian_, sums_, out);
-    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
-      out[edges_ + j] = belief_.drift[j].variance.cwiseProduct(v[edges_ + j]);
+    for (std::size_t i = 0; i < edges_; ++i) out[i] = noise_model_.covariance[i] * v[i];
+    Eigen::VectorXd gap = loop_error_change(jacobian_, sums_, out);
+    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
+      out[edges_ + j] = noise_model_.drift[j].variance.cwiseProduct(v[edges_ + j]);
       gap += equations_.shapes[j] * out[edges_ + j];
     }
     const Eigen::VectorXd lambda = equations_.factor.solve(gap);
-    const Twists pull = loop_pull(jacobian_, closures_, lambda);
+    const Twists pull = constraint_force_increments(jacobian_, closures_, lambda);
     Twist sum = Twist::Zero();
     for (std::size_t i = 0; i < edges_; ++i) {
       sum += pull[i];
-      out[i] -= belief_.covariance[i] * (jacobian_.edge[i].transpose() * sum);
+      out[i] -= noise_model_.covariance[i] * (jacobian_.edge[i].transpose() * sum);
     }
-    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
-      out[edges_ + j] -=
-          belief_.drift[j].variance.cwiseProduct(Twist(equations_.shapes[j].transpose() * lambda));
+    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
+      out[edges_ + j] -= noise_model_.drift[j].variance.cwiseProduct(
+          Twist(equations_.shapes[j].transpose() * lambda));
     }
     return out;
   }
@@ -83,8 +83,8 @@ class NewtonSystem {
       sum += change[i];
       out[i] = 0.5 * (jacobian_.edge[i].transpose() *
                       (sum - bracket(wrench_[i], before[i + 1] + before[i])));
-      for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
-        out[edges_ + j] += belief_.drift[j].shape[i].cwiseProduct(out[i]);
+      for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
+        out[edges_ + j] += noise_model_.drift[j].shape[i].cwiseProduct(out[i]);
       }
     }
     return out;
@@ -93,9 +93,9 @@ class NewtonSystem {
   /// Total edge errors: noise plus drift.
   Twists errors_of(const Twists& v) const {
     Twists out(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(edges_));
-    for (std::size_t j = 0; j < belief_.drift.size(); ++j) {
+    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
       for (std::size_t i = 0; i < edges_; ++i) {
-        out[i] += belief_.drift[j].shape[i].cwiseProduct(v[edges_ + j]);
+        out[i] += noise_model_.drift[j].shape[i].cwiseProduct(v[edges_ + j]);
       }
     }
     return out;
@@ -106,7 +106,7 @@ class NewtonSystem {
   const LoopEquations& equations_;
   const LoopSums& sums_;
   const std::vector<Edge>& closures_;
-  const ChainBelief& belief_;
+  const NoiseModel& noise_model_;
   std::size_t edges_;
   Twists wrench_of_;  ///< of each loop
   Twists wrench_;     ///< sum over the loops that enclose each edge
@@ -148,12 +148,12 @@ Corrections newton_direction(const LoopEquations& equations,
                              const Corrections& gradient,
                              const LoopSums& sums,
                              const std::vector<Edge>& closures,
-                             const ChainBelief& belief) {
+                             const NoiseModel& noise_model) {
   Twists downhill;
   downhill.reserve(gradient.errors.size() + gradient.drift.size());
   for (const Twist& each : gradient.errors) downhill.push_back(-each);
   for (const Twist& each : gradient.drift) downhill.push_back(-each);
-  const NewtonSystem system(equations, sums, closures, belief);
+  const NewtonSystem system(equations, sums, closures, noise_model);
   const Twists d = solved(system, std::move(downhill));
   const auto drift = d.begin() + static_cast<std::ptrdiff_t>(gradient.errors.size());
   return {system.errors_of(d), Twists(drift, d.end())};

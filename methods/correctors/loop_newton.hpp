@@ -27,6 +27,6 @@ Corrections newton_direction(const LoopEquations& equations,
                              const Corrections& gradient,
                              const LoopSums& sums,
                              const std::vector<Edge>& closures,
-                             const ChainBelief& belief);
+                             const NoiseModel& noise_model);
 
 }  // namespace loopbench::methods

@@ -16,28 +16,28 @@ Corrections add_scaled(Corrections a, double share, const Corrections& b) {
 }
 
 /// Returns the sum of eta' S_L^-1 eta over the loops.
-double loop_squares(const Eigen::VectorXd& loop_errors, const ChainBelief& belief) {
+double loop_squares(const Eigen::VectorXd& loop_errors, const NoiseModel& noise_model) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < belief.closure_information.size(); ++k) {
+  for (std::size_t k = 0; k < noise_model.closure_information.size(); ++k) {
     const Twist eta = loop_errors.segment<6>(static_cast<Eigen::Index>(6 * k));
-    sum += eta.dot(belief.closure_information[k] * eta);
+    sum += eta.dot(noise_model.closure_information[k] * eta);
   }
   return sum;
 }
 
 /// Noise of edge i: its error minus the drift.
-Twist noise_of(const Corrections& at, const ChainBelief& belief, std::size_t i) {
+Twist noise_of(const Corrections& at, const NoiseModel& noise_model, std::size_t i) {
   Twist w = at.errors[i];
   for (std::size_t j = 0; j < at.drift.size(); ++j) {
-    w -= belief.drift[j].shape[i].cwiseProduct(at.drift[j]);
+    w -= noise_model.drift[j].shape[i].cwiseProduct(at.drift[j]);
   }
   return w;
 }
 
 }  // namespace
 
-ChainBelief stated_belief(const Problem& problem) {
-  ChainBelief out;
+NoiseModel stated_noise_model(const Problem& problem) {
+  NoiseModel out;
   for (const Edge& edge : problem.odometry) {
     out.information.push_back(edge.information);
     out.covariance.push_back(edge.information.inverse());
@@ -49,7 +49,7 @@ ChainBelief stated_belief(const Problem& problem) {
   return out;
 }
 
-LoopedChain::LoopedChain(const Problem& problem, ChainBelief belief)
+LoopedChain::LoopedChain(const Problem& problem, NoiseModel noise_model)
     : problem_(problem), sums_(problem.closures), poses_(problem.keyframes.size()) {
   Vector3 sum = Vector3::Zero();
   for (const StampedPose& k : problem.keyframes) sum += k.world_from_body.translation;
@@ -61,22 +61,22 @@ LoopedChain::LoopedChain(const Problem& problem, ChainBelief belief)
   for (const Edge& edge : problem.odometry) {
     at_.errors.push_back(edge_error(edge, poses_[edge.from], poses_[edge.to]));
   }
-  believe(std::move(belief));
+  set_noise_model(std::move(noise_model));
 }
 
-void LoopedChain::believe(ChainBelief belief) {
-  belief_ = std::move(belief);
-  at_.drift.resize(belief_.drift.size(), Twist::Zero());
+void LoopedChain::set_noise_model(NoiseModel noise_model) {
+  noise_model_ = std::move(noise_model);
+  at_.drift.resize(noise_model_.drift.size(), Twist::Zero());
   for (std::size_t j = 0; j < at_.drift.size(); ++j) {
     for (Eigen::Index axis = 0; axis < 6; ++axis) {
-      if (belief_.drift[j].variance[axis] == 0.0) at_.drift[j][axis] = 0.0;
+      if (noise_model_.drift[j].variance[axis] == 0.0) at_.drift[j][axis] = 0.0;
     }
   }
   cost_ = cost_of(at_, loop_errors(poses_));
   is_near_minimum_ = false;
 }
 
-void LoopedChain::correct_by(std::vector<Twist> errors) {
+void LoopedChain::set_errors(std::vector<Twist> errors) {
   at_.errors = std::move(errors);
   poses_ = integrate(at_.errors);
   cost_ = cost_of(at_, loop_errors(poses_));
@@ -86,16 +86,16 @@ void LoopedChain::correct_by(std::vector<Twist> errors) {
 double LoopedChain::cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < at.errors.size(); ++i) {
-    const Twist w = noise_of(at, belief_, i);
-    sum += w.dot(belief_.information[i] * w);
+    const Twist w = noise_of(at, noise_model_, i);
+    sum += w.dot(noise_model_.information[i] * w);
   }
   for (std::size_t j = 0; j < at.drift.size(); ++j) {
     for (Eigen::Index axis = 0; axis < 6; ++axis) {
       const double beta = at.drift[j][axis];
-      if (beta != 0.0) sum += beta * beta / belief_.drift[j].variance[axis];
+      if (beta != 0.0) sum += beta * beta / noise_model_.drift[j].variance[axis];
     }
   }
-  return 0.5 * (sum + loop_squares(loop_errors, belief_));
+  return 0.5 * (sum + loop_squares(loop_errors, noise_model_));
 }
 
 LoopedChain::Candidate LoopedChain::candidate(Corrections at) const {
@@ -110,12 +110,15 @@ void LoopedChain::close_loops(Candidate& trial, const LoopEquations& equations) 
   constexpr int kRounds = 3;
   constexpr double kClosed = 1e-6;  // residual loop error, as a fraction of the cost
   const LoopJacobian& jacobian = equations.jacobian;
-  const Eigen::VectorXd predicted = jacobian.gap + along_loops(jacobian, sums_, trial.at.errors);
+  const Eigen::VectorXd predicted =
+      jacobian.gap + loop_error_change(jacobian, sums_, trial.at.errors);
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::VectorXd remaining = trial.loop_errors - predicted;
-    if (!(loop_squares(remaining, belief_) > kClosed * cost_)) return;
-    trial = candidate(
-        add_scaled(trial.at, 1.0, least_cost(equations, remaining, problem_.closures, belief_)));
+    if (!(loop_squares(remaining, noise_model_) > kClosed * cost_)) return;
+    trial = candidate(add_scaled(
+        trial.at,
+        1.0,
+        minimum_cost_corrections(equations, remaining, problem_.closures, noise_model_)));
   }
 }
 
@@ -139,14 +142,26 @@ bool LoopedChain::step_towards(const Corrections& target,
 }
 
 bool LoopedChain::step() {
-  const LoopEquations equations = loop_equations(linearised(), sums_, belief_);
+  const LoopEquations equations = loop_equations(linearise(), sums_, noise_model_);
   if (is_near_minimum_) {
     const Corrections direction = newton_direction(
-        equations, gradient(equations.jacobian), sums_, problem_.closures, belief_);
+        equations, gradient(equations.jacobian), sums_, problem_.closures, noise_model_);
     if (step_towards(add_scaled(at_, 1.0, direction), equations, 0.25)) return true;
   }
   const Eigen::VectorXd& gap = equations.jacobian.gap;
-  return step_towards(least_cost(equations, gap, problem_.closures, belief_), equations, 1e-4);
+  return step_towards(
+      minimum_cost_corrections(equations, gap, problem_.closures, noise_model_), equations, 1e-4);
+}
+
+int LoopedChain::minimise(int max_iterations, double tolerance) {
+  int iterations = 0;
+  while (iterations < max_iterations) {
+    const double before = cost_;
+    if (!step()) break;
+    ++iterations;
+    if (before - cost_ <= tolerance * before) break;
+  }
+  return iterations;
 }
 
 Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
@@ -159,7 +174,7 @@ Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
   return out;
 }
 
-LoopJacobian LoopedChain::linearised() const {
+LoopJacobian LoopedChain::linearise() const {
   LoopJacobian out;
   out.edge.resize(at_.errors.size());
   for (std::size_t i = 0; i < at_.errors.size(); ++i) {
@@ -171,7 +186,7 @@ LoopJacobian LoopedChain::linearised() const {
     out.loop.push_back(inverse_right_jacobian_se3(eta) *
                        adjoint(poses_[problem_.closures[k].to].inverse()));
   }
-  out.gap -= along_loops(out, sums_, at_.errors);
+  out.gap -= loop_error_change(out, sums_, at_.errors);
   return out;
 }
 
@@ -179,21 +194,22 @@ Corrections LoopedChain::gradient(const LoopJacobian& jacobian) const {
   Eigen::VectorXd weighted = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     auto each = weighted.segment<6>(static_cast<Eigen::Index>(6 * k));
-    each = (belief_.closure_information[k] * each).eval();
+    each = (noise_model_.closure_information[k] * each).eval();
   }
-  const std::vector<Twist> pull = loop_pull(jacobian, problem_.closures, weighted);
+  const std::vector<Twist> pull =
+      constraint_force_increments(jacobian, problem_.closures, weighted);
   Corrections out{at_.errors, at_.drift};
   for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-    const Twist& variance = belief_.drift[j].variance;
+    const Twist& variance = noise_model_.drift[j].variance;
     out.drift[j] = (variance.array() > 0.0).select(at_.drift[j].cwiseQuotient(variance), 0.0);
   }
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < at_.errors.size(); ++i) {
     sum += pull[i];
     const Twist by_error = jacobian.edge[i].transpose() * sum;
-    out.errors[i] = belief_.information[i] * noise_of(at_, belief_, i) + by_error;
+    out.errors[i] = noise_model_.information[i] * noise_of(at_, noise_model_, i) + by_error;
     for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-      out.drift[j] += belief_.drift[j].shape[i].cwiseProduct(by_error);
+      out.drift[j] += noise_model_.drift[j].shape[i].cwiseProduct(by_error);
     }
   }
   return out;

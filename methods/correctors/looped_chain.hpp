@@ -9,24 +9,24 @@
 namespace loopbench::methods {
 
 /// Returns the stated covariances of the problem's edges and closures, without drift.
-ChainBelief stated_belief(const Problem& problem);
+NoiseModel stated_noise_model(const Problem& problem);
 
 /// State of the chain at its current corrections: poses, errors e_i and drift beta. Positions are
 /// relative to the chain's centroid, because adjoints grow with the distance from the origin and
 /// lose precision. Keeps references to the problem.
 class LoopedChain {
  public:
-  LoopedChain(const Problem& problem, ChainBelief belief);
+  LoopedChain(const Problem& problem, NoiseModel noise_model);
 
   /// Returns half of sum w' S^-1 w + sum beta' V^-1 beta + sum eta' S_L^-1 eta. A cost that is not
   /// finite makes the chain unusable as a start.
   double cost() const { return cost_; }
 
   /// Replaces the noise model and keeps poses, errors and drift.
-  void believe(ChainBelief belief);
+  void set_noise_model(NoiseModel noise_model);
 
   /// Replaces the errors e_i, one per odometry edge, and keeps the drift.
-  void correct_by(std::vector<Twist> errors);
+  void set_errors(std::vector<Twist> errors);
 
   const std::vector<Twist>& errors() const { return at_.errors; }
 
@@ -38,7 +38,11 @@ class LoopedChain {
   /// definite. O(edges + (6 closures)^3).
   bool step();
 
-  LoopJacobian linearised() const;
+  /// Steps until the relative change of the cost is at most `tolerance`. Returns the number of
+  /// steps. Throws as step().
+  int minimise(int max_iterations, double tolerance);
+
+  LoopJacobian linearise() const;
 
   const LoopSums& sums() const { return sums_; }
   const std::vector<Twist>& drift() const { return at_.drift; }
@@ -65,7 +69,7 @@ class LoopedChain {
 
   const Problem& problem_;
   LoopSums sums_;
-  ChainBelief belief_;
+  NoiseModel noise_model_;
   std::vector<Pose> poses_;
   Corrections at_;
   Vector3 centre_;

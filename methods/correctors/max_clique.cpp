@@ -41,7 +41,7 @@ Bits all_of(std::size_t size, std::size_t words) {
 
 class Search {
  public:
-  Search(const BitGraph& graph, std::size_t most_steps) : graph_(graph), steps_left_(most_steps) {}
+  Search(const BitGraph& graph, std::size_t max_steps) : graph_(graph), steps_left_(max_steps) {}
 
   Clique run() {
     for (std::size_t seed = 0; seed < graph_.size(); ++seed) grow(seed);
@@ -110,8 +110,8 @@ class Search {
 
 }  // namespace
 
-Clique max_clique(const BitGraph& graph, std::size_t most_steps) {
-  return Search(graph, most_steps).run();
+Clique max_clique(const BitGraph& graph, std::size_t max_steps) {
+  return Search(graph, max_steps).run();
 }
 
 }  // namespace loopbench::methods

@@ -58,9 +58,9 @@ std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) 
   if (options_.rescale) {
     if (changes_scale(problem))
       return "rescale requires edges of scale 1, but edges change the scale";
-    if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
+    if (auto fault = chain_fault(problem)) return fault;
   }
-  if (const auto unreached = first_unjoined(problem)) {
+  if (const auto unreached = first_unconnected(problem)) {
     return "the graph is not connected: no path from keyframe 0 to keyframe " +
            std::to_string(*unreached);
   }
@@ -77,7 +77,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   if (options_.rescale) {
     Options stated = options_;
     stated.rescale = false;
-    return PoseGraphOptimizer(stated).correct(rescaled(problem, report), report);
+    return PoseGraphOptimizer(stated).correct(with_estimated_factors(problem, report), report);
   }
   const Group group = group_of(problem, options_.group);
   PoseGraphSettings settings{
@@ -133,7 +133,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     // solved from the same start with fixed weights taken from the loss.
     constexpr int kRounds = 3;
     PoseGraphSettings weighted = settings;
-    weighted.loss = Loss::none;
+    weighted.loss = RobustLoss::none;
     for (int round = 0; round < kRounds; ++round) {
       weights = loss_weights(settings, squared_errors(poses, problem.closures, settings));
       poses = start;
@@ -144,7 +144,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   report.count("iterations", iterations);
   report.count("cost_before", before);
   report.count("cost", summary.cost);
-  if (options_.loss == Loss::none) {
+  if (options_.loss == RobustLoss::none) {
     const auto kept = std::ranges::count_if(weights, [](double weight) { return weight > 0.5; });
     const std::size_t edges = problem.odometry.size() + static_cast<std::size_t>(kept);
     const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));

@@ -41,7 +41,7 @@ class PoseGraphOptimizer final : public Corrector {
   struct Options {
     Poses group = Poses::automatic;
     Start start = Start::keyframes;
-    Loss loss = Loss::none;
+    RobustLoss loss = RobustLoss::none;
     std::optional<double> loss_width = std::nullopt;
     bool anneal = true;
     Gnc gnc = Gnc::off;
@@ -98,7 +98,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.loss_width,
         "width of the loss as a squared error [-]; none: the group's 99 % quantile for dcs and "
         "switchable, 1 for others",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("anneal",
         o.anneal,
         "dcs and switchable: also solve with a width that shrinks from the largest error, and keep "
@@ -113,11 +113,11 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("inlier_chi2",
         o.inlier_chi2,
         "maximum squared error of an inlier closure [-]; none: the group's 99 % quantile",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("scale_sigma",
         o.scale_sigma,
         "standard deviation of an edge's log scale in sim3 [-]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("max_iterations",
         o.max_iterations,
         "maximum number of iterations per solve",
@@ -125,7 +125,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("tolerance",
         o.tolerance,
         "convergence threshold: relative change of the cost [-]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("rescale",
         o.rescale,
         "multiply the odometry's translation and rotation covariances by factors estimated from "

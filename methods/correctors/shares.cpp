@@ -7,7 +7,7 @@
 
 namespace loopbench::methods {
 
-std::vector<double> step_shares(const Trajectory& keyframes, StepWeights weights) {
+std::vector<double> step_weights(const Trajectory& keyframes, StepWeights weights) {
   std::vector<double> shares(keyframes.size(), 1.0);
   if (weights == StepWeights::index) return shares;
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
@@ -36,7 +36,7 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
   if (!(total > 0.0)) {  // no motion along the loop: equal shares
     total = accumulate([](std::size_t) { return 1.0; });
     if (total == 0.0) return std::nullopt;
-    out.fell_back = true;
+    out.used_equal_shares = true;
   }
   for (double& w : out.cumulative) w /= total;
   return out;

@@ -29,11 +29,11 @@ inline auto choices(LoopOverlap) {
 
 /// Returns the share of each step, >= 0. shares[i] belongs to the step from keyframe i - 1 to i;
 /// shares[0] is unused. O(n).
-std::vector<double> step_shares(const Trajectory& keyframes, StepWeights weights);
+std::vector<double> step_weights(const Trajectory& keyframes, StepWeights weights);
 
 struct LoopShares {
   std::vector<double> cumulative;  ///< over the steps from + 1 .. to; the last value is exactly 1
-  bool fell_back = false;          ///< all shares were zero, so the steps have equal shares
+  bool used_equal_shares = false;  ///< all shares were zero, so the steps have equal shares
 };
 
 /// Returns the shares of the steps of a loop that are not frozen, or nullopt when all are. O(loop).

@@ -99,9 +99,9 @@ std::optional<std::string> TwoPass::declines(const Problem& problem) const {
 Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "two_pass");
   const Trajectory& keyframes = problem.keyframes;
-  const std::vector<double> rotation_shares = step_shares(keyframes, options_.rotation_weights);
+  const std::vector<double> rotation_shares = step_weights(keyframes, options_.rotation_weights);
   const std::vector<double> translation_shares =
-      step_shares(keyframes, options_.translation_weights);
+      step_weights(keyframes, options_.translation_weights);
   std::vector<bool> frozen(keyframes.size(), false);
   TwoPassChain chain(keyframes);
   std::size_t skipped = 0;

@@ -62,7 +62,7 @@ std::optional<std::string> Uniform::declines(const Problem& problem) const {
 Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "uniform");
   const std::vector<Edge>& loops = problem.closures;
-  const std::vector<double> shares = step_shares(problem.keyframes, options_.weights);
+  const std::vector<double> shares = step_weights(problem.keyframes, options_.weights);
   std::vector<bool> frozen(problem.keyframes.size(), false);
   UniformChain chain(problem.keyframes);
   std::size_t fallbacks = 0, skipped = 0, scaled = 0;
@@ -73,8 +73,8 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
       ++skipped;
       continue;
     }
-    fallbacks += w->fell_back ? 1 : 0;
-    chain.close(loop, w->cumulative, options_.rotation == Turn::slerp);
+    fallbacks += w->used_equal_shares ? 1 : 0;
+    chain.close(loop, w->cumulative, options_.rotation == RotationMode::slerp);
     if (options_.overlap == LoopOverlap::open) {
       const auto first = frozen.begin() + static_cast<std::ptrdiff_t>(loop.from + 1);
       std::fill_n(first, w->cumulative.size(), true);

@@ -22,10 +22,10 @@ namespace loopbench::methods {
 /// Nuechter et al. (6D SLAM) and Sprickerhof et al. (ELCH), pivot moved to the loop's start.
 class Uniform final : public Corrector {
  public:
-  enum class Turn { none, slerp };
+  enum class RotationMode { none, slerp };
 
   struct Options {
-    Turn rotation = Turn::slerp;
+    RotationMode rotation = RotationMode::slerp;
     StepWeights weights = StepWeights::index;
     LoopOverlap overlap = LoopOverlap::whole;
   };
@@ -42,9 +42,9 @@ class Uniform final : public Corrector {
   Options options_;
 };
 
-inline auto choices(Uniform::Turn) {
-  return std::array{std::pair{"none", Uniform::Turn::none},
-                    std::pair{"slerp", Uniform::Turn::slerp}};
+inline auto choices(Uniform::RotationMode) {
+  return std::array{std::pair{"none", Uniform::RotationMode::none},
+                    std::pair{"slerp", Uniform::RotationMode::slerp}};
 }
 
 template <class Visit>

@@ -36,12 +36,12 @@ std::vector<Eigen::Index> rows_of(const Problem& problem) {
 }
 
 LoopCovariance loop_covariance(const Problem& problem,
-                               const ChainBelief& stated,
+                               const NoiseModel& stated,
                                const LoopedChain& chain) {
-  const LoopJacobian jacobian = chain.linearised();
+  const LoopJacobian jacobian = chain.linearise();
   const auto rows = rows_of(problem);
   const auto through = [&](auto part) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd all = through_loops(
+    const Eigen::MatrixXd all = propagate_covariance(
         jacobian, chain.sums(), running_sum(chain.sums(), [&](std::size_t i) -> Matrix6 {
           return jacobian.edge[i] * part(stated.covariance[i]) * jacobian.edge[i].transpose();
         }));
@@ -124,23 +124,21 @@ VarianceFactors variance_factors(const Problem& problem) {
   constexpr int kRounds = 5;
   constexpr int kSteps = 30;
   constexpr double kConverged = 1e-6;  // relative change of the cost
-  const ChainBelief stated = stated_belief(problem);
+  const NoiseModel stated = stated_noise_model(problem);
   LoopedChain chain(problem, stated);
   LatticePoint at{0, 0};
   for (int round = 0; round < kRounds; ++round) {
     const LatticePoint next = minimise_factors(loop_covariance(problem, stated, chain), at);
     if (round > 0 && next == at) break;
     at = next;
-    chain.believe(stated_belief(with_factors(problem, {factor_of(at[0]), factor_of(at[1])})));
-    for (int i = 0; i < kSteps; ++i) {
-      const double before = chain.cost();
-      if (!chain.step() || before - chain.cost() <= kConverged * before) break;
-    }
+    chain.set_noise_model(
+        stated_noise_model(with_factors(problem, {factor_of(at[0]), factor_of(at[1])})));
+    chain.minimise(kSteps, kConverged);
   }
   return {factor_of(at[0]), factor_of(at[1])};
 }
 
-Problem rescaled(const Problem& problem, Report& report) {
+Problem with_estimated_factors(const Problem& problem, Report& report) {
   const VarianceFactors factors =
       report.time("variance components", [&] { return variance_factors(problem); });
   report.count("factor_t", std::sqrt(factors.translation));

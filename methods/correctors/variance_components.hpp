@@ -30,6 +30,6 @@ Problem with_factors(Problem problem, const VarianceFactors& factors);
 
 /// Returns the problem with the estimated factors. Adds the counts `factor_t` and `factor_r`,
 /// factors on standard deviations.
-Problem rescaled(const Problem& problem, Report& report);
+Problem with_estimated_factors(const Problem& problem, Report& report);
 
 }  // namespace loopbench::methods

@@ -12,27 +12,26 @@ std::optional<std::string> SplineFit::declines(const Problem& problem) const {
     return std::to_string(problem.keyframes.size()) + " keyframes, fewer than the order " +
            std::to_string(options_.order);
   }
-  if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
-  return std::nullopt;
+  return chain_fault(problem);
 }
 
 std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report& report) const {
   const Trajectory& keyframes = problem.keyframes;
-  const SplineBasis basis = basis_among(
+  const SplineBasis basis = basis_with_fewer_knots(
       static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
   // The cost does not depend on the world frame. Near the origin the rounding error is small.
   const Pose world_from_start = keyframes.front().world_from_body;
-  std::vector<Pose> controls = controls_along(basis, keyframes);
+  std::vector<Pose> controls = initial_controls_for(basis, keyframes);
   for (Pose& control : controls) control = normalized(world_from_start.inverse() * control);
   SplineProblem fit;
-  fit.hold_start = true;
+  fit.fix_start = true;
   for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
     for (const Edge& edge : *edges) {
       fit.edges.push_back({keyframes[edge.from].stamp, keyframes[edge.to].stamp, edge});
     }
   }
   const SplineSummary summary =
-      fit_controls(basis, controls, fit, {.max_iterations = options_.max_iterations});
+      solve_spline(basis, controls, fit, {.max_iterations = options_.max_iterations});
   for (Pose& control : controls) control = normalized(world_from_start * control);
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);

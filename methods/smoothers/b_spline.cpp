@@ -2,10 +2,10 @@
 
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/position_and_rotation_curve.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
 #include "methods/smoothers/stretches.hpp"
-#include "methods/smoothers/two_curves.hpp"
 
 namespace loopbench::methods {
 
@@ -19,8 +19,8 @@ std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Repo
   if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
   const std::vector<double> sites = stamps(keyframes);
   const auto basis = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), sites);
-  const std::vector<Vector3> points = points_through(basis, sites, places(keyframes));
-  const auto solution = rotations_through(basis, sites, attitudes(keyframes));
+  const std::vector<Vector3> points = interpolating_controls(basis, sites, positions_of(keyframes));
+  const auto solution = interpolating_rotation_controls(basis, sites, attitudes(keyframes));
   std::vector<Pose> controls(basis.size());
   for (std::size_t j = 0; j < controls.size(); ++j) {
     controls[j].translation = points[j];
@@ -35,14 +35,14 @@ std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Repo
     const std::vector<double> part_sites = stamps(part);
     const auto part_basis =
         SplineBasis::for_sites(static_cast<std::size_t>(options_.order), part_sites);
-    const auto solved = rotations_through(part_basis, part_sites, attitudes(part));
+    const auto solved = interpolating_rotation_controls(part_basis, part_sites, attitudes(part));
     if (!solved) return nullptr;
     std::vector<Pose> rotations(part_basis.size());
     for (std::size_t j = 0; j < rotations.size(); ++j) rotations[j].rotation = solved->controls[j];
     return std::make_unique<CumulativeCurve>(part_basis, rotations);
   };
-  return std::make_unique<TwoCurves>(std::move(spline),
-                                     attitudes_apart(keyframes, report, spline_through));
+  return std::make_unique<PositionAndRotationCurve>(
+      std::move(spline), interpolate_rotations_in_parts(keyframes, report, spline_through));
 }
 
 }  // namespace loopbench::methods

@@ -6,9 +6,9 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/position_and_rotation_curve.hpp"
 #include "methods/smoothers/spline_controls.hpp"
 #include "methods/smoothers/stretches.hpp"
-#include "methods/smoothers/two_curves.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -79,12 +79,13 @@ std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report&
   if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
   CubicBasis basis(stamps(keyframes));
   std::vector<Control> controls(basis.size());
-  const std::vector<Vector3> points = interpolating_points(basis, places(keyframes));
+  const std::vector<Vector3> points = interpolating_points(basis, positions_of(keyframes));
   for (std::size_t j = 0; j < controls.size(); ++j) controls[j].point = points[j];
 
-  if (options_.rotation == Turn::slerp) {
+  if (options_.rotation == RotationMode::slerp) {
     auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
-    return std::make_unique<TwoCurves>(std::move(spline), std::make_unique<Polyline>(keyframes));
+    return std::make_unique<PositionAndRotationCurve>(std::move(spline),
+                                                      std::make_unique<Polyline>(keyframes));
   }
   const auto solution = interpolating_rotations(basis, attitudes(keyframes));
   if (solution) {
@@ -93,8 +94,8 @@ std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report&
     return std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
   }
   auto spline = std::make_unique<SplineCurve>(std::move(basis), std::move(controls));
-  return std::make_unique<TwoCurves>(std::move(spline),
-                                     attitudes_apart(keyframes, report, rotation_spline));
+  return std::make_unique<PositionAndRotationCurve>(
+      std::move(spline), interpolate_rotations_in_parts(keyframes, report, rotation_spline));
 }
 
 }  // namespace loopbench::methods

@@ -12,9 +12,9 @@ namespace loopbench::methods {
 /// O(1) amortised per query for sorted times, O(log n) otherwise.
 class CubicSpline final : public Smoother {
  public:
-  enum class Turn { slerp, spline };
+  enum class RotationMode { slerp, spline };
   struct Options {
-    Turn rotation = Turn::spline;
+    RotationMode rotation = RotationMode::spline;
   };
   explicit CubicSpline(const Options& options) : options_(options) {}
 
@@ -29,9 +29,9 @@ class CubicSpline final : public Smoother {
   Options options_;
 };
 
-inline auto choices(CubicSpline::Turn) {
-  return std::array{std::pair{"slerp", CubicSpline::Turn::slerp},
-                    std::pair{"spline", CubicSpline::Turn::spline}};
+inline auto choices(CubicSpline::RotationMode) {
+  return std::array{std::pair{"slerp", CubicSpline::RotationMode::slerp},
+                    std::pair{"spline", CubicSpline::RotationMode::spline}};
 }
 
 template <class Visit>

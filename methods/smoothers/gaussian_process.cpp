@@ -71,20 +71,20 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   const auto per_interval = [&](const std::optional<double>& power) {
     return power ? std::optional<double>(*power * unit) : std::nullopt;
   };
-  const GpGiven given{options_.sigma_t,
-                      options_.sigma_r,
-                      per_interval(options_.power_t),
-                      per_interval(options_.power_r)};
-  auto states = posterior.first_guess();
+  const GpFixedParameters given{options_.sigma_t,
+                                options_.sigma_r,
+                                per_interval(options_.power_t),
+                                per_interval(options_.power_r)};
+  auto states = posterior.initial_states();
   int iterations = 0, evaluations = 0;
   GpParameters parameters = report.time("evidence", [&] {
     GpParameters best;
     double lowest = std::numeric_limits<double>::infinity();
     for (const Criterion criterion : {Criterion::reml, Criterion::gcv}) {
-      const GpParameters start = first_parameters(keyframes, P, criterion, given);
-      auto trial = posterior.first_guess();
+      const GpParameters start = initial_parameters(keyframes, P, criterion, given);
+      auto trial = posterior.initial_states();
       iterations += posterior.solve(trial, start);
-      const GpChosen chosen = chosen_parameters<P>(posterior, trial, start, given);
+      const GpEstimate chosen = estimate_parameters<P>(posterior, trial, start, given);
       evaluations += chosen.evaluations;
       iterations += posterior.solve(trial, chosen.parameters);
       const double evidence = posterior.negative_evidence(trial, chosen.parameters);
@@ -93,7 +93,7 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
       best = chosen.parameters;
       states = std::move(trial);
     }
-    const GpChosen chosen = chosen_parameters<P>(posterior, states, best, given);
+    const GpEstimate chosen = estimate_parameters<P>(posterior, states, best, given);
     evaluations += chosen.evaluations;
     return chosen.parameters;
   });
@@ -125,21 +125,21 @@ std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Rep
   constexpr double kShortest = 0.05;
   const Trajectory& keyframes = problem.keyframes;
   const double median = median_interval(keyframes);
-  const auto segments = stretches(keyframes.size(), [&](std::size_t i) {
+  const auto segments = runs_without_breaks(keyframes.size(), [&](std::size_t i) {
     const double interval = keyframes[i + 1].stamp - keyframes[i].stamp;
     return interval > kLongest * median || interval < kShortest * median;
   });
   const std::size_t lowest = min_keyframes();
-  return smoothed_apart(keyframes,
-                        segments,
-                        "intervals above 50 or below 0.05 times the median",
-                        report,
-                        [&](Trajectory part, Report& part_report) -> std::unique_ptr<const Curve> {
-                          if (part.size() < lowest) return std::make_unique<Polyline>(part);
-                          if (options_.prior == Prior::velocity)
-                            return smooth_with<2>(part, part_report);
-                          return smooth_with<3>(part, part_report);
-                        });
+  return smooth_segments(keyframes,
+                         segments,
+                         "intervals above 50 or below 0.05 times the median",
+                         report,
+                         [&](Trajectory part, Report& part_report) -> std::unique_ptr<const Curve> {
+                           if (part.size() < lowest) return std::make_unique<Polyline>(part);
+                           if (options_.prior == Prior::velocity)
+                             return smooth_with<2>(part, part_report);
+                           return smooth_with<3>(part, part_report);
+                         });
 }
 
 }  // namespace loopbench::methods

@@ -61,19 +61,19 @@ void fields(GaussianProcess::Options& o, Visit visit) {
   visit("sigma_t",
         o.sigma_t,
         "standard deviation of keyframe positions [m]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("sigma_r",
         o.sigma_r,
         "standard deviation of keyframe rotations [rad]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("power_t",
         o.power_t,
         "power spectral density of the translation prior [m^2/s^3 or m^2/s^5]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("power_r",
         o.power_r,
         "power spectral density of the rotation prior [rad^2/s^3 or rad^2/s^5]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
 }
 
 }  // namespace loopbench::methods

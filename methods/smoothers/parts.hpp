@@ -7,7 +7,7 @@
 
 namespace loopbench::methods {
 
-inline std::vector<Vector3> places(const Trajectory& poses) {
+inline std::vector<Vector3> positions_of(const Trajectory& poses) {
   std::vector<Vector3> out;
   out.reserve(poses.size());
   for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.translation);

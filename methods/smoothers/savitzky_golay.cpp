@@ -10,7 +10,7 @@
 namespace loopbench::methods {
 namespace {
 
-constexpr std::size_t kMostTerms = SavitzkyGolay::kMostDegree + 1;
+constexpr std::size_t kMostTerms = SavitzkyGolay::kMaxDegree + 1;
 
 /// Keyframes first..last - 1.
 struct Neighbours {

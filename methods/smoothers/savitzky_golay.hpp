@@ -20,7 +20,7 @@ class SavitzkyGolay final : public Smoother {
     int window = 7;                                ///< [keyframes]
     std::optional<double> seconds = std::nullopt;  ///< width in time, replaces `window` [s]
   };
-  static constexpr int kMostDegree = 5;
+  static constexpr int kMaxDegree = 5;
 
   /// Throws OptionError when the window holds fewer than degree + 1 keyframes.
   explicit SavitzkyGolay(const Options& options);
@@ -36,10 +36,8 @@ class SavitzkyGolay final : public Smoother {
 
 template <class Visit>
 void fields(SavitzkyGolay::Options& o, Visit visit) {
-  visit("degree",
-        o.degree,
-        "degree of the local polynomials",
-        Between{0, SavitzkyGolay::kMostDegree});
+  visit(
+      "degree", o.degree, "degree of the local polynomials", Between{0, SavitzkyGolay::kMaxDegree});
   visit("window",
         o.window,
         "number of keyframes in a window; must exceed the degree",
@@ -47,7 +45,7 @@ void fields(SavitzkyGolay::Options& o, Visit visit) {
   visit("seconds",
         o.seconds,
         "window width in time, replaces `window` [s]; none: use `window`",
-        Above{0.0});
+        GreaterThan{0.0});
 }
 
 }  // namespace loopbench::methods

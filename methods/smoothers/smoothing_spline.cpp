@@ -6,7 +6,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/two_curves.hpp"
+#include "methods/smoothers/position_and_rotation_curve.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -56,7 +56,7 @@ class PositionSpline final : public Curve {
 
 class RotationSpline final : public Curve {
  public:
-  RotationSpline(std::vector<double> stamps, Unrolled path, std::vector<Knot> knots)
+  RotationSpline(std::vector<double> stamps, UnrolledRotations path, std::vector<Knot> knots)
       : stamps_(std::move(stamps)), path_(std::move(path)), knots_(std::move(knots)) {}
 
   double start() const override { return stamps_.front(); }
@@ -69,13 +69,13 @@ class RotationSpline final : public Curve {
       const std::size_t i = span.find(times[k]);
       const double interval = stamps_[i + 1] - stamps_[i];
       const double u = (times[k] - stamps_[i]) / interval;
-      poses[k] = {path_.rolled(i, u, between(&knots_[i], u, interval)), Vector3::Zero()};
+      poses[k] = {path_.roll(i, u, between(&knots_[i], u, interval)), Vector3::Zero()};
     }
   }
 
  private:
   std::vector<double> stamps_;
-  Unrolled path_;
+  UnrolledRotations path_;
   std::vector<Knot> knots_;
 };
 
@@ -89,7 +89,7 @@ Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Vector3> one_axis(y.size(), Vector3::Zero());
     for (std::size_t i = 0; i < y.size(); ++i) one_axis[i][axis] = y[i][axis] - y.front()[axis];
-    const double lambda = chosen_lambda(reinsch, stamps, one_axis, criterion);
+    const double lambda = select_lambda(reinsch, stamps, one_axis, criterion);
     report.count(std::string("lambda_") + "xyz"[axis], lambda);
     const Reinsch::Fit fit = reinsch.fit(one_axis, lambda);
     if (axis == 0) {
@@ -121,21 +121,21 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
   const Reinsch reinsch(times);
 
   Reinsch::Fit positions;
-  const std::vector<Vector3> points = places(problem.keyframes);
+  const std::vector<Vector3> points = positions_of(problem.keyframes);
   if (options_.axes == Axes::each && !options_.lambda_t) {
     positions = axis_by_axis(reinsch, times, points, options_.criterion, report);
   } else {
     const double lambda = options_.lambda_t.value_or(0.0) > 0.0
                               ? *options_.lambda_t
-                              : chosen_lambda(reinsch, times, points, options_.criterion);
+                              : select_lambda(reinsch, times, points, options_.criterion);
     report.count("lambda_t", lambda);
     positions = reinsch.fit(points, lambda);
   }
   report.count("free_t", size - positions.free);
   auto position_curve = std::make_unique<PositionSpline>(times, knots(positions));
-  if (options_.rotation == Turn::slerp) {
-    return std::make_unique<TwoCurves>(std::move(position_curve),
-                                       std::make_unique<Polyline>(problem.keyframes));
+  if (options_.rotation == RotationMode::slerp) {
+    return std::make_unique<PositionAndRotationCurve>(
+        std::move(position_curve), std::make_unique<Polyline>(problem.keyframes));
   }
 
   // The first rounds change the unrolled data; after kChoices rounds lambda is kept.
@@ -145,15 +145,15 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
       smoothed_rotations(attitudes(problem.keyframes), [&](const std::vector<Vector3>& flat) {
         constexpr int kChoices = 3;
         if (!options_.lambda_r && rounds++ < kChoices) {
-          lambda = chosen_lambda(reinsch, times, flat, options_.criterion);
+          lambda = select_lambda(reinsch, times, flat, options_.criterion);
         }
         return reinsch.fit(flat, lambda);
       });
   report.count("lambda_r", lambda);
   report.count("free_r", size - rotation.fit.free);
   report.count("iterations", rotation.iterations);
-  if (!rotation.settled) report.notes.push_back("the rotation fit did not converge");
-  return std::make_unique<TwoCurves>(
+  if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
+  return std::make_unique<PositionAndRotationCurve>(
       std::move(position_curve),
       std::make_unique<RotationSpline>(times, rotation.path, knots(rotation.fit)));
 }

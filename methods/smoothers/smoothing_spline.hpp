@@ -17,13 +17,13 @@ namespace loopbench::methods {
 class SmoothingSpline final : public Smoother {
  public:
   enum class Axes { joint, each };
-  enum class Turn { slerp, spline };
+  enum class RotationMode { slerp, spline };
   struct Options {
     Criterion criterion = Criterion::gcv;
     std::optional<double> lambda_t = std::nullopt;  ///< [s^3]
     std::optional<double> lambda_r = std::nullopt;  ///< [s^3]
     Axes axes = Axes::joint;
-    Turn rotation = Turn::spline;
+    RotationMode rotation = RotationMode::spline;
   };
   explicit SmoothingSpline(const Options& options) : options_(options) {}
 
@@ -42,9 +42,9 @@ inline auto choices(SmoothingSpline::Axes) {
   return std::array{std::pair{"joint", SmoothingSpline::Axes::joint},
                     std::pair{"each", SmoothingSpline::Axes::each}};
 }
-inline auto choices(SmoothingSpline::Turn) {
-  return std::array{std::pair{"slerp", SmoothingSpline::Turn::slerp},
-                    std::pair{"spline", SmoothingSpline::Turn::spline}};
+inline auto choices(SmoothingSpline::RotationMode) {
+  return std::array{std::pair{"slerp", SmoothingSpline::RotationMode::slerp},
+                    std::pair{"spline", SmoothingSpline::RotationMode::spline}};
 }
 
 template <class Visit>
@@ -56,11 +56,11 @@ void fields(SmoothingSpline::Options& o, Visit visit) {
   visit("lambda_t",
         o.lambda_t,
         "penalty on acceleration [s^3]; none: chosen by the criterion",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("lambda_r",
         o.lambda_r,
         "penalty on angular acceleration [s^3]; none: chosen by the criterion",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("axes",
         o.axes,
         "joint: one lambda for all position axes; each: one per world axis, so the result depends "

@@ -38,9 +38,9 @@ Arc arc(const Rotation& frame, const Rotation& a, const Rotation& b, double shar
 
 /// One row per unknown control C_1..C_n; `right` is the residual as a rotation vector in the world
 /// frame.
-std::vector<Row> linearised(const CubicBasis& basis,
-                            const std::vector<Rotation>& controls,
-                            const std::vector<Rotation>& rotations) {
+std::vector<Row> linearise(const CubicBasis& basis,
+                           const std::vector<Rotation>& controls,
+                           const std::vector<Rotation>& rotations) {
   const std::size_t n = rotations.size();
   std::vector<Row> rows(n);
   const Matrix3 I = Matrix3::Identity();
@@ -118,7 +118,7 @@ std::vector<Vector3> interpolating_points(const CubicBasis& basis,
 std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
                                                         const std::vector<Rotation>& rotations) {
   ControlRotations out{initial_controls(basis, rotations), 0};
-  std::vector<Row> rows = linearised(basis, out.rotations, rotations);
+  std::vector<Row> rows = linearise(basis, out.rotations, rotations);
   double residual = largest_residual(rows);
   for (; residual > kCubicTolerance && out.iterations < kCubicSteps; ++out.iterations) {
     const std::vector<Vector3> step = solve_tridiagonal(rows);
@@ -129,7 +129,7 @@ std::optional<ControlRotations> interpolating_rotations(const CubicBasis& basis,
       for (std::size_t i = 0; i < step.size(); ++i) {
         trial[i + 1] = (exp_so3(share * step[i]) * trial[i + 1]).normalized();
       }
-      rows = linearised(basis, trial, rotations);
+      rows = linearise(basis, trial, rotations);
       const double trial_residual = largest_residual(rows);
       better = trial_residual < residual;  // false for NaN as well
       if (!better) continue;

@@ -15,9 +15,9 @@ std::optional<std::string> SplineRegression::declines(const Problem& problem) co
 std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
                                                       Report& report) const {
   const Trajectory& keyframes = problem.keyframes;
-  const SplineBasis basis = basis_among(
+  const SplineBasis basis = basis_with_fewer_knots(
       static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
-  std::vector<Pose> controls = controls_along(basis, keyframes);
+  std::vector<Pose> controls = initial_controls_for(basis, keyframes);
   SplineProblem fit;
   // Positions relative to the first keyframe, to avoid rounding errors far from the world origin.
   const Vector3 origin = keyframes.front().world_from_body.translation;
@@ -25,7 +25,7 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
   for (const auto& [stamp, pose] : keyframes) {
     fit.poses.push_back({stamp, {pose.rotation, pose.translation - origin}});
   }
-  const SplineSummary summary = fit_controls(basis, controls, fit, {});
+  const SplineSummary summary = solve_spline(basis, controls, fit, {});
   for (Pose& control : controls) control.translation += origin;
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);

@@ -9,6 +9,7 @@
 
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
+#include "datasets/core/upper_median.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -42,7 +43,7 @@ class JoinedCurve final : public Curve {
   std::vector<double> begins_;  ///< start of each piece, and the end of the last
 };
 
-Trajectory part_of(const Trajectory& poses, const Stretch& stretch) {
+Trajectory part_of(const Trajectory& poses, const PoseRun& stretch) {
   const auto begin = poses.begin() + static_cast<std::ptrdiff_t>(stretch.first);
   return {begin, begin + static_cast<std::ptrdiff_t>(stretch.last - stretch.first + 1)};
 }
@@ -54,7 +55,7 @@ double step_angle(const Trajectory& poses, std::size_t i) {
 using Solve = std::function<std::unique_ptr<const Curve>(const Trajectory&)>;
 
 void add_rotations(const Trajectory& poses,
-                   const Stretch& stretch,
+                   const PoseRun& stretch,
                    const Solve& solve,
                    std::vector<std::unique_ptr<const Curve>>& parts) {
   if (stretch.first == stretch.last) {
@@ -80,13 +81,12 @@ double median_interval(const Trajectory& poses) {
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     intervals.push_back(poses[i + 1].stamp - poses[i].stamp);
   }
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
+  return upper_median(intervals);
 }
 
-std::vector<Stretch> stretches(std::size_t poses, const std::function<bool(std::size_t)>& cut) {
-  std::vector<Stretch> out{{0, 0}};
+std::vector<PoseRun> runs_without_breaks(std::size_t poses,
+                                         const std::function<bool(std::size_t)>& cut) {
+  std::vector<PoseRun> out{{0, 0}};
   for (std::size_t i = 0; i + 1 < poses; ++i) {
     if (cut(i)) {
       out.push_back({i + 1, i + 1});
@@ -111,17 +111,17 @@ std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> pa
   return std::make_unique<JoinedCurve>(std::move(pieces));
 }
 
-std::unique_ptr<const Curve> smoothed_apart(
+std::unique_ptr<const Curve> smooth_segments(
     const Trajectory& poses,
-    const std::vector<Stretch>& stretches,
+    const std::vector<PoseRun>& runs,
     const std::string& reason,
     Report& report,
     const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth) {
-  if (stretches.size() == 1) return smooth(poses, report);
+  if (runs.size() == 1) return smooth(poses, report);
   std::vector<std::unique_ptr<const Curve>> parts;
   std::vector<Count> counts;
   std::size_t longest = 0;
-  for (const Stretch& stretch : stretches) {
+  for (const PoseRun& stretch : runs) {
     Report part_report;
     parts.push_back(smooth(part_of(poses, stretch), part_report));
     std::ranges::move(part_report.phases, std::back_inserter(report.phases));
@@ -134,26 +134,26 @@ std::unique_ptr<const Curve> smoothed_apart(
     }
   }
   std::ranges::move(counts, std::back_inserter(report.counts));
-  report.count("chords", static_cast<double>(stretches.size() - 1));
-  const double begin = poses[stretches[0].last].stamp;
-  const double end = poses[stretches[1].first].stamp;
+  report.count("chords", static_cast<double>(runs.size() - 1));
+  const double begin = poses[runs[0].last].stamp;
+  const double end = poses[runs[1].first].stamp;
   report.notes.push_back(
       fmt::format("{}: {} bridged by a chord, the first from {:.6f} s to {:.6f} s",
                   reason,
-                  stretches.size() - 1,
+                  runs.size() - 1,
                   begin,
                   end));
   return joined(std::move(parts));
 }
 
-std::unique_ptr<const Curve> attitudes_apart(const Trajectory& poses,
-                                             Report& report,
-                                             const Solve& solve) {
+std::unique_ptr<const Curve> interpolate_rotations_in_parts(const Trajectory& poses,
+                                                            Report& report,
+                                                            const Solve& solve) {
   constexpr double kLarge = 2.0;  // [rad]
   std::vector<std::unique_ptr<const Curve>> parts;
-  const auto cut =
-      stretches(poses.size(), [&](std::size_t i) { return step_angle(poses, i) > kLarge; });
-  for (const Stretch& stretch : cut) add_rotations(poses, stretch, solve, parts);
+  const auto cut = runs_without_breaks(
+      poses.size(), [&](std::size_t i) { return step_angle(poses, i) > kLarge; });
+  for (const PoseRun& stretch : cut) add_rotations(poses, stretch, solve, parts);
   report.count("great_arcs", static_cast<double>(parts.size() - 1));
   report.notes.push_back(fmt::format(
       "no rotation spline through all keyframes exists: {} of {} intervals are great arcs",

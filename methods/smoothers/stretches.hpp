@@ -11,10 +11,10 @@
 namespace loopbench::methods {
 
 /// Segment of consecutive poses first .. last, both included.
-struct Stretch {
+struct PoseRun {
   std::size_t first, last;
 
-  bool operator==(const Stretch&) const = default;
+  bool operator==(const PoseRun&) const = default;
 };
 
 /// Returns the median time between consecutive poses [s]. Requires at least two poses. O(n).
@@ -22,7 +22,8 @@ double median_interval(const Trajectory& poses);
 
 /// Splits at least one pose into segments at the intervals (i, i + 1) for which `cut(i)` holds.
 /// O(n).
-std::vector<Stretch> stretches(std::size_t poses, const std::function<bool(std::size_t)>& cut);
+std::vector<PoseRun> runs_without_breaks(std::size_t poses,
+                                         const std::function<bool(std::size_t)>& cut);
 
 /// Joins the parts by chords: straight lines and great arcs from the end of each part to the start
 /// of the next. The parts must be in order of time, must not overlap, and must contain at least two
@@ -33,9 +34,9 @@ std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> pa
 /// segment, the count `chords`, the phases, sections and notes of all segments, and a note with
 /// `reason` and the location of the first chord. With one segment the result is exactly that of
 /// `smooth`.
-std::unique_ptr<const Curve> smoothed_apart(
+std::unique_ptr<const Curve> smooth_segments(
     const Trajectory& poses,
-    const std::vector<Stretch>& stretches,
+    const std::vector<PoseRun>& runs,
     const std::string& reason,
     Report& report,
     const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth);
@@ -44,7 +45,7 @@ std::unique_ptr<const Curve> smoothed_apart(
 /// above 2 rad, and where `solve` still fails at the largest step. `solve` returns a curve through
 /// the poses, or null. Great arcs join the parts, with a note. Positions are ignored. O(n) calls of
 /// `solve` in the worst case.
-std::unique_ptr<const Curve> attitudes_apart(
+std::unique_ptr<const Curve> interpolate_rotations_in_parts(
     const Trajectory& poses,
     Report& report,
     const std::function<std::unique_ptr<const Curve>(const Trajectory&)>& solve);

@@ -42,7 +42,7 @@ double score(const std::vector<Vector3>& y, const Trend::Fit& fit, double extent
 
 constexpr int kSteps = 24;  // number of values of lambda, four per decade
 
-/// The regression line, which is the fit for every lambda >= trend.straight_from(y).
+/// The regression line, which is the fit for every lambda >= trend.min_lambda_of_line(y).
 Trend::Fit line(const Trend& trend, const std::vector<Vector3>& y) {
   return {trend.refitted(y, {}), {}, 0, true};
 }
@@ -52,7 +52,7 @@ TrendChoice choose_fit(const Trend& trend,
                        const TrendFilter::Options& options) {
   const Trend::Settings settings{options.tolerance, options.max_iterations};
   const double extent = extent_of(y);
-  const double straight = trend.straight_from(y);
+  const double straight = trend.min_lambda_of_line(y);
   if (straight <= 1e-9 * extent) return {line(trend, y)};
   // lambda lies on a fixed lattice, so that rounding does not change the choice.
   const double top = std::pow(10.0, std::ceil(4.0 * std::log10(straight)) / 4.0);
@@ -96,7 +96,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   const std::vector<double> times = stamps(problem.keyframes);
   const Trend trend(times);
   Trajectory out = problem.keyframes;
-  const TrendChoice positions = choose_fit(trend, places(problem.keyframes), options_);
+  const TrendChoice positions = choose_fit(trend, positions_of(problem.keyframes), options_);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].world_from_body.translation = positions.fit.values[i];
   }
@@ -105,7 +105,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   int iterations = positions.iterations;
   bool converged = positions.converged;
 
-  if (options_.rotation == Turn::filtered) {
+  if (options_.rotation == RotationMode::filtered) {
     TrendChoice rotation_choice;
     int rounds = 0;
     // The first rounds change the unrolled data; after kChoices rounds lambda, or the kinks, are
@@ -128,11 +128,11 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
     const double tolerance = options_.refit ? 1e-11 : 1e-2 * options_.tolerance;
     const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].world_from_body.rotation = rotation.path.rolled(i, 0.0, rotation.fit.values[i]);
+      out[i].world_from_body.rotation = rotation.path.roll(i, 0.0, rotation.fit.values[i]);
     }
     report.count("kinks_r", static_cast<double>(rotation.fit.kinks.size()));
     report.count("lambda_r", rotation_choice.lambda * trend.interval());
-    if (!rotation.settled) report.notes.push_back("the rotation fit did not converge");
+    if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
   }
   report.count("iterations", iterations);
   if (!converged) report.notes.push_back("an interior-point solve stopped before convergence");

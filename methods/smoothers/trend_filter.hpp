@@ -18,13 +18,13 @@ namespace loopbench::methods {
 /// Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
 class TrendFilter final : public Smoother {
  public:
-  enum class Turn { slerp, filtered };
+  enum class RotationMode { slerp, filtered };
   struct Options {
     std::optional<double> share = std::nullopt;
     bool refit = false;
     double tolerance = 1e-4;
     int max_iterations = 300;
-    Turn rotation = Turn::filtered;
+    RotationMode rotation = RotationMode::filtered;
   };
   explicit TrendFilter(const Options& options) : options_(options) {}
 
@@ -38,9 +38,9 @@ class TrendFilter final : public Smoother {
   Options options_;
 };
 
-inline auto choices(TrendFilter::Turn) {
-  return std::array{std::pair{"slerp", TrendFilter::Turn::slerp},
-                    std::pair{"filtered", TrendFilter::Turn::filtered}};
+inline auto choices(TrendFilter::RotationMode) {
+  return std::array{std::pair{"slerp", TrendFilter::RotationMode::slerp},
+                    std::pair{"filtered", TrendFilter::RotationMode::filtered}};
 }
 
 template <class Visit>

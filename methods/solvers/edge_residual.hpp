@@ -16,8 +16,8 @@ struct EdgeResidual {
 };
 
 template <class G>
-typename G::Tangent edge_error_in(const typename G::Element& to_from_measured_from,
-                                  const typename G::Element& from_from_to) {
+typename G::Tangent group_edge_error(const typename G::Element& to_from_measured_from,
+                                     const typename G::Element& from_from_to) {
   return G::log(G::compose(to_from_measured_from, from_from_to));
 }
 
@@ -29,7 +29,7 @@ EdgeResidual<G> edge_residual(const typename G::Element& to_from_measured_from,
                               const typename G::Element& to) {
   const typename G::Element from_from_to = G::compose(G::inverse(from), to);
   EdgeResidual<G> out;
-  out.error = edge_error_in<G>(to_from_measured_from, from_from_to);
+  out.error = group_edge_error<G>(to_from_measured_from, from_from_to);
   out.by_to = G::inverse_right_jacobian(out.error);
   out.by_from = -out.by_to * G::adjoint(G::inverse(from_from_to));
   return out;

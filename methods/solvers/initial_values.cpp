@@ -79,7 +79,7 @@ std::vector<ScaledPose> tree_values(const Problem& problem) {
   return out;
 }
 
-std::optional<std::size_t> first_unjoined(const Problem& problem) {
+std::optional<std::size_t> first_unconnected(const Problem& problem) {
   if (problem.keyframes.empty()) return std::nullopt;
   const std::vector<bool> reached =
       walk_tree(problem, [](const Edge&, std::size_t, std::size_t) {});

@@ -16,7 +16,7 @@ std::vector<ScaledPose> tree_values(const Problem& problem);
 
 /// Returns the first keyframe that is not connected to keyframe 0, or nullopt. O(keyframes +
 /// edges).
-std::optional<std::size_t> first_unjoined(const Problem& problem);
+std::optional<std::size_t> first_unconnected(const Problem& problem);
 
 /// Chordal relaxation. Computes rotations by linear least squares on their nine entries,
 ///     min sum kappa |R_j - R_i Z_R|^2 (Frobenius), R_0 fixed, then projects each to SO(3);

@@ -64,7 +64,7 @@ class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSi
     const auto from = G::read(x[0]);
     const auto to = G::read(x[1]);
     if (jacobians == nullptr) {
-      out = root_ * edge_error_in<G>(back_, G::compose(G::inverse(from), to));
+      out = root_ * group_edge_error<G>(back_, G::compose(G::inverse(from), to));
       return true;
     }
     const EdgeResidual<G> at = edge_residual<G>(back_, from, to);
@@ -121,15 +121,15 @@ class SwitchableConstraint final : public ceres::LossFunction {
 std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& settings) {
   const double width = settings.loss_width;
   switch (settings.loss) {
-    case Loss::none:
+    case RobustLoss::none:
       return nullptr;
-    case Loss::huber:
+    case RobustLoss::huber:
       return std::make_unique<ceres::HuberLoss>(std::sqrt(width));
-    case Loss::cauchy:
+    case RobustLoss::cauchy:
       return std::make_unique<ceres::CauchyLoss>(std::sqrt(width));
-    case Loss::dcs:
+    case RobustLoss::dcs:
       return std::make_unique<DynamicCovarianceScaling>(width);
-    case Loss::switchable:
+    case RobustLoss::switchable:
       return std::make_unique<SwitchableConstraint>(width);
   }
   return nullptr;
@@ -240,7 +240,7 @@ std::vector<double> squared_in(const std::vector<ScaledPose>& poses,
     const auto back = G::inverse(G::from(measured(edge)));
     const auto from_from_to =
         G::compose(G::inverse(relative_pose(edge.from)), relative_pose(edge.to));
-    const typename G::Tangent e = edge_error_in<G>(back, from_from_to);
+    const typename G::Tangent e = group_edge_error<G>(back, from_from_to);
     out.push_back(e.dot(G::information(edge, scale_sigma) * e));
   }
   return out;

@@ -14,25 +14,25 @@ namespace loopbench::methods {
 enum class Group { se2, se3, sim3 };
 
 /// Loss rho(x) of a closure, where x is its squared Mahalanobis error; odometry always has x.
-enum class Loss {
+enum class RobustLoss {
   none,        ///< x
   huber,       ///< x up to width, then 2 sqrt(width x) - width
   cauchy,      ///< width log(1 + x / width)
   dcs,         ///< x up to width, then 3 width - 4 width^2 / (width + x) (Agarwal 2013: weight s^2)
   switchable,  ///< width x / (width + x): switchable constraints, switch eliminated
 };
-inline auto choices(Loss) {
-  return std::array{std::pair{"none", Loss::none},
-                    std::pair{"huber", Loss::huber},
-                    std::pair{"cauchy", Loss::cauchy},
-                    std::pair{"dcs", Loss::dcs},
-                    std::pair{"switchable", Loss::switchable}};
+inline auto choices(RobustLoss) {
+  return std::array{std::pair{"none", RobustLoss::none},
+                    std::pair{"huber", RobustLoss::huber},
+                    std::pair{"cauchy", RobustLoss::cauchy},
+                    std::pair{"dcs", RobustLoss::dcs},
+                    std::pair{"switchable", RobustLoss::switchable}};
 }
 
 struct PoseGraphSettings {
   Group group = Group::se3;
   double scale_sigma = 0.01;  ///< deviation of the log scale of an edge, Sim(3) only [-]
-  Loss loss = Loss::none;
+  RobustLoss loss = RobustLoss::none;
   double loss_width = 1.0;  ///< width of the loss as a squared error [-]
   int max_iterations = 1000;
   double tolerance = 1e-14;  ///< relative change of the cost at convergence [-]

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "datasets/core/knot_span.hpp"
-#include "methods/smoothers/spline/turning.hpp"
+#include "methods/smoothers/spline/rotation_derivative.hpp"
 
 namespace loopbench::methods {
 
 /// Pose X(t) and the derivatives of X(t) Exp(d) with respect to the controls of its window.
 struct SplineFactor::PoseDerivative {
   Pose pose;
-  std::array<Matrix6, SplineBasis::kMostOrder> by_control;
+  std::array<Matrix6, SplineBasis::kMaxOrder> by_control;
 };
 
 namespace {
@@ -52,13 +52,13 @@ void SplineFactor::collect_controls(std::vector<std::size_t> firsts) {
 SplineFactor::PoseDerivative SplineFactor::pose_at(const Time& time,
                                                    const std::vector<Pose>& controls) const {
   PoseDerivative out;
-  std::array<Rotation, SplineBasis::kMostOrder> rotations;
+  std::array<Rotation, SplineBasis::kMaxOrder> rotations;
   for (std::size_t j = 0; j < order_; ++j) {
     const Pose& control = controls[time.at + j];
     rotations[j] = control.rotation;
     out.pose.translation += time.values[j] * control.translation;
   }
-  const Turning rotated = turning(rotations.data(), order_, time.cumulative);
+  const RotationDerivative rotated = rotation_derivative(rotations.data(), order_, time.cumulative);
   out.pose.rotation = rotated.rotation.normalized();
   const Matrix3 body_from_world = out.pose.rotation.conjugate().toRotationMatrix();
   for (std::size_t j = 0; j < order_; ++j) {

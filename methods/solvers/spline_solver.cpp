@@ -92,7 +92,7 @@ Matrix6 root_of(const Edge& edge) {
 
 }  // namespace
 
-SplineSummary fit_controls(const SplineBasis& basis,
+SplineSummary solve_spline(const SplineBasis& basis,
                            std::vector<Pose>& controls,
                            const SplineProblem& problem,
                            const SplineSettings& settings) {
@@ -112,7 +112,7 @@ SplineSummary fit_controls(const SplineBasis& basis,
   };
   for (const PoseAt& pose : problem.poses) add({basis, pose}, Matrix6::Identity());
   for (const EdgeBetween& edge : problem.edges) add({basis, edge}, root_of(edge.edge));
-  if (problem.hold_start) least_squares.SetParameterBlockConstant(blocks.front().data());
+  if (problem.fix_start) least_squares.SetParameterBlockConstant(blocks.front().data());
 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

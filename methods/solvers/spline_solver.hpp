@@ -12,7 +12,7 @@ namespace loopbench::methods {
 struct SplineProblem {
   std::vector<PoseAt> poses;
   std::vector<EdgeBetween> edges;
-  bool hold_start = false;  ///< keep the first control, the start of the curve, fixed
+  bool fix_start = false;  ///< keep the first control, the start of the curve, fixed
 };
 
 struct SplineSettings {
@@ -32,7 +32,7 @@ struct SplineSummary {
 /// runs. O(n k^2) per iteration for n factors, plus the fill-in of long edges. Throws
 /// std::runtime_error with the message of Ceres when there is no usable solution, and when an
 /// information matrix is not positive definite.
-SplineSummary fit_controls(const SplineBasis& basis,
+SplineSummary solve_spline(const SplineBasis& basis,
                            std::vector<Pose>& controls,
                            const SplineProblem& problem,
                            const SplineSettings& settings);

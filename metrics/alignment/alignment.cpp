@@ -16,9 +16,9 @@ namespace {
 constexpr double kFlat = 1e-12;
 
 /// Whether the points differ by no more than the rounding of their coordinates.
-bool is_point(double spread, double count, const Vector3& mean) {
+bool is_point(double dispersion, double count, const Vector3& mean) {
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * mean.norm();
-  return spread <= count * rounding * rounding;
+  return dispersion <= count * rounding * rounding;
 }
 
 std::runtime_error degenerate(Align type, double count, const std::string& why) {
@@ -29,12 +29,12 @@ std::runtime_error degenerate(Align type, double count, const std::string& why) 
 
 Alignment least_squares(const Trajectory& reference, const Trajectory& estimate, Align type) {
   const Moments m = moments(reference, estimate);
-  if (!std::isfinite(m.reference_spread) || !std::isfinite(m.estimate_spread) ||
+  if (!std::isfinite(m.reference_dispersion) || !std::isfinite(m.estimate_dispersion) ||
       !m.cross.allFinite()) {
     throw degenerate(type, m.count, "are too far apart for double precision");
   }
-  if (is_point(m.reference_spread, m.count, m.reference_mean) ||
-      is_point(m.estimate_spread, m.count, m.estimate_mean)) {
+  if (is_point(m.reference_dispersion, m.count, m.reference_mean) ||
+      is_point(m.estimate_dispersion, m.count, m.estimate_mean)) {
     throw degenerate(type, m.count, "coincide in one point");
   }
   const Eigen::JacobiSVD<Matrix3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -55,7 +55,7 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
 
   const Vector3 signs(1.0, 1.0, mirror);
   const Matrix3 R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  if (type != Align::se3) out.scale = d.dot(signs) / m.estimate_spread;
+  if (type != Align::se3) out.scale = d.dot(signs) / m.estimate_dispersion;
   if (type == Align::scale) return out;
   out.reference_from_estimate.rotation = Rotation(R).normalized();
   out.reference_from_estimate.translation = m.reference_mean - out.scale * (R * m.estimate_mean);
@@ -63,16 +63,16 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
 }
 
 /// The yaw of the best alignment, from `turned` = sum of e r^T or R_e R_r^T.
-Rotation best_yaw(const Matrix3& turned) {
-  const double sine = turned(0, 1) - turned(1, 0);
-  const double cosine = turned(0, 0) + turned(1, 1);
+Rotation best_yaw(const Matrix3& relative_rotation) {
+  const double sine = relative_rotation(0, 1) - relative_rotation(1, 0);
+  const double cosine = relative_rotation(0, 0) + relative_rotation(1, 1);
   return exp_so3(Vector3(0.0, 0.0, std::atan2(sine, cosine)));
 }
 
 Alignment yaw_least_squares(const Trajectory& reference, const Trajectory& estimate) {
   const Moments m = moments(reference, estimate);
-  const double turn = std::hypot(m.cross(1, 0) - m.cross(0, 1), m.cross(0, 0) + m.cross(1, 1));
-  if (turn <= kFlat * std::sqrt(m.reference_spread * m.estimate_spread)) {
+  const double sine_sum = std::hypot(m.cross(1, 0) - m.cross(0, 1), m.cross(0, 0) + m.cross(1, 1));
+  if (sine_sum <= kFlat * std::sqrt(m.reference_dispersion * m.estimate_dispersion)) {
     throw degenerate(Align::posyaw, m.count, "have no common motion normal to z");
   }
   Alignment out;
@@ -85,8 +85,8 @@ Alignment yaw_least_squares(const Trajectory& reference, const Trajectory& estim
 Alignment first_yaw(const Pose& reference, const Pose& estimate) {
   Alignment out;
   out.type = Align::posyaw_origin;
-  const Rotation turned = estimate.rotation * reference.rotation.conjugate();
-  const Rotation R = best_yaw(turned.toRotationMatrix());
+  const Rotation relative_rotation = estimate.rotation * reference.rotation.conjugate();
+  const Rotation R = best_yaw(relative_rotation.toRotationMatrix());
   out.reference_from_estimate = {R, reference.translation - R * estimate.translation};
   return out;
 }
@@ -131,7 +131,7 @@ Trajectory moved(const Alignment& alignment, Trajectory estimate) {
   if (alignment.type == Align::none) return estimate;
   const Pose& move = alignment.reference_from_estimate;
   const Matrix3 scaled = alignment.scale * move.rotation.toRotationMatrix();
-  in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       Pose& pose = estimate[i].world_from_body;
       pose.translation = scaled * pose.translation + move.translation;

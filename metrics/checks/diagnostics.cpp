@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/heading.hpp"
 #include "metrics/trajectory/position_only.hpp"
-#include "metrics/trajectory/travel.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -32,11 +32,12 @@ void diagnose_gaps(const Trajectory& reference,
                    double offset,
                    const DiagnosticsOptions& o,
                    Diagnostics& out) {
-  for (const Loss& loss : losses(reference, stamps(estimate), offset, o.loss, o.standing)) {
-    const double duration = loss.end - loss.begin;
-    ++out.losses;
+  for (const TrackingGap& gap :
+       gaps_while_moving(reference, stamps(estimate), offset, o.tracking_gap, o.standing)) {
+    const double duration = gap.end - gap.begin;
+    ++out.tracking_gaps;
     out.lost += duration;
-    out.longest_loss = std::max(out.longest_loss, duration);
+    out.longest_gap = std::max(out.longest_gap, duration);
   }
 }
 
@@ -49,11 +50,11 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
   out.rank = evaluation.alignment.rank;
   out.condition = evaluation.alignment.condition;
   diagnose_pairs(evaluation, out);
-  const std::vector<Chord> ways = chords(evaluation.reference, options.window);
+  const std::vector<Chord> windows = chords(evaluation.reference, options.window);
   const auto standing = std::ranges::count_if(
-      ways, [&](const Chord& chord) { return !chord.is_moving(options.standing); });
-  if (!ways.empty())
-    out.standing = static_cast<double>(standing) / static_cast<double>(ways.size());
+      windows, [&](const Chord& chord) { return !chord.is_moving(options.standing); });
+  if (!windows.empty())
+    out.standing = static_cast<double>(standing) / static_cast<double>(windows.size());
   out.position_only_reference = is_position_only(evaluation.reference);
   out.position_only_estimate = is_position_only(evaluation.estimate);
   const Context& context = evaluation.context;
@@ -65,23 +66,23 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
 
 std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOptions& options) {
   const Diagnostics d = diagnose(evaluation, options);
-  const auto whole = [](const char* name, std::size_t count) {
+  const auto count_score = [](const char* name, std::size_t count) {
     return single(name, "", "1", static_cast<double>(count));
   };
-  return descriptions({whole("matched", d.matched),
-                       whole("possible", d.possible),
+  return descriptions({count_score("matched", d.matched),
+                       count_score("possible", d.possible),
                        single("largest_gap", "", "s", d.largest_gap),
-                       whole("repeated", d.repeated),
-                       whole("crossing", d.crossing),
+                       count_score("repeated", d.repeated),
+                       count_score("crossing", d.crossing),
                        single("off_unit", "", "1", d.off_unit),
                        single("alignment_rank", "", "1", d.rank),
                        single("alignment_condition", "", "1", d.condition),
                        single("standing", "", "%", 100.0 * d.standing),
-                       whole("position_only_reference", d.position_only_reference),
-                       whole("position_only_estimate", d.position_only_estimate),
-                       whole("losses", d.losses),
+                       count_score("position_only_reference", d.position_only_reference),
+                       count_score("position_only_estimate", d.position_only_estimate),
+                       count_score("tracking_gaps", d.tracking_gaps),
                        single("lost", "", "s", d.lost),
-                       single("longest_loss", "", "s", d.longest_loss)});
+                       single("longest_gap", "", "s", d.longest_gap)});
 }
 
 }  // namespace loopbench::metrics

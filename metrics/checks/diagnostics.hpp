@@ -8,17 +8,17 @@ namespace loopbench::metrics {
 struct DiagnosticsOptions {
   double standing = 0.05;
   double window = 1.0;
-  double loss = 2.0;
+  double tracking_gap = 2.0;
 };
 
 template <class Visit>
 void fields(DiagnosticsOptions& o, Visit visit) {
   visit("standing", o.standing, "speed below which the reference is at rest [m/s]", Between{0.0});
   visit("window", o.window, "time window for the speed [s]", Between{0.0});
-  visit("loss",
-        o.loss,
+  visit("tracking_gap",
+        o.tracking_gap,
         "pause between estimate stamps beyond which tracking counts as lost [s]",
-        Above{0.0});
+        GreaterThan{0.0});
 }
 
 /// Values of the metric `diagnostics`.
@@ -39,9 +39,9 @@ struct Diagnostics {
   bool position_only_reference = false;  ///< if true, rotation is not evaluated
   bool position_only_estimate = false;
   /// Tracking gaps: pauses of the estimate longer than `loss` during which the reference moved.
-  std::size_t losses = 0;
-  double lost = 0.0;          ///< total duration of the tracking gaps [s]
-  double longest_loss = 0.0;  ///< [s]
+  std::size_t tracking_gaps = 0;
+  double lost = 0.0;         ///< total duration of the tracking gaps [s]
+  double longest_gap = 0.0;  ///< [s]
 };
 
 /// Tracking gaps are found only if the context has the complete estimate and reference. O(n + m).

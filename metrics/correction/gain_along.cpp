@@ -5,7 +5,7 @@
 
 #include "datasets/core/polyline.hpp"
 #include "metrics/pairing/pair_search.hpp"
-#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -55,11 +55,11 @@ Score gain(const std::string& relation,
 
 /// The `errors` of poses in third 0, 1 or 2 of the path.
 std::vector<double> third(const std::vector<double>& errors,
-                          const std::vector<double>& way,
+                          const std::vector<double>& distance,
                           int which) {
   std::vector<double> out;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double share = way.back() > 0.0 ? way[i] / way.back() : 0.0;
+    const double share = distance.back() > 0.0 ? distance[i] / distance.back() : 0.0;
     const int part = share < 1.0 / 3.0 ? 0 : share < 2.0 / 3.0 ? 1 : 2;
     if (part == which) out.push_back(errors[i]);
   }
@@ -88,7 +88,7 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
   }
   const Errors before = errors(raw);
   const Errors after = errors(evaluation);
-  const std::vector<double> way = accumulated_distances(evaluation.reference);
+  const std::vector<double> distance = accumulated_distances(evaluation.reference);
 
   const Protocol& rules = evaluation.protocol;
   std::vector<Score> out{gain("translation", "3d", rules, before.metres, after.metres)};
@@ -103,8 +103,8 @@ std::vector<Score> gain_along(const Evaluation& evaluation, const GainAlongOptio
     out.push_back(gain(thirds[static_cast<std::size_t>(k)],
                        "3d",
                        rules,
-                       third(before.metres, way, k),
-                       third(after.metres, way, k)));
+                       third(before.metres, distance, k),
+                       third(after.metres, distance, k)));
   }
   double improved = 0.0;
   double worsened = 0.0;

@@ -13,22 +13,22 @@ double squared(const Twist& e, const Matrix6& information) { return e.dot(inform
 /// plane.
 Twist quaternion_error(const Pose& delta, bool planar) {
   const double sign = delta.rotation.w() < 0.0 ? -1.0 : 1.0;
-  const Vector3 turn =
+  const Vector3 rotation_vector =
       planar ? log_so3(delta.rotation) : Vector3(2.0 * sign * delta.rotation.vec());
-  return twist(delta.translation, turn);
+  return twist(delta.translation, rotation_vector);
 }
 
 double chordal_cost(const Pose& delta, const Matrix6& information, bool planar) {
   const Matrix3 off = delta.rotation.toRotationMatrix() - Matrix3::Identity();
-  const double turned = off.squaredNorm();
+  const double rotation_squared = off.squaredNorm();
   const double moved = delta.translation.squaredNorm();
   if (planar) {
     const Eigen::Matrix2d S = Eigen::Matrix2d(information.topLeftCorner<2, 2>()).inverse();
-    return information(5, 5) * turned + 2.0 / S.trace() * moved;
+    return information(5, 5) * rotation_squared + 2.0 / S.trace() * moved;
   }
   const Matrix3 S_t = Matrix3(information.topLeftCorner<3, 3>()).inverse();
   const Matrix3 S_phi = Matrix3(information.bottomRightCorner<3, 3>()).inverse();
-  return 1.5 / S_phi.trace() * turned + 3.0 / S_t.trace() * moved;
+  return 1.5 / S_phi.trace() * rotation_squared + 3.0 / S_t.trace() * moved;
 }
 
 double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphError error) {

@@ -11,7 +11,7 @@ struct InterpolationFloorOptions {
 
 template <class Visit>
 void fields(InterpolationFloorOptions& o, Visit visit) {
-  visit("max_gap", o.max_gap, "largest reference gap around a keyframe [s]", Above{0.0});
+  visit("max_gap", o.max_gap, "largest reference gap around a keyframe [s]", GreaterThan{0.0});
 }
 
 /// Samples the reference at the keyframe stamps, interpolates, and compares with the reference at

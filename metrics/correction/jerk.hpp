@@ -12,8 +12,9 @@ struct JerkOptions {
 
 template <class Visit>
 void fields(JerkOptions& o, Visit visit) {
-  visit("rate", o.rate, "sampling rate of both curves [1/s]", Above{0.0});
-  visit("max_gap", o.max_gap, "reference gap beyond which samples are skipped [s]", Above{0.0});
+  visit("rate", o.rate, "sampling rate of both curves [1/s]", GreaterThan{0.0});
+  visit(
+      "max_gap", o.max_gap, "reference gap beyond which samples are skipped [s]", GreaterThan{0.0});
 }
 
 /// Samples curve and reference (linear between its poses) at the same times with `rate`. Jerk is 6

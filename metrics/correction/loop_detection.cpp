@@ -90,10 +90,10 @@ void add_curve(std::vector<Scored> all, Detection& out) {
 
 }  // namespace
 
-Detection judge_detection(const Problem& problem,
-                          const Trajectory& reference,
-                          const std::vector<LoopCandidate>& candidates,
-                          const DetectionRule& rule) {
+Detection evaluate_detection(const Problem& problem,
+                             const Trajectory& reference,
+                             const std::vector<LoopCandidate>& candidates,
+                             const DetectionRule& rule) {
   if (reference.empty()) throw std::runtime_error("loop detection: needs a reference");
   const Judge judge(problem, reference, rule);
   Detection out;
@@ -149,7 +149,7 @@ std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionR
   const Trajectory& reference = needed(context.reference, name, "a reference");
   if (reference.empty()) throw Undefined(name + ": needs a reference");
   const Detection d =
-      judge_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
+      evaluate_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
   if (d.revisits == 0) throw Undefined(name + ": the reference revisits no place");
   const auto whole = [](const char* what, std::size_t count) {
     return directed(single(what, "", "1", static_cast<double>(count)), Better::neither);

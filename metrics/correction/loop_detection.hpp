@@ -23,7 +23,7 @@ struct DetectionRule {
 
 template <class Visit>
 void fields(DetectionRule& o, Visit visit) {
-  visit("radius", o.radius, "largest distance between two views of one place [m]", Above{0});
+  visit("radius", o.radius, "largest distance between two views of one place [m]", GreaterThan{0});
   visit("angle",
         o.angle,
         "largest rotation angle between two views of one place [deg]",
@@ -32,11 +32,11 @@ void fields(DetectionRule& o, Visit visit) {
   visit("wrong_metres",
         o.wrong_metres,
         "translation error above which a closure is false [m]",
-        Above{0});
+        GreaterThan{0});
   visit("wrong_degrees",
         o.wrong_degrees,
         "rotation error above which a closure is false [deg]",
-        Above{0});
+        GreaterThan{0});
 }
 
 struct Detection {
@@ -55,13 +55,13 @@ struct Detection {
 /// descending order of score, equal scores together. Average precision is the sum of precision
 /// times increase in recall, without interpolation. Keyframes outside the reference's time span are
 /// skipped. Throws std::runtime_error without a reference. O(keyframes^2).
-Detection judge_detection(const Problem& problem,
-                          const Trajectory& reference,
-                          const std::vector<LoopCandidate>& candidates,
-                          const DetectionRule& rule);
+Detection evaluate_detection(const Problem& problem,
+                             const Trajectory& reference,
+                             const std::vector<LoopCandidate>& candidates,
+                             const DetectionRule& rule);
 
-inline Detection judge_detection(const Sequence& sequence, const DetectionRule& rule) {
-  return judge_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
+inline Detection evaluate_detection(const Sequence& sequence, const DetectionRule& rule) {
+  return evaluate_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
 }
 
 /// One-line summary.

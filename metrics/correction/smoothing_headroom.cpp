@@ -37,14 +37,13 @@ std::vector<Score> smoothing_headroom(const Evaluation& evaluation,
   }
   const int ddof = evaluation.protocol.ddof;
   const bool is_sharp = options.filter == Filter::sharp;
-  if (is_sharp) errors = resampled(errors, std::bit_ceil(2 * errors.times.size()));
+  if (is_sharp) errors = resample(errors, std::bit_ceil(2 * errors.times.size()));
   const Statistics before = magnitudes(errors.values, ddof);
   if (before.rmse == 0.0) {
     throw Undefined("smoothing_headroom: the error is zero");
   }
   const Statistics after = magnitudes(
-      is_sharp ? without_fast(errors, options.window) : moving_average(errors, options.window),
-      ddof);
+      is_sharp ? low_pass(errors, options.window) : moving_average(errors, options.window), ddof);
   return descriptions({{"before", "3d", "m", before},
                        {"after", "3d", "m", after},
                        single("gain", "3d", "%", 100.0 * (1.0 - after.rmse / before.rmse))});

@@ -18,7 +18,7 @@ struct SmoothingHeadroomOptions {
 
 template <class Visit>
 void fields(SmoothingHeadroomOptions& o, Visit visit) {
-  visit("window", o.window, "period below which errors count as removable [s]", Above{0.0});
+  visit("window", o.window, "period below which errors count as removable [s]", GreaterThan{0.0});
   visit("filter", o.filter, "low-pass filter");
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "metrics/trajectory/travel.hpp"
+#include "metrics/trajectory/heading.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -12,15 +12,15 @@ constexpr double kUpright = 1e-3;  // sine between T and up below which `cross` 
 
 /// Unit direction of travel of each pose, kept while at rest; before the first move, the first.
 std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOptions& o) {
-  const std::vector<Chord> ways = chords(reference, o.window);
-  std::vector<Vector3> out(ways.size());
+  const std::vector<Chord> windows = chords(reference, o.window);
+  std::vector<Vector3> out(windows.size());
   std::size_t known = 0;  // number of poses with a direction
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (!ways[i].is_moving(o.standing)) {
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    if (!windows[i].is_moving(o.standing)) {
       if (known > 0) out[known++] = out[i - 1];
       continue;
     }
-    const Vector3 T = ways[i].way.normalized();
+    const Vector3 T = windows[i].displacement.normalized();
     while (known <= i) out[known++] = T;
   }
   if (known == 0) {
@@ -38,14 +38,14 @@ Score magnitudes(const std::string& axis, std::vector<double> metres, int ddof) 
 }  // namespace
 
 std::vector<Score> along_cross(const Evaluation& evaluation, const AlongCrossOptions& options) {
-  const std::vector<Vector3> travel = directions(evaluation.reference, options);
+  const std::vector<Vector3> heading = directions(evaluation.reference, options);
   const Vector3 up = Vector3::Unit(static_cast<int>(options.up));
   std::vector<double> along;
   std::vector<double> off_track;
   std::vector<double> cross;
   std::vector<double> vertical;
-  for (std::size_t i = 0; i < travel.size(); ++i) {
-    const Vector3& T = travel[i];
+  for (std::size_t i = 0; i < heading.size(); ++i) {
+    const Vector3& T = heading[i];
     const Vector3 e = evaluation.estimate[i].world_from_body.translation -
                       evaluation.reference[i].world_from_body.translation;
     along.push_back(std::abs(e.dot(T)));

@@ -6,13 +6,14 @@
 namespace loopbench::metrics {
 
 /// Which axis of the reference's world points up (or down).
-enum class Up { x, y, z };
-inline auto choices(Up) {
-  return std::array{std::pair{"x", Up::x}, std::pair{"y", Up::y}, std::pair{"z", Up::z}};
+enum class UpAxis { x, y, z };
+inline auto choices(UpAxis) {
+  return std::array{
+      std::pair{"x", UpAxis::x}, std::pair{"y", UpAxis::y}, std::pair{"z", UpAxis::z}};
 }
 
 struct AlongCrossOptions {
-  Up up = Up::z;
+  UpAxis up = UpAxis::z;
   double window = 1.0;
   double standing = 0.05;
 };

@@ -29,7 +29,7 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
   const Trajectory& reference = evaluation.reference;
   const Trajectory& estimate = evaluation.estimate;
   const std::size_t n = reference.size();
-  Rpy turns(relation == Relation::rpy ? n : 0);
+  Rpy rotation_errors(relation == Relation::rpy ? n : 0);
   std::vector<double> errors(relation == Relation::rpy ? 0 : n);
   const AngleFormula angle = evaluation.protocol.angle;
   const std::optional<PrintedPoses> printed = printed_for_evo(evaluation);
@@ -37,20 +37,21 @@ std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& options) 
     const Pose& Q = reference[i].world_from_body;
     const Pose& P = estimate[i].world_from_body;
     if (relation == Relation::rpy) {
-      turns.set(i, P.rotation * Q.rotation.conjugate());
+      rotation_errors.set(i, P.rotation * Q.rotation.conjugate());
     } else if (relation == Relation::point_distance) {
       errors[i] = (P.translation - Q.translation).norm();
     } else {
       const Pose E =
-          printed ? pose_of(printed_way(printed->estimate[i], printed->reference[i])) : way(P, Q);
+          printed ? pose_of(printed_relative_pose(printed->estimate[i], printed->reference[i]))
+                  : relative_pose(P, Q);
       errors[i] = measure(relation, E, angle);
     }
   };
-  in_blocks(n, [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(n, [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) set(i);
   });
   const int ddof = evaluation.protocol.ddof;
-  if (relation == Relation::rpy) return turns.scores(ddof);
+  if (relation == Relation::rpy) return rotation_errors.scores(ddof);
   return {{to_text(relation), "3d", unit(relation), statistics(std::move(errors), ddof)}};
 }
 

@@ -10,7 +10,7 @@ std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
   const std::size_t n = evaluation.reference.size();
   std::vector<double> metres(n);
   std::vector<double> degrees(n);
-  in_blocks(n, [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(n, [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       const Pose& reference = evaluation.reference[i].world_from_body;
       const Pose& estimate = evaluation.estimate[i].world_from_body;

@@ -11,7 +11,7 @@ std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptio
   const std::size_t n = evaluation.reference.size();
   std::array<std::vector<double>, 3> metres;
   for (std::vector<double>& axis : metres) axis.resize(n);
-  in_blocks(n, [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(n, [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       const Vector3 error = evaluation.estimate[i].world_from_body.translation -
                             evaluation.reference[i].world_from_body.translation;
@@ -23,7 +23,8 @@ std::vector<Score> axis_error(const Evaluation& evaluation, const AxisErrorOptio
                          {"translation", "y", "m", statistics(std::move(metres[1]), ddof)},
                          {"translation", "z", "m", statistics(std::move(metres[2]), ddof)}};
   if (!options.rotation) return out;
-  for (Score& turn : ape(evaluation, {Relation::rpy})) out.push_back(std::move(turn));
+  for (Score& rotation_score : ape(evaluation, {Relation::rpy}))
+    out.push_back(std::move(rotation_score));
   return out;
 }
 

@@ -3,8 +3,8 @@
 namespace loopbench::metrics {
 namespace {
 
-bool has_stamps_of(const Trajectory& judged, const Trajectory* whole) {
-  return whole != nullptr && stamps(judged) == stamps(*whole);
+bool has_stamps_of(const Trajectory& judged, const Trajectory* complete) {
+  return complete != nullptr && stamps(judged) == stamps(*complete);
 }
 
 }  // namespace
@@ -13,7 +13,7 @@ std::optional<PrintedPoses> printed_for_evo(const Evaluation& evaluation) {
   const Protocol& p = evaluation.protocol;
   const Context& context = evaluation.context;
   const bool is_evo = p.association == Association::evo && p.form == ErrorForm::evo &&
-                      p.project == Plane::none && p.offset == 0.0;
+                      p.project == ProjectionPlane::none && p.offset == 0.0;
   if (!is_evo || context.printed == nullptr) return std::nullopt;
   if (!has_stamps_of(evaluation.reference, context.reference) ||
       !has_stamps_of(evaluation.estimate, context.estimate)) {
@@ -24,14 +24,14 @@ std::optional<PrintedPoses> printed_for_evo(const Evaluation& evaluation) {
   const auto& [rotation, translation] = evaluation.alignment.reference_from_estimate;
   const Matrix3 R = rotation.toRotationMatrix();
   for (PoseMatrix& pose : out.estimate) {
-    const Vector3 place = evaluation.alignment.scale * (R * pose.translation()) + translation;
+    const Vector3 position = evaluation.alignment.scale * (R * pose.translation()) + translation;
     pose.linear() = (R * pose.linear()).eval();
-    pose.translation() = place;
+    pose.translation() = position;
   }
   return out;
 }
 
-PoseMatrix printed_way(const PoseMatrix& world_from_a, const PoseMatrix& world_from_b) {
+PoseMatrix printed_relative_pose(const PoseMatrix& world_from_a, const PoseMatrix& world_from_b) {
   const Matrix3 a_from_world = world_from_a.linear().transpose();
   PoseMatrix out;
   out.linear() = a_from_world * world_from_b.linear();

@@ -24,7 +24,8 @@ struct Motions {
   Pose error(std::size_t i, std::size_t j) const {
     if (printed) {
       const auto& [Q, P] = *printed;
-      return pose_of(printed_way(printed_way(Q[i], Q[j]), printed_way(P[i], P[j])));
+      return pose_of(printed_relative_pose(printed_relative_pose(Q[i], Q[j]),
+                                           printed_relative_pose(P[i], P[j])));
     }
     return motion_error(protocol.form,
                         reference[i].world_from_body,
@@ -36,7 +37,7 @@ struct Motions {
   /// visit(k, E, Q_i, Q_j, P_i, P_j), multi-threaded: it may write only to slot k.
   template <class Visit>
   void each(Visit visit) const {
-    in_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
+    parallel_for_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
       for (; k < end; ++k) {
         const auto& [i, j] = pairs[k];
         const Pose& Q_i = reference[i].world_from_body;
@@ -92,9 +93,9 @@ std::vector<Score> rpy(const Motions& motions, RpeFrame frame) {
   Rpy out(motions.pairs.size());
   motions.each(
       [&](std::size_t k, const Pose& E, const Pose&, const Pose&, const Pose&, const Pose& P_j) {
-        Rotation turn = E.rotation;
-        if (frame == RpeFrame::world) turn = P_j.rotation * turn * P_j.rotation.conjugate();
-        out.set(k, turn);
+        Rotation rotation = E.rotation;
+        if (frame == RpeFrame::world) rotation = P_j.rotation * rotation * P_j.rotation.conjugate();
+        out.set(k, rotation);
       });
   return out.scores(motions.protocol.ddof);
 }
@@ -179,7 +180,7 @@ PairRule rule_of(const RpeOptions& options, const Protocol& protocol) {
   return PairRule::tum;
 }
 
-TumMotions random_motions(const Paired& whole,
+TumMotions random_motions(const Paired& complete,
                           double offset,
                           const Alignment& alignment,
                           std::size_t max_pairs,
@@ -188,35 +189,35 @@ TumMotions random_motions(const Paired& whole,
     throw Undefined("rpe: pairs tum_random ignore delta = " + to_text(options.delta) + " " +
                     to_text(options.unit) + "; use rpe without delta and unit");
   }
-  return tum_random_motions(whole, offset, alignment, max_pairs);
+  return tum_random_motions(complete, offset, alignment, max_pairs);
 }
 
 }  // namespace
 
 void check_combination(const RpeOptions& options) {
-  check(Stretch{options.delta, options.unit, options.tolerance.value_or(0.0)});
+  check(PairDelta{options.delta, options.unit, options.tolerance.value_or(0.0)});
 }
 
 void check_protocol(const RpeOptions& options, const Protocol& protocol) {
-  if (options.pairs != RpePairs::tum || is_of_whole_files(protocol.pairs)) return;
+  if (options.pairs != RpePairs::tum || uses_complete_files(protocol.pairs)) return;
   throw OptionError("pairs", "pairs = tum: needs a protocol with pairs = tum");
 }
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
   const Protocol& protocol = evaluation.protocol;
-  const Stretch stretch{
+  const PairDelta stretch{
       options.delta, options.unit, options.tolerance.value_or(protocol.tolerance)};
   const PairRule rule = rule_of(options, protocol);
-  if (is_of_whole_files(rule)) {
-    const Paired& whole = evaluation.whole;
+  if (uses_complete_files(rule)) {
+    const Paired& complete = evaluation.complete;
     const Alignment& alignment = evaluation.alignment;
     const auto most = static_cast<std::size_t>(protocol.max_pairs);
-    const TumMotions tum = rule == PairRule::tum
-                               ? tum_motions(whole, protocol.offset, alignment, stretch, most)
-                               : random_motions(whole, protocol.offset, alignment, most, options);
+    const TumMotions tum =
+        rule == PairRule::tum ? tum_motions(complete, protocol.offset, alignment, stretch, most)
+                              : random_motions(complete, protocol.offset, alignment, most, options);
     const auto& [reference, estimate] = tum.poses;
     return scores({reference, estimate, tum.pairs, protocol, why_no_attitude(evaluation)},
-                  whole.estimate.size(),
+                  complete.estimate.size(),
                   options,
                   Measured::estimate);
   }
@@ -226,10 +227,10 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
   const bool is_in_time = options.unit == DeltaUnit::s || options.unit == DeltaUnit::frames;
   const bool is_of_reference = from == RpePairsFrom::reference;
   const std::vector<FromTo> pairs =
-      stretch_pairs(evaluation.reference,
-                    is_of_reference ? evaluation.reference : evaluation.estimate,
-                    rule,
-                    stretch);
+      select_pairs(evaluation.reference,
+                   is_of_reference ? evaluation.reference : evaluation.estimate,
+                   rule,
+                   stretch);
   return scores({evaluation.reference,
                  evaluation.estimate,
                  pairs,

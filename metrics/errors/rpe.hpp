@@ -46,7 +46,7 @@ struct RpeOptions {
 
 template <class Visit>
 void fields(RpeOptions& o, Visit visit) {
-  visit("delta", o.delta, "distance between paired poses, in the unit of `unit`", Above{0.0});
+  visit("delta", o.delta, "distance between paired poses, in the unit of `unit`", GreaterThan{0.0});
   visit("unit",
         o.unit,
         "unit of delta: frames, seconds, metres of path, or degrees or radians of rotation");

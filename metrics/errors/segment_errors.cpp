@@ -13,8 +13,8 @@ namespace {
 /// The printed matrices if the protocol evaluates them unchanged, otherwise null.
 const PrintedPoses* printed(const Evaluation& evaluation) {
   const Protocol& p = evaluation.protocol;
-  const bool is_unmoved =
-      p.association == Association::index && p.align == Align::none && p.project == Plane::none;
+  const bool is_unmoved = p.association == Association::index && p.align == Align::none &&
+                          p.project == ProjectionPlane::none;
   const bool is_kitti = p.form == ErrorForm::kitti && p.angle == AngleFormula::trace;
   return is_unmoved && is_kitti ? evaluation.context.printed : nullptr;
 }
@@ -70,7 +70,7 @@ SegmentErrors segment_errors(const Evaluation& evaluation,
     out.yaw[k] = std::abs(turn.yaw);
     out.gravity[k] = std::hypot(turn.roll, turn.pitch);
   };
-  in_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
+  parallel_for_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
     for (; k < end; ++k) set(k);
   });
   return out;

@@ -91,7 +91,7 @@ class Finder {
 
  private:
   const Evaluation& evaluation_;
-  const SegmentRule& rule_;
+  const SegmentErrorRule& rule_;
   std::vector<double> distances_;
   std::vector<float> floats_;
 };
@@ -107,7 +107,7 @@ void check_combination(const SegmentsOptions& options) {
 }
 
 std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions& options) {
-  const SegmentRule& rule = evaluation.protocol.segments;
+  const SegmentErrorRule& rule = evaluation.protocol.segments;
   const bool is_own = !options.lengths.empty();
   const std::vector<Length> wanted =
       is_own ? lengths("lengths", options.lengths) : lengths("segments.lengths", rule.lengths);

@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "datasets/core/params.hpp"
-#include "metrics/trajectory/losses.hpp"
 #include "metrics/trajectory/position_only.hpp"
 #include "metrics/trajectory/projection.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -17,16 +17,16 @@ std::string span_text(double first, double last) {
 
 constexpr double kPause = 2.0;  // [s], as in DiagnosticsOptions
 
-double seconds_in(const std::vector<Loss>& gaps) {
+double seconds_in(const std::vector<TrackingGap>& gaps) {
   double sum = 0.0;
-  for (const Loss& gap : gaps) sum += gap.end - gap.begin;
+  for (const TrackingGap& gap : gaps) sum += gap.end - gap.begin;
   return sum;
 }
 
 /// For ascending stamps: whether the stamp lies inside a gap.
 class InsideGap {
  public:
-  explicit InsideGap(const std::vector<Loss>& gaps) : gaps_(gaps) {}
+  explicit InsideGap(const std::vector<TrackingGap>& gaps) : gaps_(gaps) {}
 
   bool operator()(double stamp) {
     while (next_ < gaps_.size() && gaps_[next_].end <= stamp) ++next_;
@@ -34,7 +34,7 @@ class InsideGap {
   }
 
  private:
-  const std::vector<Loss>& gaps_;
+  const std::vector<TrackingGap>& gaps_;
   std::size_t next_ = 0;
 };
 
@@ -62,10 +62,10 @@ Evaluation judge(Paired paired,
                         static_cast<std::size_t>(protocol.align_first));
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
-  const double whole = reference.back().stamp - reference.front().stamp;
+  const double duration = reference.back().stamp - reference.front().stamp;
   const double judged = paired.reference.back().stamp - paired.reference.front().stamp -
                         seconds_in(tracking_gaps(reference, stamps(paired.reference), 0.0, kPause));
-  out.coverage.span = whole > 0.0 ? judged / whole : 1.0;
+  out.coverage.span = duration > 0.0 ? judged / duration : 1.0;
   out.estimate = moved(out.alignment, std::move(paired.estimate));
   out.reference = std::move(paired.reference);
   project(out.reference, protocol.project);
@@ -96,7 +96,7 @@ Evaluation evaluate(const Trajectory& reference,
         to_text(protocol.association) + " accepts " + limits(protocol));
   }
   Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
-  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, estimate};
+  if (uses_complete_files(protocol.pairs)) out.complete = {reference, estimate};
   return out;
 }
 
@@ -111,10 +111,10 @@ Evaluation evaluate(const Trajectory& reference,
   }
   if (reference.empty()) throw std::runtime_error("the reference has no poses");
   const double limit = protocol.max_estimate_gap;
-  const std::vector<Loss> gaps = tracking_gaps(reference,
-                                               tracked.empty() ? keyframe_stamps : tracked,
-                                               protocol.offset,
-                                               limit > 0.0 ? limit : kPause);
+  const std::vector<TrackingGap> gaps = tracking_gaps(reference,
+                                                      tracked.empty() ? keyframe_stamps : tracked,
+                                                      protocol.offset,
+                                                      limit > 0.0 ? limit : kPause);
   InsideGap is_bridged(gaps);
   std::size_t possible = 0;
   Paired paired;
@@ -134,10 +134,10 @@ Evaluation evaluate(const Trajectory& reference,
                              ", offset " + to_text(protocol.offset) + " s)");
   }
   paired.estimate = estimate.sample(wanted);
-  Trajectory whole = is_of_whole_files(protocol.pairs) ? paired.estimate : Trajectory();
+  Trajectory complete = uses_complete_files(protocol.pairs) ? paired.estimate : Trajectory();
   Evaluation out = judge(std::move(paired), possible, reference, protocol);
   out.coverage.bridged = seconds_in(gaps);
-  if (is_of_whole_files(protocol.pairs)) out.whole = {reference, std::move(whole)};
+  if (uses_complete_files(protocol.pairs)) out.complete = {reference, std::move(complete)};
   return out;
 }
 

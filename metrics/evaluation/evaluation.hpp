@@ -20,8 +20,8 @@ struct Coverage {
   /// between (pauses above 2 s and above ten times the median interval while the reference moved),
   /// over the reference's duration, 0..1.
   double span = 0.0;
-  /// Dense: duration of the tracking gaps (losses.hpp) that the curve bridges without a measurement
-  /// [s]. Evaluated only if the protocol's max_estimate_gap is 0.
+  /// Dense: duration of the tracking gaps (tracking_gaps.hpp) that the curve bridges without a
+  /// measurement [s]. Evaluated only if the protocol's max_estimate_gap is 0.
   double bridged = 0.0;
 
   double share() const {
@@ -44,7 +44,7 @@ struct Evaluation {
   double reference_length = 0.0;  ///< path length of the complete reference [m]
   /// The complete lists before pairing and alignment, if the protocol's pair rule needs complete
   /// files. Empty otherwise.
-  Paired whole;
+  Paired complete;
   Context context;  ///< evaluate() leaves it empty; the caller that has problem and curve fills it
 };
 

@@ -35,7 +35,7 @@ void average(const Series& series,
 
 }  // namespace
 
-Series resampled(const Series& series, std::size_t cells) {
+Series resample(const Series& series, std::size_t cells) {
   const std::vector<double>& t = series.times;
   const double step = (t.back() - t.front()) / static_cast<double>(cells);
   Series out;
@@ -50,7 +50,7 @@ Series resampled(const Series& series, std::size_t cells) {
   return out;
 }
 
-std::vector<Vector3> without_fast(const Series& even, double window) {
+std::vector<Vector3> low_pass(const Series& even, double window) {
   const std::size_t n = even.values.size();
   const double span = (even.times.back() - even.times.front()) * static_cast<double>(n) /
                       static_cast<double>(n - 1);

@@ -15,12 +15,12 @@ struct Series {
 
 /// Interpolates linearly and samples at the midpoints of `cells` equal intervals of the time span.
 /// Needs at least two times. O(n + cells).
-Series resampled(const Series& series, std::size_t cells);
+Series resample(const Series& series, std::size_t cells);
 
 /// Ideal low-pass: removes all periods below `window` and keeps the rest, as an orthogonal
 /// projection. The series is mirrored at both ends (cosine transform), so a drift causes no
 /// discontinuity there. The samples are evenly spaced; their number is a power of two. O(n log n).
-std::vector<Vector3> without_fast(const Series& even, double window);
+std::vector<Vector3> low_pass(const Series& even, double window);
 
 /// Centred moving average over `window`; it shrinks symmetrically at the ends and beside gaps
 /// longer than the window. An oscillation of period T is multiplied by sin(pi window / T) /

@@ -55,9 +55,9 @@ NearMiddle near_middle(std::span<const double> values, double low, double high) 
 
 /// Multi-threaded variant.
 NearMiddle near_middle_in_parts(std::span<const double> values, double low, double high) {
-  const std::size_t count = values.size() < 2 * kWorthAThread ? 1 : cores();
+  const std::size_t count = values.size() < 2 * kMinItemsPerThread ? 1 : hardware_threads();
   std::vector<NearMiddle> parts(count);
-  in_parallel(count, [&](std::size_t k) {
+  parallel_invoke(count, [&](std::size_t k) {
     const std::size_t begin = values.size() * k / count;
     const std::size_t end = values.size() * (k + 1) / count;
     parts[k] = near_middle(values.subspan(begin, end - begin), low, high);

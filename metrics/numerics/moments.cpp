@@ -31,8 +31,8 @@ Moments block_moments(const Trajectory& reference,
   for (std::size_t i = begin; i < end; ++i) {
     const Vector3 p = reference[i].world_from_body.translation - p0 - p_mean;
     const Vector3 q = estimate[i].world_from_body.translation - q0 - q_mean;
-    out.reference_spread += p.squaredNorm();
-    out.estimate_spread += q.squaredNorm();
+    out.reference_dispersion += p.squaredNorm();
+    out.estimate_dispersion += q.squaredNorm();
     out.cross.noalias() += p * q.transpose();
   }
   out.reference_mean = p0 + p_mean;
@@ -49,8 +49,10 @@ Moments merged(const Moments& a, const Moments& b) {
   const double weight = a.count * share;
   out.reference_mean = a.reference_mean + share * p;
   out.estimate_mean = a.estimate_mean + share * q;
-  out.reference_spread = a.reference_spread + b.reference_spread + weight * p.squaredNorm();
-  out.estimate_spread = a.estimate_spread + b.estimate_spread + weight * q.squaredNorm();
+  out.reference_dispersion =
+      a.reference_dispersion + b.reference_dispersion + weight * p.squaredNorm();
+  out.estimate_dispersion =
+      a.estimate_dispersion + b.estimate_dispersion + weight * q.squaredNorm();
   out.cross = a.cross + b.cross + weight * p * q.transpose();
   return out;
 }
@@ -60,7 +62,7 @@ Moments merged(const Moments& a, const Moments& b) {
 Moments moments(const Trajectory& reference, const Trajectory& estimate) {
   if (reference.empty()) return {};
   std::vector<Moments> blocks((reference.size() + kBlock - 1) / kBlock);
-  in_blocks(reference.size(), [&](std::size_t first, std::size_t last) {
+  parallel_for_blocks(reference.size(), [&](std::size_t first, std::size_t last) {
     // A block is processed by the thread that has its first pair.
     for (std::size_t k = (first + kBlock - 1) / kBlock; k * kBlock < last; ++k) {
       const std::size_t end = std::min((k + 1) * kBlock, reference.size());

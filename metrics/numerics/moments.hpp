@@ -15,8 +15,8 @@ struct Moments {
   Vector3 reference_mean = Vector3::Zero();
   Vector3 estimate_mean = Vector3::Zero();
   /// Sums of squared distances from the means, not divided by count [m^2].
-  double reference_spread = 0.0;
-  double estimate_spread = 0.0;
+  double reference_dispersion = 0.0;
+  double estimate_dispersion = 0.0;
   Matrix3 cross = Matrix3::Zero();  ///< sum of (reference - mean) * (estimate - mean)^T
 };
 

@@ -20,7 +20,7 @@ NaturalCubic::NaturalCubic(std::vector<double> stamps, std::vector<Vector3> poin
         (points_[i + 1] - points_[i]) / after - (points_[i] - points_[i - 1]) / before;
     rows[i] = {before, 2.0 * (before + after), after, 6.0 * bend};
   }
-  bends_ = solve_tridiagonal(rows);
+  second_derivatives_ = solve_tridiagonal(rows);
 }
 
 Vector3 NaturalCubic::at(std::size_t i, double time) const {
@@ -29,7 +29,8 @@ Vector3 NaturalCubic::at(std::size_t i, double time) const {
   const double v = 1.0 - u;
   const double sixth = h * h / 6.0;
   return v * points_[i] + u * points_[i + 1] +
-         sixth * ((v * v * v - v) * bends_[i] + (u * u * u - u) * bends_[i + 1]);
+         sixth * ((v * v * v - v) * second_derivatives_[i] +
+                  (u * u * u - u) * second_derivatives_[i + 1]);
 }
 
 }  // namespace loopbench::metrics

@@ -20,7 +20,7 @@ class NaturalCubic {
  private:
   std::vector<double> stamps_;
   std::vector<Vector3> points_;
-  std::vector<Vector3> bends_;  ///< second derivatives at the stamps [m/s^2]
+  std::vector<Vector3> second_derivatives_;  ///< second derivatives at the stamps [m/s^2]
 };
 
 }  // namespace loopbench::metrics

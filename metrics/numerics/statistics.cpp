@@ -14,17 +14,19 @@ namespace {
 /// Pairwise summation: rounding grows with log(n) instead of n at the cost of a plain sum. The
 /// blocks do not depend on the number of threads, so the result is reproducible.
 template <class Total, class Block>
-Total pairwise(std::span<const double> values, const Block& block, std::size_t threads = cores()) {
+Total pairwise(std::span<const double> values,
+               const Block& block,
+               std::size_t threads = hardware_threads()) {
   if (values.size() <= 128) return block(values);
   const std::size_t half = values.size() / 2;
   const std::span<const double> halves[] = {values.first(half), values.subspan(half)};
-  if (threads < 2 || half < kWorthAThread) {
+  if (threads < 2 || half < kMinItemsPerThread) {
     const Total first = pairwise<Total>(halves[0], block, 1);
     return first + pairwise<Total>(halves[1], block, 1);
   }
   Total totals[2];
-  in_parallel(2,
-              [&](std::size_t i) { totals[i] = pairwise<Total>(halves[i], block, threads / 2); });
+  parallel_invoke(
+      2, [&](std::size_t i) { totals[i] = pairwise<Total>(halves[i], block, threads / 2); });
   return totals[0] + totals[1];
 }
 
@@ -71,8 +73,8 @@ Statistics statistics(std::vector<double> errors, int ddof) {
     return total;
   };
   const double free = n - ddof;
-  const double spread = pairwise<double>(errors, squares_about_mean);
-  out.std = free > 0.0 ? std::sqrt(spread / free) : 0.0;
+  const double squares = pairwise<double>(errors, squares_about_mean);
+  out.std = free > 0.0 ? std::sqrt(squares / free) : 0.0;
   out.median = median(errors);
   return out;
 }

@@ -48,8 +48,8 @@ Paired gather(const Trajectory& reference,
     if (k == 0) out.reference = gather(reference, pairs, &IndexPair::reference);
     if (k == 1) out.estimate = gather(estimate, pairs, &IndexPair::estimate);
   };
-  if (pairs.size() >= kWorthAThread) {
-    in_parallel(2, side);
+  if (pairs.size() >= kMinItemsPerThread) {
+    parallel_invoke(2, side);
   } else {
     side(0);
     side(1);

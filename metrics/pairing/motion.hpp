@@ -11,7 +11,7 @@ namespace loopbench::metrics {
 
 /// a^-1 b. Half the cost of inverse and product, and subtracts the positions first, which is
 /// accurate far from the origin.
-inline Pose way(const Pose& world_from_a, const Pose& world_from_b) {
+inline Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) {
   const Rotation a_from_world = world_from_a.rotation.conjugate();
   return {a_from_world * world_from_b.rotation,
           a_from_world * (world_from_b.translation - world_from_a.translation)};
@@ -22,15 +22,15 @@ inline Pose motion_error(
     ErrorForm form, const Pose& Q_i, const Pose& Q_j, const Pose& P_i, const Pose& P_j) {
   switch (form) {
     case ErrorForm::kitti:
-      return way(way(P_i, P_j), way(Q_i, Q_j));
+      return relative_pose(relative_pose(P_i, P_j), relative_pose(Q_i, Q_j));
     case ErrorForm::tum:
-      return way(way(P_j, P_i), way(Q_j, Q_i));
+      return relative_pose(relative_pose(P_j, P_i), relative_pose(Q_j, Q_i));
     case ErrorForm::left:
       return (P_i * P_j.inverse()) * (Q_i * Q_j.inverse()).inverse();
     case ErrorForm::evo:
       break;
   }
-  return way(way(Q_i, Q_j), way(P_i, P_j));
+  return relative_pose(relative_pose(Q_i, Q_j), relative_pose(P_i, P_j));
 }
 
 /// Rotation angle for a trace [rad], 0..pi.

@@ -23,7 +23,7 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
                             std::size_t step) {
   constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> ends((distances.size() + step - 1) / step, kNoEnd);
-  in_blocks(ends.size(), [&](std::size_t k, std::size_t last) {
+  parallel_for_blocks(ends.size(), [&](std::size_t k, std::size_t last) {
     if (k == last) return;
     const auto at = [&](std::size_t i) {
       return distances.begin() + static_cast<std::ptrdiff_t>(i * step);

@@ -24,7 +24,7 @@ void check_alignment(const Protocol& p) {
   }
 }
 
-void check_segments(const SegmentRule& rule) {
+void check_segments(const SegmentErrorRule& rule) {
   const std::vector<Length> wanted = lengths("segments.lengths", rule.lengths);
   const Length miss = tolerance("segments.tolerance", rule.tolerance);
   if (rule.end != SegmentEnd::beyond && miss.value == 0.0) {
@@ -47,7 +47,7 @@ void check_segments(const SegmentRule& rule) {
 
 void check_max_pairs(const Protocol& p) {
   const std::string count = std::to_string(p.max_pairs);
-  if (!is_of_whole_files(p.pairs) && p.max_pairs != Protocol{}.max_pairs) {
+  if (!uses_complete_files(p.pairs) && p.max_pairs != Protocol{}.max_pairs) {
     refuse("max_pairs", count, "applies only to pairs tum and tum_random");
   }
   if (p.pairs == PairRule::tum_random && p.max_pairs == 0) {
@@ -63,12 +63,12 @@ void check(const Protocol& p) {
   if (p.association == Association::index && p.offset != 0.0) {
     refuse("offset", to_text(p.offset), "association index ignores stamps");
   }
-  if (is_of_whole_files(p.pairs)) {
+  if (uses_complete_files(p.pairs)) {
     const std::string rule = "pairs " + to_text(p.pairs);
     if (p.pairs_from != PairsFrom::estimate) {
       refuse("pairs_from", to_text(p.pairs_from), rule + " always use the estimate");
     }
-    if (p.project != Plane::none) {
+    if (p.project != ProjectionPlane::none) {
       refuse("project", to_text(p.project), rule + " use the unprojected files");
     }
   }

@@ -55,12 +55,12 @@ inline auto choices(Times) {
 }
 
 /// Plane onto which both trajectories are projected after alignment, as in evo.
-enum class Plane { none, xy, xz, yz };
-inline auto choices(Plane) {
-  return std::array{std::pair{"none", Plane::none},
-                    std::pair{"xy", Plane::xy},
-                    std::pair{"xz", Plane::xz},
-                    std::pair{"yz", Plane::yz}};
+enum class ProjectionPlane { none, xy, xz, yz };
+inline auto choices(ProjectionPlane) {
+  return std::array{std::pair{"none", ProjectionPlane::none},
+                    std::pair{"xy", ProjectionPlane::xy},
+                    std::pair{"xz", ProjectionPlane::xz},
+                    std::pair{"yz", ProjectionPlane::yz}};
 }
 
 /// Selection of the pose pairs of a relative error for a given delta.
@@ -79,7 +79,7 @@ inline auto choices(PairRule) {
                     std::pair{"tum_random", PairRule::tum_random}};
 }
 /// Whether the rule uses all poses of the files, matched or not.
-inline bool is_of_whole_files(PairRule rule) {
+inline bool uses_complete_files(PairRule rule) {
   return rule == PairRule::tum || rule == PairRule::tum_random;
 }
 
@@ -146,7 +146,7 @@ inline auto choices(Statistic) {
 }
 
 /// Sub-trajectories by length. Lengths and tolerance are text: see metrics/protocols/lengths.hpp.
-struct SegmentRule {
+struct SegmentErrorRule {
   std::string lengths = "10% 20% 30% 40% 50%";
   std::string tolerance = "20%";
   SegmentEnd end = SegmentEnd::nearest;
@@ -154,7 +154,7 @@ struct SegmentRule {
   int fewest = 1;
   Precision precision = Precision::float64;
   PairsFrom up = PairsFrom::reference;
-  friend bool operator==(const SegmentRule&, const SegmentRule&) = default;
+  friend bool operator==(const SegmentErrorRule&, const SegmentErrorRule&) = default;
 };
 
 /// The defaults are the protocol `loopbench`; protocols.hpp lists the others.
@@ -166,7 +166,7 @@ struct Protocol {
   double offset = 0.0;
   Align align = Align::se3;
   int align_first = 0;
-  Plane project = Plane::none;
+  ProjectionPlane project = ProjectionPlane::none;
   PairRule pairs = PairRule::all;
   int max_pairs = 10'000;
   PairsFrom pairs_from = PairsFrom::reference;
@@ -174,7 +174,7 @@ struct Protocol {
   int min_pairs = 10;
   ErrorForm form = ErrorForm::evo;
   AngleFormula angle = AngleFormula::rotation_vector;
-  SegmentRule segments{};
+  SegmentErrorRule segments{};
   int ddof = 0;
   Statistic statistic = Statistic::rmse;
 };
@@ -183,7 +183,7 @@ template <class Visit>
 void fields(Protocol& o, Visit visit) {
   visit("association", o.association, "rule that pairs estimate and reference in time");
   visit("max_diff", o.max_diff, "maximum time difference between paired poses [s]", Between{0.0});
-  visit("max_gap", o.max_gap, "longest reference gap to interpolate across [s]", Above{0.0});
+  visit("max_gap", o.max_gap, "longest reference gap to interpolate across [s]", GreaterThan{0.0});
   visit("max_estimate_gap",
         o.max_estimate_gap,
         "longest tracking gap evaluated densely, 0 for no limit [s]",

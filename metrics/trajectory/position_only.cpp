@@ -13,15 +13,15 @@ bool is_on_one_line(const Trajectory& trajectory) {
   const Vector3 first = trajectory.front().world_from_body.translation;
   Vector3 farthest = Vector3::Zero();
   for (const auto& [stamp, pose] : trajectory) {
-    const Vector3 way = pose.translation - first;
-    if (way.squaredNorm() > farthest.squaredNorm()) farthest = way;
+    const Vector3 displacement = pose.translation - first;
+    if (displacement.squaredNorm() > farthest.squaredNorm()) farthest = displacement;
   }
   const double length = farthest.norm();
   if (length == 0.0) return true;
   const Vector3 direction = farthest / length;
   return std::all_of(trajectory.begin(), trajectory.end(), [&](const StampedPose& pose) {
-    const Vector3 way = pose.world_from_body.translation - first;
-    return way.cross(direction).norm() <= kStraight * length;
+    const Vector3 displacement = pose.world_from_body.translation - first;
+    return displacement.cross(direction).norm() <= kStraight * length;
   });
 }
 

@@ -4,9 +4,9 @@
 
 namespace loopbench::metrics {
 
-void project(Trajectory& trajectory, Plane plane) {
-  if (plane == Plane::none) return;
-  const int across = plane == Plane::xy ? 2 : plane == Plane::xz ? 1 : 0;
+void project(Trajectory& trajectory, ProjectionPlane plane) {
+  if (plane == ProjectionPlane::none) return;
+  const int across = plane == ProjectionPlane::xy ? 2 : plane == ProjectionPlane::xz ? 1 : 0;
   for (auto& [stamp, pose] : trajectory) {
     const auto [roll, pitch, yaw] = euler(pose.rotation);
     pose.translation[across] = 0.0;

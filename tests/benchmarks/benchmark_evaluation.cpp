@@ -22,16 +22,16 @@ namespace {
 
 /// A car at 10 m/s seen ten times a second, its path wound up; the estimate drifts, shakes by
 /// centimetres and is stamped up to 2 ms off.
-Trajectory drive(std::size_t size, double shake) {
+Trajectory drive(std::size_t size, double amplitude) {
   Trajectory out(size);
   for (std::size_t i = 0; i < size; ++i) {
     const auto k = static_cast<double>(i);
     const double yaw = 0.02 * k + 0.3 * std::sin(0.01 * k);
     const Vector3 noise(std::sin(12.9 * k), std::sin(78.2 * k), std::sin(37.7 * k));
-    out[i].stamp = 1.3e9 + 0.1 * k + 0.002 * shake * noise.x();
-    out[i].world_from_body = {
-        exp_so3(Vector3(0.0, 0.0, yaw) + 1e-3 * shake * noise),
-        Vector3(50.0 * std::cos(0.02 * k), 50.0 * std::sin(0.02 * k), 1.0) + 0.01 * shake * noise};
+    out[i].stamp = 1.3e9 + 0.1 * k + 0.002 * amplitude * noise.x();
+    out[i].world_from_body = {exp_so3(Vector3(0.0, 0.0, yaw) + 1e-3 * amplitude * noise),
+                              Vector3(50.0 * std::cos(0.02 * k), 50.0 * std::sin(0.02 * k), 1.0) +
+                                  0.01 * amplitude * noise};
   }
   return out;
 }

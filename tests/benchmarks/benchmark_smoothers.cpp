@@ -32,7 +32,6 @@ constexpr Timed kSmoothers[] = {{"polyline"},
                                 {"dm_n4"},
                                 {"dm_n5"},
                                 {"dm_m7"},
-                                {"dm_n4_m7"},
                                 {"dm_robust"}};
 constexpr std::size_t kKeyframes = 200;  // of the curve that is asked
 

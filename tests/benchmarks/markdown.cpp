@@ -93,7 +93,7 @@ int run_benchmarks(int argc, char** argv) {
       rest.push_back(argv[i]);
     }
   }
-  const unsigned cores = std::thread::hardware_concurrency();
+  const unsigned hardware_threads = std::thread::hardware_concurrency();
   benchmark::AddCustomContext("processor", processor());
   benchmark::AddCustomContext("compiler", LOOPBENCH_COMPILER);
   int count = static_cast<int>(rest.size());
@@ -104,7 +104,8 @@ int run_benchmarks(int argc, char** argv) {
   benchmark::Shutdown();
   if (file.empty()) return 0;
   std::ofstream out(file);
-  out << table.markdown(fmt::format("{}, {} cores, {}.", processor(), cores, LOOPBENCH_COMPILER));
+  out << table.markdown(
+      fmt::format("{}, {} cores, {}.", processor(), hardware_threads, LOOPBENCH_COMPILER));
   return out.flush() ? 0 : 1;
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace loopbench {
+namespace loopbench::fields_test {
 namespace {
 
-enum class Turn { none, slerp };
-inline auto choices(Turn) {
-  return std::array{std::pair{"none", Turn::none}, std::pair{"slerp", Turn::slerp}};
+enum class RotationMode { none, slerp };
+inline auto choices(RotationMode) {
+  return std::array{std::pair{"none", RotationMode::none}, std::pair{"slerp", RotationMode::slerp}};
 }
 
 struct Options {
@@ -18,7 +18,7 @@ struct Options {
   int count = 3;
   bool robust = true;
   std::string label = "a";
-  Turn turn = Turn::slerp;
+  RotationMode turn = RotationMode::slerp;
   std::optional<double> band;
 };
 
@@ -29,7 +29,7 @@ void fields(Options& o, Visit visit) {
   visit("robust", o.robust, "or not");
   visit("label", o.label, "a word");
   visit("turn", o.turn, "how rotation is spread");
-  visit("band", o.band, "speed band [m/s]", Above{0.0});
+  visit("band", o.band, "speed band [m/s]", GreaterThan{0.0});
 }
 
 std::string why(const Params& given) {
@@ -45,7 +45,7 @@ std::string why(const Params& given) {
 TEST(Fields, TellTextFromAnOptionalNumber) {
   Options defaults;
   defaults.label = "none";
-  defaults.turn = Turn::none;
+  defaults.turn = RotationMode::none;
   std::string text;
   for (const OptionInfo& option : describe(defaults)) {
     if (option.is_text) text += option.name + " ";
@@ -75,7 +75,7 @@ TEST(Fields, WithReplacesOnlyWhatIsGiven) {
                             {"band", 0.33},
                             {"count", std::int64_t{7}}});
   EXPECT_EQ(got.share, 1.0);
-  EXPECT_EQ(got.turn, Turn::none);
+  EXPECT_EQ(got.turn, RotationMode::none);
   EXPECT_EQ(got.band, 0.33);
   EXPECT_EQ(got.count, 7);
   EXPECT_EQ(got.label, "a");
@@ -109,4 +109,4 @@ TEST(Params, TextOfADoubleReadsBack) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::fields_test

@@ -4,7 +4,7 @@
 
 #include "tests/core/numeric.hpp"
 
-namespace loopbench {
+namespace loopbench::interpolate_test {
 namespace {
 
 using Between2 = Pose (*)(const Pose&, const Pose&, double);
@@ -110,4 +110,4 @@ TEST(Interpolate, TurnsAtConstantRate) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::interpolate_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace loopbench {
+namespace loopbench::knot_span_test {
 namespace {
 
 const std::vector<double> kStamps = {1.0, 2.0, 4.0, 4.5, 10.0};
@@ -45,4 +45,4 @@ TEST(KnotSpan, RefusesTimesOutsideAndNan) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::knot_span_test

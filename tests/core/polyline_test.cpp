@@ -4,7 +4,7 @@
 
 #include "tests/core/numeric.hpp"
 
-namespace loopbench {
+namespace loopbench::polyline_test {
 namespace {
 
 Trajectory three_poses() {
@@ -50,4 +50,4 @@ TEST(Polyline, RefusesNoPoseAndTimesOutside) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::polyline_test

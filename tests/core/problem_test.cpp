@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace loopbench {
+namespace loopbench::problem_test {
 namespace {
 
 Edge edge(std::size_t from, std::size_t to) {
@@ -74,4 +74,4 @@ TEST(Problem, CheckNamesTheOrder) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::problem_test

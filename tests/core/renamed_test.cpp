@@ -7,9 +7,8 @@
 
 #include "datasets/core/fields.hpp"
 
+namespace loopbench::renamed_test {
 namespace {
-
-using namespace loopbench;
 
 struct Options {
   double sigma_t = 0.0;
@@ -56,3 +55,4 @@ TEST(Renamed, NoNameIsBothOldAndNew) {
 }
 
 }  // namespace
+}  // namespace loopbench::renamed_test

@@ -4,7 +4,7 @@
 
 #include "tests/core/numeric.hpp"
 
-namespace loopbench {
+namespace loopbench::se3_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -151,4 +151,4 @@ TEST(Se3, NormalizedAndCloseness) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::se3_test

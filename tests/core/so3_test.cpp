@@ -4,7 +4,7 @@
 
 #include "tests/core/numeric.hpp"
 
-namespace loopbench {
+namespace loopbench::so3_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -121,4 +121,4 @@ TEST(So3, NothingJumpsWhereSeriesMeetClosedForms) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::so3_test

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-namespace loopbench {
+namespace loopbench::trajectory_test {
 namespace {
 
 Trajectory corner() {
@@ -54,4 +54,4 @@ TEST(Trajectory, CheckNamesThePoseAndTheRule) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::trajectory_test

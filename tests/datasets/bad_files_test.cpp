@@ -8,7 +8,7 @@
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::bad_files_test {
 namespace {
 
 struct Case {
@@ -59,7 +59,7 @@ TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
   EXPECT_EQ(refusal([&] { read_trajectory(missing); }), missing.string() + ": no such file");
   EXPECT_EQ(refusal([&] { read_g2o(missing); }), missing.string() + ": no such file");
   const auto folder = sample("bad");
-  EXPECT_EQ(refusal([&] { recognise(folder); }),
+  EXPECT_EQ(refusal([&] { detect_format(folder); }),
             folder.string() + ": is a directory, expected a text file");
 }
 
@@ -122,4 +122,4 @@ TEST(BadFiles, TimesBesideAFormatWithStampsAreRefused) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::bad_files_test

@@ -8,7 +8,7 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::closure_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -54,8 +54,8 @@ TEST(ClosureFile, RefusalsNameFileAndLine) {
 TEST(ClosureFile, BecomesEdgesBetweenNearestPosesInOrder) {
   const Trajectory poses = on_a_line({0, 1, 2, 3, 4});
   const Pose pose{exp_so3({0.1, 0.2, 0.3}), {1.0, 2.0, 3.0}};
-  const std::vector<TimedClosure> closures = {{1.01, 4.0, pose, kNoise, 1},
-                                              {3.0, 0.0, pose, kNoise, 2}};
+  const std::vector<StampedClosure> closures = {{1.01, 4.0, pose, kNoise, 1},
+                                                {3.0, 0.0, pose, kNoise, 2}};
   const auto edges = as_edges(closures, poses, 0.02, "f");
   ASSERT_EQ(edges.size(), 2u);
   EXPECT_EQ(edges[0].from, 0u);
@@ -91,4 +91,4 @@ TEST(ClosureFile, NamesTheStampThatNoPoseHas) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::closure_file_test

@@ -5,7 +5,7 @@
 #include "datasets/formats/chain.hpp"
 #include "tests/datasets/random_poses.hpp"
 
-namespace loopbench {
+namespace loopbench::compose_edges_test {
 namespace {
 
 Matrix6 random_information(std::mt19937_64& random) {
@@ -163,4 +163,4 @@ TEST(OdometryEdges, RotationAddsItsShare) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::compose_edges_test

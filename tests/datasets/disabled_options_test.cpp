@@ -6,7 +6,7 @@
 #include "datasets/dataset.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::disabled_options_test {
 namespace {
 
 using testing::AllOf;
@@ -99,4 +99,4 @@ TEST(DisabledOptions, PitchDriftIsRejectedInThePlane) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::disabled_options_test

@@ -10,7 +10,7 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::false_closures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST(FalseClosures, ProvenanceCountsWhatWasAdded) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::false_closures_test

@@ -8,7 +8,7 @@
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::g2o_test {
 namespace {
 
 constexpr double kQuarter = 0.5 * M_PI;
@@ -247,4 +247,4 @@ TEST(G2o, RefusesWhatOverflowsOnTheWay) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::g2o_test

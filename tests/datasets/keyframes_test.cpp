@@ -5,7 +5,7 @@
 #include "datasets/core/params.hpp"
 #include "tests/datasets/random_poses.hpp"
 
-namespace loopbench {
+namespace loopbench::keyframes_test {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -69,9 +69,9 @@ TEST(Keyframes, HaveOnlyFramesBetweenThem) {
   const Trajectory keyframes = split(line(8), {2, 4, 6}).keyframes;
   Trajectory frames = line(8);
   frames[4].stamp += 1e-6;  // different rounding in the other file
-  EXPECT_EQ(stamps(frames_between(keyframes, frames)), (std::vector{3.0, 5.0}));
-  EXPECT_TRUE(frames_between({}, frames).empty());
+  EXPECT_EQ(stamps(non_keyframes_between(keyframes, frames)), (std::vector{3.0, 5.0}));
+  EXPECT_TRUE(non_keyframes_between({}, frames).empty());
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::keyframes_test

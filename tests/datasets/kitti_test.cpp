@@ -5,7 +5,7 @@
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::kitti_test {
 namespace {
 
 Trajectory random_trajectory(std::size_t count) {
@@ -63,4 +63,4 @@ TEST(Euroc, ReadsNanosecondsAndQuaternionWithWFirst) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::kitti_test

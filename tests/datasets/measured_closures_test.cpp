@@ -6,7 +6,7 @@
 #include "datasets/derive/closures.hpp"
 #include "tests/datasets/random_poses.hpp"
 
-namespace loopbench {
+namespace loopbench::measured_closures_test {
 namespace {
 
 TEST(PosesAt, InterpolateOverShortGapsOnly) {
@@ -52,7 +52,7 @@ TEST(MeasuredClosures, AreTheRunsOwnRelativePoses) {
     const Pose drift = exp_se3(twist({0.0, 0.0, 0.01 * static_cast<double>(i)}, Vector3::Zero()));
     keyframes.push_back({run[i].stamp, drift * run[i].world_from_body});
   }
-  const auto closures = closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
+  const auto closures = measure_closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
   ASSERT_EQ(closures.size(), 26u);  // all keyframes of the second round: 10 s to 20 s
   for (const Edge& closure : closures) {
     EXPECT_EQ(closure.to - closure.from, 25u);
@@ -60,14 +60,14 @@ TEST(MeasuredClosures, AreTheRunsOwnRelativePoses) {
     EXPECT_NEAR(closure.information(0, 0), 1.0 / (0.02 * 0.02), 1e-9);
     EXPECT_NEAR(closure.information(3, 3), 1.0 / (0.01 * 0.01), 1e-9);
   }
-  EXPECT_EQ(closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 4, {}, {}).size(), 4u);
+  EXPECT_EQ(measure_closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 4, {}, {}).size(), 4u);
 }
 
 TEST(MeasuredClosures, SkipKeyframesTheRunDoesNotKnow) {
   const Trajectory keyframes = two_rounds(51);
   Trajectory run = two_rounds(401);
   run.resize(301);  // no poses after 15 s
-  const auto closures = closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
+  const auto closures = measure_closures_in_run(keyframes, run, {0.3, 0.3, 5.0}, 0, {}, {});
   ASSERT_FALSE(closures.empty());
   EXPECT_LE(keyframes[closures.back().to].stamp, 15.02);
 }
@@ -92,8 +92,8 @@ TEST(MeasuredClosures, PathRatioShowsAnotherScale) {
   const Trajectory keyframes = two_rounds(51);
   Trajectory run = two_rounds(401);
   for (auto& [stamp, pose] : run) pose.translation *= 3.0;
-  EXPECT_NEAR(path_ratio(keyframes, run, {}), 3.0, 1e-9);
-  EXPECT_EQ(path_ratio(keyframes, {}, {}), 1.0);
+  EXPECT_NEAR(path_length_ratio(keyframes, run, {}), 3.0, 1e-9);
+  EXPECT_EQ(path_length_ratio(keyframes, {}, {}), 1.0);
 }
 
 TEST(MeasuredClosures, OfARunWithItsOwnUnitAreOfSim3) {
@@ -116,4 +116,4 @@ TEST(MeasuredClosures, OfARunWithItsOwnUnitAreOfSim3) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::measured_closures_test

@@ -12,7 +12,7 @@
 #include "tests/datasets/random_poses.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::noise_stream_test {
 namespace {
 
 SimulatedOptions small(const std::function<void(SimulatedOptions&)>& change) {
@@ -150,4 +150,4 @@ TEST(NoiseStream, AMovedFolderDrawsTheSameNoise) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::noise_stream_test

@@ -8,7 +8,7 @@
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::parts_test {
 namespace {
 
 constexpr int kRows = 100'000;
@@ -132,4 +132,4 @@ TEST(Parts, PoseGraphsKeepTheirLines) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::parts_test

@@ -9,7 +9,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/derive/poses_at.hpp"
 
-namespace loopbench {
+namespace loopbench::published_data_test {
 namespace {
 
 class PublishedData : public testing::Test {
@@ -235,4 +235,4 @@ TEST_F(PublishedData, PoseGraphsLoad) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::published_data_test

@@ -9,7 +9,7 @@
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::real_files_test {
 namespace {
 
 class RealFiles : public testing::Test {
@@ -29,7 +29,7 @@ class RealFiles : public testing::Test {
     }
     ReadOptions options;
     options.repeats = repeats;
-    EXPECT_EQ(recognise(file), format) << name;
+    EXPECT_EQ(detect_format(file), format) << name;
     Trajectory poses;
     ASSERT_NO_THROW(poses = read_trajectory(file, options))
         << refusal([&] { read_trajectory(file, options); });
@@ -154,7 +154,7 @@ TEST_F(RealFiles, PoseGraphsHaveTheIndexedSizes) {
     }
     PoseGraph graph;
     ASSERT_NO_THROW(graph = read_g2o(file)) << refusal([&] { read_g2o(file); });
-    EXPECT_EQ(recognise(file), Format::g2o) << expected.name;
+    EXPECT_EQ(detect_format(file), Format::g2o) << expected.name;
     EXPECT_EQ(graph.ids.size(), expected.ids) << expected.name;
     EXPECT_EQ(graph.vertices.size(), expected.vertices) << expected.name;
     EXPECT_EQ(graph.edges.size(), expected.edges) << expected.name;
@@ -228,4 +228,4 @@ TEST_F(RealFiles, ChainingOdometryGivesTheWrittenVertices) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::real_files_test

@@ -10,7 +10,7 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::reference_body_test {
 namespace {
 
 using testing::HasSubstr;
@@ -22,7 +22,7 @@ TEST(ReferenceBody, IsTakenBackToTheEstimatesBody) {
                           {1.0, {left, {3.0, 2.0, 0.0}}}};
   ReferenceBody ahead;
   ahead.x = 2.0;
-  const Trajectory vehicle = of_estimate_body(marker, ahead);
+  const Trajectory vehicle = to_estimate_body(marker, ahead);
   EXPECT_TRUE(is_close(vehicle[0].world_from_body, {}, 1e-12, 1e-12));
   EXPECT_TRUE(is_close(vehicle[1].world_from_body, {left, {3.0, 0.0, 0.0}}, 1e-12, 1e-12));
   EXPECT_EQ(vehicle[1].stamp, 1.0);
@@ -36,7 +36,7 @@ TEST(ReferenceBody, UndoesEveryOffset) {
   const Trajectory truth = random_walk(50, 3, 1.0, 0.5);
   Trajectory reference = truth;
   for (auto& [stamp, pose] : reference) pose = normalized(pose * body_from_reference);
-  reference = of_estimate_body(reference, body);
+  reference = to_estimate_body(reference, body);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_TRUE(is_close(reference[i].world_from_body, truth[i].world_from_body, 1e-9, 1e-9)) << i;
   }
@@ -44,7 +44,7 @@ TEST(ReferenceBody, UndoesEveryOffset) {
 
 TEST(ReferenceBody, SameBodyKeepsEveryBit) {
   const Trajectory truth = random_walk(20, 4, 1.0, 0.5);
-  const Trajectory same = of_estimate_body(truth, {});
+  const Trajectory same = to_estimate_body(truth, {});
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_EQ(same[i].world_from_body.rotation.coeffs(),
               truth[i].world_from_body.rotation.coeffs());
@@ -88,4 +88,4 @@ TEST(ReferenceBody, IsAnOptionOfTrajectoriesAndGraphs) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::reference_body_test

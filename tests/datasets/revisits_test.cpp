@@ -4,7 +4,7 @@
 
 #include "tests/datasets/random_poses.hpp"
 
-namespace loopbench {
+namespace loopbench::revisits_test {
 namespace {
 
 std::vector<Revisit> by_brute_force(const Trajectory& poses, const RevisitRule& rule) {
@@ -62,16 +62,16 @@ TEST(Revisits, SpreadFromTheLongestLoop) {
   for (int i = 0; i <= 100; ++i) stamps.push_back(i);
   // Many revisits along a repeated section, and one short loop far from it.
   const std::vector<Revisit> revisits = {{40, 50}, {0, 90}, {1, 91}, {2, 92}, {3, 93}, {10, 100}};
-  EXPECT_EQ(spread(revisits, stamps, 1), (std::vector<std::size_t>{1}));
-  EXPECT_EQ(spread(revisits, stamps, 2), (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(spread(revisits, stamps, 3), (std::vector<std::size_t>{0, 1, 5}));
-  EXPECT_EQ(spread(revisits, stamps, 9).size(), 6u);
-  EXPECT_TRUE(spread(revisits, stamps, 0).empty());
+  EXPECT_EQ(subsample(revisits, stamps, 1), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(subsample(revisits, stamps, 2), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(subsample(revisits, stamps, 3), (std::vector<std::size_t>{0, 1, 5}));
+  EXPECT_EQ(subsample(revisits, stamps, 9).size(), 6u);
+  EXPECT_TRUE(subsample(revisits, stamps, 0).empty());
 }
 
 TEST(Revisits, SpreadTakesEachOnceThoughEqual) {
   const std::vector<Revisit> equal = {{0, 1}, {0, 1}, {0, 1}};
-  EXPECT_EQ(spread(equal, {0.0, 1.0}, 2), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(subsample(equal, {0.0, 1.0}, 2), (std::vector<std::size_t>{0, 1}));
 }
 
 TEST(Revisits, LingeringCostsNoMoreThanItsLatestPoses) {
@@ -83,4 +83,4 @@ TEST(Revisits, LingeringCostsNoMoreThanItsLatestPoses) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::revisits_test

@@ -8,7 +8,7 @@
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
 
-namespace loopbench {
+namespace loopbench::simulated_closures_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -123,4 +123,4 @@ TEST(SimulatedClosures, FalseOnesAreRefusedWhereEveryPlaceIsTheSame) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::simulated_closures_test

@@ -8,7 +8,7 @@
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
 
-namespace loopbench {
+namespace loopbench::simulated_odometry_test {
 namespace {
 
 SimulatedOptions quiet(SimulatedPath path) {
@@ -162,4 +162,4 @@ TEST(SimulatedOdometry, EdgesAreTheKeyframesOwnSteps) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::simulated_odometry_test

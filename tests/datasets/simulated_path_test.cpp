@@ -5,7 +5,7 @@
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
 
-namespace loopbench {
+namespace loopbench::simulated_path_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -165,4 +165,4 @@ TEST(SimulatedPath, DegenerateOnesAreWhatTheyAreCalled) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::simulated_path_test

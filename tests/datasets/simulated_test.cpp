@@ -7,7 +7,7 @@
 
 #include "datasets/core/polyline.hpp"
 
-namespace loopbench {
+namespace loopbench::simulated_test {
 namespace {
 
 const DatasetEntry& entry() {
@@ -245,10 +245,10 @@ TEST(Simulated, OptionsAreRefusedByRule) {
 
 TEST(Simulated, ShakesEveryFrameAndNothingElse) {
   const Params still{{"path", std::string("room")}, {"stream", std::string("shared")}};
-  Params shaken = still;
-  shaken["shake.sigma_t"] = 0.02;
-  shaken["shake.sigma_r"] = 0.005;
-  const Sequence before = entry().load(still, {}), after = entry().load(shaken, {});
+  Params with_white_noise = still;
+  with_white_noise["white_noise.sigma_t"] = 0.02;
+  with_white_noise["white_noise.sigma_r"] = 0.005;
+  const Sequence before = entry().load(still, {}), after = entry().load(with_white_noise, {});
   EXPECT_TRUE(same_bits(before.problem.odometry, after.problem.odometry));
   EXPECT_TRUE(same_bits(before.problem.closures, after.problem.closures));
   EXPECT_TRUE(same_bits(before.reference, after.reference));
@@ -266,4 +266,4 @@ TEST(Simulated, ShakesEveryFrameAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::simulated_test

@@ -9,7 +9,7 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::trajectory_dataset_test {
 namespace {
 
 using testing::HasSubstr;
@@ -204,4 +204,4 @@ TEST(TrajectoryDataset, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::trajectory_dataset_test

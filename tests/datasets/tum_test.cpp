@@ -6,7 +6,7 @@
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"
 
-namespace loopbench {
+namespace loopbench::tum_test {
 namespace {
 
 /// Poses with extreme double values.
@@ -121,7 +121,7 @@ TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
   const auto csv = scratch.file("a.csv",
                                 "#timestamp,px,py,pz,qw,qx,qy,qz\n"
                                 "0,1,2,3,0.8,0,0,0.6\n50000000,4,5,6,0.8,0,0,0.6\n");
-  EXPECT_EQ(recognise(csv), Format::euroc);
+  EXPECT_EQ(detect_format(csv), Format::euroc);
   const Trajectory poses = read_trajectory(csv);
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[1].stamp, 0.05);
@@ -146,7 +146,7 @@ TEST(Tum, WholeSecondsStaySeconds) {
   for (const char* text : {"0,1,2,3,0,0,0.6,0.8\n1,4,5,6,0,0,0.6,0.8\n",
                            "1403636579 1 2 3 0 0 0.6 0.8\n1403636580 4 5 6 0 0 0.6 0.8\n"}) {
     const auto file = scratch.file("a.csv", text);
-    EXPECT_EQ(recognise(file), Format::tum);
+    EXPECT_EQ(detect_format(file), Format::tum);
     const Trajectory poses = read_trajectory(file);
     EXPECT_EQ(poses[1].stamp - poses[0].stamp, 1.0);
     EXPECT_EQ(poses[1].world_from_body.rotation.w(), 0.8);
@@ -178,12 +178,12 @@ TEST(Tum, BrokenTrajectoriesAndPathsAreNotWritten) {
 }
 
 TEST(Tum, IsRecognisedByContent) {
-  EXPECT_EQ(recognise(sample("good/tum.txt")), Format::tum);
-  EXPECT_EQ(recognise(sample("good/kitti.txt")), Format::kitti);
-  EXPECT_EQ(recognise(sample("good/euroc.csv")), Format::euroc);
-  EXPECT_EQ(recognise(sample("good/se2.g2o")), Format::g2o);
-  EXPECT_EQ(recognise(sample("good/toro.txt")), Format::g2o);
+  EXPECT_EQ(detect_format(sample("good/tum.txt")), Format::tum);
+  EXPECT_EQ(detect_format(sample("good/kitti.txt")), Format::kitti);
+  EXPECT_EQ(detect_format(sample("good/euroc.csv")), Format::euroc);
+  EXPECT_EQ(detect_format(sample("good/se2.g2o")), Format::g2o);
+  EXPECT_EQ(detect_format(sample("good/toro.txt")), Format::g2o);
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::tum_test

@@ -6,7 +6,7 @@
 
 #include "tests/fuzz/targets.hpp"
 
-namespace loopbench {
+namespace loopbench::fuzz_corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ TEST(FuzzCorpus, EveryReaderKeepsItsPromisesOnEverySample) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::fuzz_corpus_test

@@ -88,7 +88,7 @@ void fuzz_times(const Path& file) {
 }
 
 void fuzz_closures(const Path& file) {
-  for (const TimedClosure& closure :
+  for (const StampedClosure& closure :
        read_or_refuse([&] { return read_closure_file(file, ClosureNoise{}); })) {
     expect(std::isfinite(closure.stamp_from) && std::isfinite(closure.stamp_to), "finite stamps");
     expect_checked(Trajectory{{0.0, closure.from_from_to}});

@@ -5,7 +5,7 @@
 #include "harness/store/merge.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench {
+namespace loopbench::cell_identity_test {
 
 using namespace methods;
 using namespace metrics;
@@ -57,7 +57,7 @@ TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMerge) {
   EXPECT_EQ(merge_stores({file_}, out, false).cells, 6u);
   const Merged again = merge_stores({file_, out}, folder_.path() / "again.sqlite", false);
   EXPECT_EQ(again.cells, 6u);
-  EXPECT_EQ(again.twice, 6u);
+  EXPECT_EQ(again.duplicates, 6u);
   file_ = folder_.path() / "again.sqlite";
   EXPECT_EQ(methods_of("a"), (Labels{"straight", "one", "two"}));
   EXPECT_EQ(run(twins).cells, Labels{});
@@ -69,7 +69,7 @@ TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMergeOfTheirStores) {
   const std::filesystem::path two = file_ = folder_.path() / "2.sqlite";
   run(config("straight, {method: shift, label: two}"));
   file_ = folder_.path() / "merged.sqlite";
-  EXPECT_EQ(merge_stores({one, two}, file_, false).twice, 2u);
+  EXPECT_EQ(merge_stores({one, two}, file_, false).duplicates, 2u);
   EXPECT_EQ(methods_of("b"), (Labels{"straight", "one", "two"}));
 }
 
@@ -160,4 +160,4 @@ TEST_F(CellIdentity, LibrariesAreNamedWithTheirVersions) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::cell_identity_test

@@ -7,7 +7,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/text/hash.hpp"
 
-namespace loopbench {
+namespace loopbench::cells_test {
 
 using namespace harness;
 
@@ -89,4 +89,4 @@ TEST(Hash, FieldsDoNotRunTogether) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::cells_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/command.hpp"
 
-namespace loopbench {
+namespace loopbench::cli_test {
 namespace {
 
 const char* const kConfig =
@@ -230,4 +230,4 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::cli_test

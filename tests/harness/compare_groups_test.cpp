@@ -6,7 +6,7 @@
 
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::compare_groups_test {
 
 using namespace methods;
 using namespace metrics;
@@ -127,19 +127,19 @@ std::vector<Record> routes(int routes, int won) {
 }
 
 TEST(Groups, AreTheObservations) {
-  const Comparison c = compared(routes(6, 5), {.baseline = "raw"});
-  EXPECT_EQ(c.groups, 6u);
-  EXPECT_EQ(c.runs, 30u);
-  EXPECT_EQ(c.methods[0].wins, 5u);
+  const Comparison c = compared(routes(8, 6), {.baseline = "raw"});
+  EXPECT_EQ(c.groups, 8u);
+  EXPECT_EQ(c.runs, 40u);
+  EXPECT_EQ(c.methods[0].wins, 6u);
   EXPECT_FALSE(c.is_best_proven);
-  EXPECT_TRUE(has(verdict(c), "; over 6 groups (30 runs)")) << verdict(c);
+  EXPECT_TRUE(has(verdict(c), "; over 8 groups (40 runs)")) << verdict(c);
   // Assumed independent, the same runs prove a difference; the remark states the assumption.
-  const Comparison runs = compared(routes(6, 5), {.baseline = "raw", .over = Over::runs});
-  EXPECT_EQ(runs.groups, 30u);
+  const Comparison runs = compared(routes(8, 6), {.baseline = "raw", .over = Over::runs});
+  EXPECT_EQ(runs.groups, 40u);
   EXPECT_TRUE(runs.is_best_proven);
   EXPECT_TRUE(has_note(runs,
                        "assumes that all runs are independent (--over runs), although they "
-                       "form 6 groups"));
+                       "form 8 groups"));
 }
 
 TEST(Groups, WeighTheSameWhateverTheirRuns) {
@@ -158,12 +158,17 @@ TEST(Groups, WeighTheSameWhateverTheirRuns) {
 }
 
 TEST(Groups, GiveNoPWhereTheyAreTooFew) {
-  const Comparison c = compared(routes(5, 5), {.baseline = "raw"});
-  EXPECT_FALSE(c.methods[0].p);
-  EXPECT_TRUE(has(verdict(c),
-                  "but 5 groups (25 runs) cannot prove a difference among 2 methods at "
-                  "0.05 (6 are needed)"))
-      << verdict(c);
+  // Six or seven groups of one sign have p < 0.05, but an interval needs eight.
+  for (const int groups : {5, 7}) {
+    const Comparison c = compared(routes(groups, groups), {.baseline = "raw"});
+    EXPECT_FALSE(c.methods[0].p);
+    EXPECT_FALSE(c.is_best_proven);
+    EXPECT_TRUE(has(verdict(c),
+                    "but " + std::to_string(groups) + " groups (" + std::to_string(5 * groups) +
+                        " runs) cannot prove a difference among 2 methods at 0.05 (8 are needed)"))
+        << verdict(c);
+  }
+  EXPECT_TRUE(compared(routes(8, 8), {.baseline = "raw"}).is_best_proven);
 }
 
 TEST(Groups, AreSequencesWhereTheseAreAskedFor) {
@@ -193,4 +198,4 @@ TEST(Copies, OfTheSameDataAreOneObservation) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::compare_groups_test

@@ -12,7 +12,7 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::compare_test {
 
 using namespace methods;
 using namespace metrics;
@@ -102,7 +102,8 @@ TEST(Verdict, DoesNotClaimWhatSoFewRunsCannotShow) {
             "among 4 methods at 0.05 (8 are needed)");
   EXPECT_FALSE(c.methods[0].has_interval);
   EXPECT_FALSE(c.methods[0].p);
-  EXPECT_TRUE(has_note(c, "no p: 4 runs cannot reach 0.05 in 5 tests, 8 are needed"));
+  EXPECT_TRUE(
+      has_note(c, "no p: 4 runs cannot prove a difference at 0.05 in 5 tests, 8 are needed"));
 }
 
 TEST(Verdict, StatesThatNothingBeatsTheBaseline) {
@@ -237,7 +238,7 @@ TEST(Compare, RejectsUnknownNames) {
 
 TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   const std::vector<Comparison> all = compare(sweep(), {.baseline = "uniform"});
-  const std::string text = markdown(sheet(all[0]));
+  const std::string text = markdown(table_view(all[0]));
   EXPECT_EQ(text.find("### ate rmse, dense, loopbench\n\n| method"), 0u) << text;
   EXPECT_TRUE(has(text, "\n| **dual**")) << text;
   EXPECT_TRUE(has(text, "8/0/0"));
@@ -250,4 +251,4 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::compare_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/command.hpp"
 
-namespace loopbench {
+namespace loopbench::config_test {
 namespace {
 
 std::vector<std::string> shipped() {
@@ -113,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(Configs,
                          [](const auto& chosen) { return chosen.param; });
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::config_test

@@ -5,7 +5,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::config_text_test {
 
 using namespace methods;
 using namespace metrics;
@@ -108,4 +108,4 @@ TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::config_text_test

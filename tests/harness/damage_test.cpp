@@ -8,7 +8,7 @@
 #include "harness/store/open.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench {
+namespace loopbench::damage_test {
 
 using namespace methods;
 using namespace harness;
@@ -107,7 +107,7 @@ TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
   const std::string sound = bytes_of_file(file_);
   const std::string expected = store_text(file_);
   std::mt19937_64 random(12);
-  int mended = 0;
+  int repaired = 0;
   for (int i = 0; i < 60; ++i) {
     std::string bytes = sound;
     const std::size_t at = place(bytes, random);
@@ -115,14 +115,14 @@ TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
     put(bytes);
     try {
       const Ran again = run(kConfigWithFailures, Retry::damaged);
-      if (!again.cells.empty()) ++mended;
+      if (!again.cells.empty()) ++repaired;
     } catch (const InputError&) {
       continue;  // cannot be repaired, which the message states
     }
     ASSERT_EQ(store_text(file_), expected) << "byte " << at;
     ASSERT_EQ(run(kConfigWithFailures).cells, Labels{}) << "byte " << at;
   }
-  EXPECT_GT(mended, 10);
+  EXPECT_GT(repaired, 10);
 }
 
 TEST_F(Damage, NamesTheCellAndWhatToDo) {
@@ -185,9 +185,9 @@ TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
   CellRows rows = read_cell_rows(reader);
   EXPECT_EQ(run(kUsual).cells.size(), 2u);
   read_details(reader, "score", rows);
-  require_whole(rows, file_);
+  require_intact(rows, file_);
   EXPECT_EQ(rows.cells.size(), 2u);
-  require_whole(read_sequence_rows(reader), file_);
+  require_intact(read_sequence_rows(reader), file_);
   EXPECT_EQ(read_cells(file_).size(), 4u);
 }
 
@@ -201,4 +201,4 @@ TEST_F(Damage, AnotherToolMayReadAndPackIt) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::damage_test

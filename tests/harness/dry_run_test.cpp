@@ -3,7 +3,7 @@
 
 #include "tests/support/command.hpp"
 
-namespace loopbench {
+namespace loopbench::dry_run_test {
 namespace {
 
 class DryRun : public testing::Test {
@@ -51,4 +51,4 @@ TEST_F(DryRun, FindsAGraphAndAFolderOfImagesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dry_run_test

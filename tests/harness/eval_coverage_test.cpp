@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/eval/judgement.hpp"
+#include "harness/eval/evaluation_result.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::eval_coverage_test {
 
 using namespace metrics;
 using namespace harness;
@@ -97,4 +97,4 @@ TEST_F(EvalCoverage, AssociationThatCostsAccuracyIsNoted) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::eval_coverage_test

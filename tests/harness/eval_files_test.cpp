@@ -10,7 +10,7 @@
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::eval_files_test {
 
 using namespace methods;
 using namespace metrics;
@@ -140,11 +140,11 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
   EXPECT_TRUE(plain.contains("other_body"));
   EXPECT_GT(find(plain, "ate", "translation")["rmse"].get<double>(), 0.1);
 
-  const Json told = eval_json({reference, estimate, "--ref-body=" + place});
-  EXPECT_FALSE(told.contains("other_body"));
-  EXPECT_EQ(told["reference_body"], place);
-  EXPECT_LT(find(told, "ate", "translation")["rmse"].get<double>(), 1e-9);
-  EXPECT_LT(find(told, "rpe", "rotation")["rmse"].get<double>(), 1e-6);
+  const Json stated = eval_json({reference, estimate, "--ref-body=" + place});
+  EXPECT_FALSE(stated.contains("other_body"));
+  EXPECT_EQ(stated["reference_body"], place);
+  EXPECT_LT(find(stated, "ate", "translation")["rmse"].get<double>(), 1e-9);
+  EXPECT_LT(find(stated, "rpe", "rotation")["rmse"].get<double>(), 1e-6);
   EXPECT_THAT(eval({reference, estimate, "--ref-body=" + place}),
               HasSubstr("(100 poses), body offset " + place));
   for (const char* wrong :
@@ -165,13 +165,13 @@ TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {
       "(KITTI), --period S or --association index";
   EXPECT_EQ(refusal<InputError>({stamped, numbered}), numbered + rule);
   EXPECT_EQ(refusal<InputError>({numbered, stamped}), numbered + rule);
-  const Json told = eval_json({stamped,
-                               numbered,
-                               "--period=0.1",
-                               "--offset=1700000000",
-                               "--max-diff=0.05",
-                               "--align=none"});
-  EXPECT_GT(told["pairs"], 100);
+  const Json stated = eval_json({stamped,
+                                 numbered,
+                                 "--period=0.1",
+                                 "--offset=1700000000",
+                                 "--max-diff=0.05",
+                                 "--align=none"});
+  EXPECT_GT(stated["pairs"], 100);
 }
 
 TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
@@ -235,4 +235,4 @@ TEST(Eval, ErrorsOfPosesHaveTheStampsOfBoth) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::eval_files_test

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <regex>
 
-#include "harness/eval/judgement.hpp"
+#include "harness/eval/evaluation_result.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::eval_protocols_test {
 
 using namespace metrics;
 using namespace harness;
@@ -155,4 +155,4 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::eval_protocols_test

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <regex>
 
-#include "harness/eval/judgement.hpp"
+#include "harness/eval/evaluation_result.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::eval_test {
 
 using namespace methods;
 using namespace metrics;
@@ -286,4 +286,4 @@ TEST(Eval, RefusesWhatItCannotJudge) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::eval_test

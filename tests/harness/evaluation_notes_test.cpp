@@ -5,7 +5,7 @@
 
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::evaluation_notes_test {
 
 using namespace metrics;
 using namespace harness;
@@ -60,4 +60,4 @@ TEST(EvaluationNotes, OfASequenceNameLittleCoverageAndFewPairs) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::evaluation_notes_test

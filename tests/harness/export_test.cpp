@@ -5,7 +5,7 @@
 #include "harness/tables/notes.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::export_test {
 
 using namespace methods;
 using namespace metrics;
@@ -173,4 +173,4 @@ TEST(Decimals, KeepFourSignificantDigitsOfTheLargest) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::export_test

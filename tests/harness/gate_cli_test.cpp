@@ -5,7 +5,7 @@
 
 #include "tests/support/command.hpp"
 
-namespace loopbench {
+namespace loopbench::gate_cli_test {
 namespace {
 
 class GateCli : public testing::Test {
@@ -77,4 +77,4 @@ TEST_F(GateCli, SaysThatAnOldBaselineHasToBeWrittenAnew) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gate_cli_test

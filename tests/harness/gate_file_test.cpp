@@ -7,7 +7,7 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::gate_file_test {
 
 using namespace methods;
 using namespace metrics;
@@ -31,7 +31,7 @@ TEST(BaselineFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(json(read), text);
   EXPECT_EQ(rmse(const_cast<Baseline&>(read).snapshot, 1), 1.0 / 3.0);
   EXPECT_TRUE(check(before, read.snapshot).findings.empty());
-  EXPECT_EQ(read.made_by, before.made_by);
+  EXPECT_EQ(read.build_summary, before.build_summary);
   EXPECT_EQ(read.limits[0].alpha, before.limits[0].alpha);
 }
 
@@ -111,4 +111,4 @@ TEST(BaselineFile, KeepsTheLimitsOfFormat2AndComparesMaximaToo) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gate_file_test

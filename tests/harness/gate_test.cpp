@@ -6,7 +6,7 @@
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::gate_test {
 
 using namespace methods;
 using namespace metrics;
@@ -196,11 +196,11 @@ TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
   Baseline other = baseline();
   other.snapshot.sweep = "outliers";
   for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
-  for (const GateExtent extent : {GateExtent::whole, GateExtent::part}) {
+  for (const GateExtent extent : {GateExtent::complete, GateExtent::part}) {
     EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
               "the baseline belongs to another sweep: the results contain no cell of 'outliers'");
   }
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gate_test

@@ -4,14 +4,14 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::grid_test {
 
 using namespace harness;
 
 namespace {
 
 std::vector<GridPoint> grid(const std::string& text) {
-  return spread(parse_yaml(text, "c.yaml"), {"method", "label"}, "c.yaml");
+  return expand(parse_yaml(text, "c.yaml"), {"method", "label"}, "c.yaml");
 }
 
 std::string text_of(const GridPoint& point) {
@@ -129,4 +129,4 @@ TEST(Grid, RefusesMoreThanItCouldHoldBeforeHoldingIt) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::grid_test

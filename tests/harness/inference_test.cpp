@@ -10,7 +10,7 @@
 #include "harness/statistics/ranks.hpp"
 #include "harness/statistics/signed_rank.hpp"
 
-namespace loopbench {
+namespace loopbench::inference_test {
 
 using namespace harness;
 
@@ -155,4 +155,4 @@ TEST(EffectSize, AgreesWithThePackageEffectsize) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::inference_test

@@ -17,7 +17,7 @@
 #include "harness/execution/verify/verify.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench {
+namespace loopbench::isolate_test {
 
 using namespace methods;
 using namespace metrics;
@@ -127,8 +127,8 @@ TEST_F(Isolated, GivesTheSameBitsAsThreads) {
     for (std::size_t i = 0; i < planned.size(); ++i) {
       EXPECT_EQ(bytes(isolated[i]), in_process[i]) << i;
       EXPECT_TRUE(isolated[i].worker.isolated);
-      ASSERT_TRUE(isolated[i].facts);
-      EXPECT_EQ(isolated[i].facts->size.keyframes, 4);
+      ASSERT_TRUE(isolated[i].metadata);
+      EXPECT_EQ(isolated[i].metadata->size.keyframes, 4);
     }
   }
 }
@@ -156,7 +156,7 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
       EXPECT_EQ(results[i].signal, signal) << i;
     }
     EXPECT_EQ(results[i].why.empty(), status == Status::ok) << i;
-    EXPECT_TRUE(results[i].facts) << "the sequence was loaded";
+    EXPECT_TRUE(results[i].metadata) << "the sequence was loaded";
   }
   EXPECT_NE(results[3].why.find("exit code 7"), std::string::npos) << results[3].why;
   EXPECT_NE(results[4].why.find("limit of 5 s"), std::string::npos) << results[4].why;
@@ -233,8 +233,8 @@ TEST_F(Isolated, VerifyNamesTheCellThatDiffers) {
   ASSERT_EQ(differing.size(), 2u);
   EXPECT_EQ(differing[0].cell, 1u);
   EXPECT_EQ(differing[0].part, "report");
-  EXPECT_EQ(differing[0].manner, "2 workers");
-  EXPECT_EQ(differing[1].manner, "3 threads");
+  EXPECT_EQ(differing[0].mode, "2 workers");
+  EXPECT_EQ(differing[1].mode, "3 threads");
 }
 
 TEST(CellQueue, KeepsAWorkerAtItsSequenceThenHelpsOut) {
@@ -249,11 +249,11 @@ TEST(CellQueue, KeepsAWorkerAtItsSequenceThenHelpsOut) {
   EXPECT_EQ(queue.next(b), 3u);
   EXPECT_EQ(queue.next(b), 4u);
   EXPECT_EQ(queue.next(b), 1u);
-  queue.give_back(1);
+  queue.requeue(1);
   EXPECT_EQ(queue.next(a), 1u);
   EXPECT_EQ(queue.next(a), 2u);
   EXPECT_EQ(queue.next(a), std::nullopt);
-  queue.give_back(4);
+  queue.requeue(4);
   EXPECT_EQ(queue.next(a), 4u);
   EXPECT_FALSE(queue.finish(3));
   EXPECT_TRUE(queue.finish(4));
@@ -289,4 +289,4 @@ TEST(Bytes, ReadsSizesAsPeopleWriteThem) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::isolate_test

@@ -14,7 +14,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"
 
-namespace loopbench {
+namespace loopbench::kill_test {
 
 using namespace methods;
 using namespace metrics;
@@ -190,4 +190,4 @@ TEST_F(Ended, MergeAndProfileFromTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::kill_test

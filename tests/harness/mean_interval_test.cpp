@@ -9,7 +9,7 @@
 
 #include "harness/statistics/student.hpp"
 
-namespace loopbench {
+namespace loopbench::mean_interval_test {
 
 using namespace harness;
 
@@ -108,4 +108,4 @@ TEST(MeanInterval, IsNotGivenOfTooLittle) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::mean_interval_test

@@ -4,7 +4,7 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench {
+namespace loopbench::merge_test {
 
 using namespace methods;
 using namespace harness;
@@ -25,7 +25,7 @@ TEST_F(MergeTest, MergedHalvesAreTheWhole) {
   const std::filesystem::path out = folder_.path() / "merged" / "results.sqlite";
   const Merged merged = merge_stores({parts[1], parts[0]}, out, false);
   EXPECT_EQ(merged.cells, 4u);
-  EXPECT_EQ(merged.twice, 1u);
+  EXPECT_EQ(merged.duplicates, 1u);
   EXPECT_EQ(store_text(out), whole);
   EXPECT_THROW(merge_stores({parts[0], parts[1]}, out, false), InputError) << "it is there";
   file_ = out;
@@ -76,4 +76,4 @@ TEST_F(MergeTest, RefusesWhatDoesNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::merge_test

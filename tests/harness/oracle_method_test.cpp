@@ -10,7 +10,7 @@
 #include "harness/execution/run/run_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::oracle_method_test {
 
 using namespace methods;
 using namespace metrics;
@@ -18,8 +18,8 @@ using namespace harness;
 
 namespace {
 
-SequenceFacts with_source(const std::string& source) {
-  SequenceFacts out;
+SequenceMetadata with_source(const std::string& source) {
+  SequenceMetadata out;
   out.source = source;
   out.group = "group:other";
   return out;
@@ -28,7 +28,7 @@ SequenceFacts with_source(const std::string& source) {
 TEST(OracleMethod, IsOneTrainedOnTheJudgedReference) {
   MethodChoice method{"learnt", {}, {"c.yaml", {"kitti 06"}, {"reference:06", "reference:07"}}};
   const auto why = [&](const std::string& label, const std::string& source) {
-    return trained_on_judged(method, {label, {}}, with_source(source));
+    return trained_on_evaluated(method, {label, {}}, with_source(source));
   };
   EXPECT_EQ(why("another name", "reference:07"),
             "c.yaml was trained on the reference of this sequence");
@@ -57,7 +57,7 @@ TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
   Sweep sweep = sweep_with("");
   const std::vector<Cell> all = cells(sweep, seeded(sweep, known), "");
   const std::string source =
-      facts_of(load_sequence(all[0], sweep, known, {}), all[0], sweep).source;
+      metadata_of(load_sequence(all[0], sweep, known, {}), all[0], sweep).source;
   sweep = sweep_with("\"" + source + "\"");
   ASSERT_EQ(sweep.methods[1].trained_on.sources, std::vector{source});
 
@@ -82,4 +82,4 @@ TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::oracle_method_test

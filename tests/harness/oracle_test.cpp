@@ -8,7 +8,7 @@
 #include "harness/tables/pivot.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::oracle_test {
 
 using namespace methods;
 using namespace metrics;
@@ -149,4 +149,4 @@ TEST(Oracle, TheStoreKeepsTheFlag) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::oracle_test

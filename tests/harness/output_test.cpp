@@ -10,7 +10,7 @@
 #include "harness/text/write_file.hpp"
 #include "tests/support/command.hpp"
 
-namespace loopbench {
+namespace loopbench::output_test {
 
 using namespace harness;
 
@@ -88,10 +88,10 @@ TEST(WriteFile, KnowsAnInputByAnyName) {
   const TemporaryFolder folder;
   const fs::path input = folder.file("input", "old");
   fs::create_hard_link(input, folder.path() / "twin");
-  EXPECT_THROW(refuse_to_overwrite({"absent", input}, folder.path() / "twin"), InputError);
-  EXPECT_NO_THROW(refuse_to_overwrite({input}, folder.path() / "new"));
-  EXPECT_NO_THROW(refuse_to_overwrite({input}, ""));
-  EXPECT_NO_THROW(refuse_to_overwrite({"/dev/null"}, "/dev/null"));
+  EXPECT_THROW(reject_overwriting({"absent", input}, folder.path() / "twin"), InputError);
+  EXPECT_NO_THROW(reject_overwriting({input}, folder.path() / "new"));
+  EXPECT_NO_THROW(reject_overwriting({input}, ""));
+  EXPECT_NO_THROW(reject_overwriting({"/dev/null"}, "/dev/null"));
 }
 
 TEST(Printable, LeavesNothingThatSteersATerminal) {
@@ -203,4 +203,4 @@ TEST_F(Output, HyphensAndUnderscoresAreOne) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::output_test

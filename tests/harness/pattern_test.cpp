@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::pattern_test {
 
 using namespace harness;
 
@@ -60,4 +60,4 @@ TEST(Pattern, NeitherNestingNorRepetitionRunsAway) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pattern_test

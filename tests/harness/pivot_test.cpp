@@ -6,7 +6,7 @@
 #include "harness/tables/derived.hpp"
 #include "harness/tables/text.hpp"
 
-namespace loopbench {
+namespace loopbench::pivot_test {
 
 using namespace methods;
 using namespace metrics;
@@ -31,7 +31,7 @@ Record ate(const std::string& method, double rmse, int repeat = 0) {
 
 TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   std::vector<Record> records;
-  for (int repeat = 0; repeat < 6; ++repeat) {
+  for (int repeat = 0; repeat < 8; ++repeat) {
     records.push_back(ate("raw", 2.0, repeat));
     records.push_back(ate("dm", 1.0, repeat));
   }
@@ -73,8 +73,8 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
   }
   const std::vector<Table> tables =
       pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
-  EXPECT_EQ(sheet(tables[0]).lines[0][1].text, "1.500");  // repeat 0, not 3.000
-  EXPECT_EQ(sheet(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
+  EXPECT_EQ(table_view(tables[0]).lines[0][1].text, "1.500");  // repeat 0, not 3.000
+  EXPECT_EQ(table_view(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
   EXPECT_EQ(tables[0].notes[0], "means over the 1 run that every method finished");
   EXPECT_NE(json(tables).find("\"averaged\": 1"), std::string::npos);
   EXPECT_NE(json(tables).find("\"possible\": 4"), std::string::npos);
@@ -110,16 +110,16 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
   EXPECT_EQ(*table.cells[2][0].value, 2.5);
   EXPECT_EQ(table.cells[0][0].averaged, 2u);
   EXPECT_EQ(table.cells[0][0].records, 4u);
-  EXPECT_EQ(sheet(table).lines[2][1].text, "2.500 (3 of 4)");
-  EXPECT_EQ(sheet(table).lines[3][1].text, "failed");  // and restricts nobody
+  EXPECT_EQ(table_view(table).lines[2][1].text, "2.500 (3 of 4)");
+  EXPECT_EQ(table_view(table).lines[3][1].text, "failed");  // and restricts nobody
   EXPECT_EQ(table.notes[1], "means over the 2 runs that every method finished");
 }
 
 TEST(Pivot, HasNoMeanWithoutACommonRun) {
   const double none = std::nan("");
   const Table table = table_of(errors({{"raw", {1.0, none}}, {"dm", {none, 2.0}}}));
-  EXPECT_EQ(sheet(table).lines[0][1].text, "- (1 of 2)");
-  EXPECT_EQ(sheet(table).lines[1][1].text, "- (1 of 2)");
+  EXPECT_EQ(table_view(table).lines[0][1].text, "- (1 of 2)");
+  EXPECT_EQ(table_view(table).lines[1][1].text, "- (1 of 2)");
   EXPECT_EQ(table.notes[0], "no means (-): no run is one that every method finished");
   EXPECT_NE(csv({table}).find("dense,raw,ate [m],,1,0,no common run,"), std::string::npos)
       << csv({table});
@@ -148,7 +148,7 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
 
 TEST(Pivot, MarksNothingAmongDescriptions) {
   std::vector<Record> records;
-  for (int repeat = 0; repeat < 6; ++repeat) {
+  for (int repeat = 0; repeat < 8; ++repeat) {
     for (const char* method : {"raw", "dm"}) {
       records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
       records.back().metric = "pairs";
@@ -160,4 +160,4 @@ TEST(Pivot, MarksNothingAmongDescriptions) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pivot_test

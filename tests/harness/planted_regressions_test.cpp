@@ -10,7 +10,7 @@
 #include "tests/support/gate_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::planted_regressions_test {
 
 using namespace methods;
 using namespace metrics;
@@ -205,10 +205,10 @@ TEST(PlantedRegression, AnotherUnitOrDirection) {
 }
 
 TEST(PlantedRegression, ABaselineOfAnUncommittedBuild) {
-  EXPECT_FALSE(is_dirty(baseline().made_by));
+  EXPECT_FALSE(is_dirty(baseline().build_summary));
   EXPECT_TRUE(is_dirty({{"source", "dirty"}}));
   EXPECT_TRUE(is_dirty({{"source", "clean\ndirty"}}));  // cells of two builds
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::planted_regressions_test

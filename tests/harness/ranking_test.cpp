@@ -10,7 +10,7 @@
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench {
+namespace loopbench::ranking_test {
 
 using namespace methods;
 using namespace harness;
@@ -93,4 +93,4 @@ TEST(Letters, AreSharedExactlyByMethodsThatAreNotProvenDifferent) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::ranking_test

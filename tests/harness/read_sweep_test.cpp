@@ -5,7 +5,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench {
+namespace loopbench::read_sweep_test {
 
 using namespace methods;
 using namespace metrics;
@@ -181,4 +181,4 @@ TEST(ReadSweep, ChecksOptionsOfADatasetTogether) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::read_sweep_test

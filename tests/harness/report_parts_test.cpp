@@ -12,7 +12,7 @@
 #include "harness/report/packed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::report_parts_test {
 
 using namespace methods;
 using namespace harness;
@@ -31,8 +31,9 @@ TEST(Html, NothingInAScriptEndsIt) {
 }
 
 TEST(Html, TablesEscapeAndMark) {
-  const Sheet sheet{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
-  const std::string html = html_table(sheet);
+  const TableView table_view{
+      "a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
+  const std::string html = html_table(table_view);
   EXPECT_NE(html.find("<caption>a&lt;b</caption>"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">m&amp;m</th><td class=\"best\">1.0</td>"),
             std::string::npos);
@@ -50,10 +51,10 @@ TEST(Packed, IsSixteenBitsOfTheRange) {
 }
 
 TEST(Packed, ThinsWithBothEndsKept) {
-  EXPECT_EQ(thinned_places(3, 5), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(thinned_places(101, 3), (std::vector<std::size_t>{0, 50, 100}));
-  EXPECT_EQ(thinned_places(9, 1), (std::vector<std::size_t>{0}));
-  EXPECT_TRUE(thinned_places(0, 5).empty());
+  EXPECT_EQ(subsampled_indices(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(subsampled_indices(101, 3), (std::vector<std::size_t>{0, 50, 100}));
+  EXPECT_EQ(subsampled_indices(9, 1), (std::vector<std::size_t>{0}));
+  EXPECT_TRUE(subsampled_indices(0, 5).empty());
 }
 
 /// The page's script front.js on these points, as node runs it: "1" on the front, "0" off it.
@@ -92,4 +93,4 @@ TEST(ReportPage, HasTheSameFrontAsTheProfile) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::report_parts_test

@@ -10,7 +10,7 @@
 #include "harness/plot/gnuplot.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::reproduce_test {
 
 using namespace methods;
 using namespace metrics;
@@ -73,7 +73,7 @@ TEST(Claims, AreDecidedByOurNumbers) {
                                      cell("N3", 0.03, 0.049, 2.0),
                                      cell("N4", 0.04, 0.048, 4.0),
                                      cell("N5", 0.05, 0.060, 2.0)};
-  const std::vector<Claim> claims = judge_claims(cells, "robust");
+  const std::vector<Claim> claims = check_claims(cells, "robust");
   EXPECT_EQ(claim(claims, "Table 1: N3 lowers the y ATE").verdict, Verdict::holds);
   EXPECT_EQ(claim(claims, "Table 1: N4 lowers the y ATE").verdict, Verdict::does_not_hold);
   EXPECT_EQ(claim(claims, "Table 1: N4").because,
@@ -107,7 +107,7 @@ PaperCell circling() {
 }
 
 TEST(SegmentClaims, AreJudgedWhereSpeedAndCurvatureAreAsQuoted) {
-  const std::vector<Claim> claims = judge_segment_claims({circling()});
+  const std::vector<Claim> claims = check_segment_claims({circling()});
   // Symmetric nodes give the cubic no cubic term: parabola and cubic tie, to 0.01 mm on this arc.
   const Claim& parabola = claim(claims, "Figure 7 a c e: a parabola at 0.2017 to 0.3832 m/s");
   EXPECT_EQ(parabola.verdict, Verdict::holds) << parabola.because;
@@ -162,4 +162,4 @@ TEST(Plot, WritesAWholeSvgAndEscapesNames) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::reproduce_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench {
+namespace loopbench::run_failures_test {
 
 using namespace methods;
 using namespace metrics;
@@ -137,4 +137,4 @@ TEST_F(RunFailures, ACellKnowsHowManyOfItsScoresFailedInAnyWay) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::run_failures_test

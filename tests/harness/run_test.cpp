@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench {
+namespace loopbench::run_test {
 
 using namespace methods;
 using namespace metrics;
@@ -206,4 +206,4 @@ TEST_F(RunSweep, WhatIsNotAStoreIsRefused) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::run_test

@@ -12,7 +12,7 @@
 #include "harness/provenance/oracle_closures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench {
+namespace loopbench::sequence_identity_test {
 
 using namespace methods;
 using namespace metrics;
@@ -29,13 +29,13 @@ Sweep sweep_of(const std::string& datasets, const TemporaryFolder& folder) {
                      catalogue({}));
 }
 
-SequenceFacts facts_in(const Sweep& sweep,
-                       const TemporaryFolder& folder,
-                       std::size_t dataset,
-                       int repeat = 0) {
+SequenceMetadata metadata_of_sequence(const Sweep& sweep,
+                                      const TemporaryFolder& folder,
+                                      std::size_t dataset,
+                                      int repeat = 0) {
   const Cell cell{0, dataset, 0, repeat};
   const Catalogue known = catalogue({});
-  return facts_of(load_sequence(cell, sweep, known, {{folder.path()}}), cell, sweep);
+  return metadata_of(load_sequence(cell, sweep, known, {{folder.path()}}), cell, sweep);
 }
 
 std::string walk(double scale) {
@@ -55,7 +55,7 @@ TEST(SequenceContent, IsEqualWhereNothingRandomActs) {
       "  - {dataset: simulated, label: noisy}\n",
       folder);
   const auto content = [&](std::size_t dataset, int repeat) {
-    return facts_in(sweep, folder, dataset, repeat).content;
+    return metadata_of_sequence(sweep, folder, dataset, repeat).content;
   };
   EXPECT_EQ(content(0, 0), content(0, 1));
   EXPECT_EQ(content(1, 0), content(1, 0));
@@ -78,7 +78,7 @@ TEST(SequenceContent, DependsOnEveryPart) {
   all[4].problem.closures[0].scale = 1.1;
   all[5].problem.frames.clear();
   all[6].problem.planar = true;
-  all[7].problem.common_view = {3, 3};
+  all[7].problem.shared_landmarks = {3, 3};
   all[8].reference[2].stamp = 2.5;
   std::swap(all[9].problem.odometry, all[9].problem.closures);
   std::set<std::string> contents;
@@ -113,7 +113,7 @@ TEST(Group, IsTheReferenceFileOfMeasuredData) {
       "  - {dataset: trajectory, label: named, estimate: a.txt, reference: other.txt, group: x}\n",
       folder);
   const auto group = [&](std::size_t dataset, int repeat = 0) {
-    return facts_in(sweep, folder, dataset, repeat).group;
+    return metadata_of_sequence(sweep, folder, dataset, repeat).group;
   };
   EXPECT_THAT(group(0), StartsWith("reference:"));
   EXPECT_EQ(group(0), group(1));     // another odometer on the same recording
@@ -121,7 +121,7 @@ TEST(Group, IsTheReferenceFileOfMeasuredData) {
   EXPECT_NE(group(0), group(2));
   EXPECT_THAT(group(3), StartsWith("estimate:"));
   EXPECT_EQ(group(4), "group:x");
-  EXPECT_EQ(facts_in(sweep, folder, 4).source, group(2));
+  EXPECT_EQ(metadata_of_sequence(sweep, folder, 4).source, group(2));
 }
 
 TEST(Group, IsTheNoiseOfSimulatedData) {
@@ -134,7 +134,7 @@ TEST(Group, IsTheNoiseOfSimulatedData) {
       "  - {dataset: simulated, label: named, group: room}\n",
       folder);
   const auto group = [&](std::size_t dataset, int repeat = 0) {
-    return facts_in(sweep, folder, dataset, repeat).group;
+    return metadata_of_sequence(sweep, folder, dataset, repeat).group;
   };
   EXPECT_THAT(group(0), StartsWith("noise:"));
   EXPECT_NE(group(0), group(0, 1));  // every seed is a separate observation
@@ -160,14 +160,16 @@ TEST(OracleClosures, AreFoundByTheirValues) {
   text += common +
           "label: some, closures: {source: file, file: exact.txt}, false_closures.share: 0.9}\n";
   const Sweep sweep = sweep_of(text, folder);
-  const auto facts = [&](std::size_t dataset) { return facts_in(sweep, folder, dataset); };
-  EXPECT_TRUE(facts(0).oracle_closures);
-  EXPECT_THAT(facts(0).closures, HasSubstr("1 of 1 equal the reference"));
-  EXPECT_FALSE(facts(1).oracle_closures);
-  EXPECT_FALSE(facts(2).oracle_closures);
-  EXPECT_TRUE(facts(3).oracle_closures);
-  EXPECT_THAT(facts(3).closures, HasSubstr("which is the reference"));
-  EXPECT_TRUE(facts(4).oracle_closures);
+  const auto metadata = [&](std::size_t dataset) {
+    return metadata_of_sequence(sweep, folder, dataset);
+  };
+  EXPECT_TRUE(metadata(0).oracle_closures);
+  EXPECT_THAT(metadata(0).closures, HasSubstr("1 of 1 equal the reference"));
+  EXPECT_FALSE(metadata(1).oracle_closures);
+  EXPECT_FALSE(metadata(2).oracle_closures);
+  EXPECT_TRUE(metadata(3).oracle_closures);
+  EXPECT_THAT(metadata(3).closures, HasSubstr("which is the reference"));
+  EXPECT_TRUE(metadata(4).oracle_closures);
   EXPECT_FALSE(are_oracle_closures(0, 0));
 }
 
@@ -175,7 +177,7 @@ TEST(OracleClosures, OfASimulatedSensorWithoutNoiseAreNone) {
   const TemporaryFolder folder;
   const Sweep sweep =
       sweep_of("  - {dataset: simulated, closures.sigma_t: 0, closures.sigma_r: 0}\n", folder);
-  EXPECT_FALSE(facts_in(sweep, folder, 0).oracle_closures);
+  EXPECT_FALSE(metadata_of_sequence(sweep, folder, 0).oracle_closures);
 }
 
 TEST(Group, IsAWordInTheConfig) {
@@ -189,4 +191,4 @@ TEST(Group, IsAWordInTheConfig) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::sequence_identity_test

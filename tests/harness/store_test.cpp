@@ -5,7 +5,7 @@
 
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench {
+namespace loopbench::store_test {
 
 using namespace methods;
 using namespace metrics;
@@ -259,4 +259,4 @@ TEST_F(StoreTest, TracesAreThinnedEvenlyAndCountFromTheFirstReferencePose) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::store_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace loopbench {
+namespace loopbench::suggest_test {
 
 using namespace harness;
 
@@ -37,4 +37,4 @@ TEST(Suggest, NamesWhatReplacedAnOldName) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::suggest_test

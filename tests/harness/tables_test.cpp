@@ -9,7 +9,7 @@
 #include "harness/tables/text.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::tables_test {
 
 using namespace methods;
 using namespace metrics;
@@ -136,7 +136,7 @@ TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
 }
 
 TEST(MarkBest, TakesRunsOfAGroupAsOne) {
-  Lane lane{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
+  MarkInput lane{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
   EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::best);
   for (int i = 1; i <= 8; ++i) lane.group[std::to_string(i)] = i < 5 ? "a" : "b";
   EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::none);
@@ -168,7 +168,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "| dm_n3                   |     2.035 |\n\n"
             "- " +
                 notes + "- each number is the mean of up to 8 cells\n");
-  EXPECT_EQ(terminal(sheet(tables[0])),
+  EXPECT_EQ(terminal(table_view(tables[0])),
             "dense\n"
             "method         ate [m]\n"
             "-------------  --------\n"
@@ -176,7 +176,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "raw              1.035+\n"
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
-  EXPECT_EQ(latex(sheet(tables[0])),
+  EXPECT_EQ(latex(table_view(tables[0])),
             "% dense\n"
             "\\begin{tabular}{lr}\n\\toprule\n"
             "method & ate {[}m] \\\\\n\\midrule\n"
@@ -199,10 +199,10 @@ TEST(Formats, KeepNamesAndNumbersForMachines) {
 }
 
 TEST(Formats, KeepLessOrEqualReadable) {
-  EXPECT_NE(
-      markdown(Sheet{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, &lt;b>"),
-      std::string::npos);
+  EXPECT_NE(markdown(TableView{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}})
+                .find("### p <= 0.05, p < 1, &lt;b>"),
+            std::string::npos);
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::tables_test

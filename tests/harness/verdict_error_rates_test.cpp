@@ -3,7 +3,7 @@
 
 #include "tests/studies/error_rates.hpp"
 
-namespace loopbench::synthetic {
+namespace loopbench::synthetic::verdict_error_rates_test {
 
 using namespace metrics;
 using namespace harness;
@@ -81,4 +81,4 @@ TEST(SyntheticStores, AreReadAsTheyWereDrawn) {
 }
 
 }  // namespace
-}  // namespace loopbench::synthetic
+}  // namespace loopbench::synthetic::verdict_error_rates_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::where_test {
 
 using namespace methods;
 using namespace metrics;
@@ -43,4 +43,4 @@ TEST(SplitList, KeepsWhatBracketsAndQuotesHold) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::where_test

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 
-namespace loopbench {
+namespace loopbench::yaml_test {
 
 using namespace harness;
 
@@ -40,8 +40,8 @@ TEST(Yaml, RefusesWhatWouldBeLostSilently) {
 }
 
 TEST(Yaml, RefusesAliasesThatNeverEnd) {
-  const std::string told = "has too many values or levels (a recursive alias?)";
-  EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: " + told);
+  const std::string message = "has too many values or levels (a recursive alias?)";
+  EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: " + message);
   std::string laughs = "a: &a [x, x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c < 'i'; ++c) {
     const std::string alias = std::string(", *") + static_cast<char>(c - 1);
@@ -49,7 +49,7 @@ TEST(Yaml, RefusesAliasesThatNeverEnd) {
     for (int i = 0; i < 10; ++i) list += alias;
     laughs += std::string{c} + ": &" + c + " [" + list.substr(2) + "]\n";
   }
-  EXPECT_EQ(why(laughs), "c.yaml:1: " + told);
+  EXPECT_EQ(why(laughs), "c.yaml:1: " + message);
 }
 
 TEST(Yaml, RefusesWhatIsFarTooLong) {
@@ -66,4 +66,4 @@ TEST(Yaml, TellsTheLineOfBrokenSyntax) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::yaml_test

@@ -6,13 +6,13 @@
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/pose_graph.hpp"
 
-namespace loopbench {
+namespace loopbench::bounded_losses_test {
 
 using namespace methods;
 
 namespace {
 
-constexpr Loss kBounded[] = {Loss::dcs, Loss::switchable};
+constexpr RobustLoss kBounded[] = {RobustLoss::dcs, RobustLoss::switchable};
 
 Sequence driving(std::int64_t seed, double false_share) {
   SimulatedOptions options;
@@ -39,7 +39,7 @@ double error(const Sequence& sequence, const PoseGraphOptimizer::Options& option
 }
 
 TEST(BoundedLosses, KeepTrueClosuresOnADriveWith30PercentFalse) {
-  for (const Loss loss : kBounded) {
+  for (const RobustLoss loss : kBounded) {
     double without = 0.0, robust = 0.0, narrow = 0.0;
     for (int seed = 1; seed <= 5; ++seed) {
       without += error(driving(seed, 0.0), {});
@@ -52,7 +52,7 @@ TEST(BoundedLosses, KeepTrueClosuresOnADriveWith30PercentFalse) {
 }
 
 TEST(BoundedLosses, CostLittleWhenAllClosuresAreTrue) {
-  for (const Loss loss : kBounded) {
+  for (const RobustLoss loss : kBounded) {
     double plain = 0.0, robust = 0.0;
     for (int seed = 1; seed <= 5; ++seed) {
       plain += error(driving(seed, 0.0), {});
@@ -63,7 +63,7 @@ TEST(BoundedLosses, CostLittleWhenAllClosuresAreTrue) {
 }
 
 TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
-  for (const Loss loss : kBounded) {
+  for (const RobustLoss loss : kBounded) {
     for (int seed = 1; seed <= 3; ++seed) {
       const Problem problem = driving(seed, 0.3).problem;
       const auto cost = [&](bool anneal) {
@@ -77,4 +77,4 @@ TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::bounded_losses_test

@@ -10,7 +10,7 @@
 #include "methods/pipeline.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::conformance_test {
 
 using namespace methods;
 
@@ -275,4 +275,4 @@ TEST(Catalogue, EveryExemptionNamesAMethod) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::conformance_test

@@ -8,9 +8,10 @@
 #include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/max_clique.hpp"
+#include "methods/correctors/pose_graph.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::consistency_test {
 
 using namespace methods;
 
@@ -105,16 +106,30 @@ TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
   Problem problem = consistent_only;
   problem.closures.insert(problem.closures.begin() + 1, {3, 8, at(-200.0), Matrix6::Identity()});
   Report report, plain;
-  const Trajectory checked = Checked<Dual>({}).correct(problem, report);
+  const Trajectory checked = PairwiseConsistent<Dual>({}).correct(problem, report);
   const Trajectory expected = Dual({}).correct(consistent_only, plain);
   for (std::size_t i = 0; i < checked.size(); ++i) {
     EXPECT_TRUE(is_close(checked[i].world_from_body, expected[i].world_from_body, 1e-12, 1e-12));
   }
   EXPECT_EQ(report.counts.front().name, "closures_consistent");
   EXPECT_EQ(report.counts.front().value, 3.0);
-  CheckedOptions<Dual> few;
+  PairwiseConsistentOptions<Dual> few;
   few.check.max_closures = 3;
-  EXPECT_EQ(Checked<Dual>(few).declines(problem), "4 closures exceed pcm.max_closures = 3");
+  EXPECT_EQ(PairwiseConsistent<Dual>(few).declines(problem),
+            "4 closures exceed pcm.max_closures = 3");
+}
+
+TEST(Consistency, CheckedCorrectorDeclinesWhatItsBaseDeclines) {
+  PairwiseConsistentOptions<PoseGraphOptimizer> planar;
+  planar.base.group = PoseGraphOptimizer::Poses::se2;
+  const Problem problem = line({{0, 8, 8.4}, {0, 9, 9.4}});
+  ASSERT_FALSE(problem.planar);
+  EXPECT_EQ(PairwiseConsistent<PoseGraphOptimizer>(planar).declines(problem),
+            "group is se2, but the problem is not planar");
+  PairwiseConsistentOptions<Dual> one;
+  one.base.max_closures = 1;
+  EXPECT_EQ(PairwiseConsistent<Dual>(one).declines(problem), std::nullopt)
+      << "how many closures are left is known after the check";
 }
 
 TEST(MaxClique, FindsAPlantedOneAndProvesIt) {
@@ -141,4 +156,4 @@ TEST(MaxClique, HandlesEmptyGraphsAndGraphsWithoutEdges) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::consistency_test

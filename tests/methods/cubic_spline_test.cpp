@@ -8,7 +8,7 @@
 #include "methods/smoothers/spline_controls.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::cubic_spline_test {
 
 using namespace methods;
 
@@ -287,4 +287,4 @@ TEST(CubicSpline, ManyKeyframesAreInterpolatedToo) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::cubic_spline_test

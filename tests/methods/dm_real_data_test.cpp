@@ -9,7 +9,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 
-namespace loopbench {
+namespace loopbench::dm_real_data_test {
 
 using namespace methods;
 
@@ -175,7 +175,7 @@ TEST_F(DmOnTum, LiteralVariantsFailAsInTheDesign) {
   const auto literal = [&](int N, const char* family) {
     options_.frame = manifold::Axes::world;
     options_.guard = false;
-    options_.joint.meet = manifold::Meet::none;
+    options_.joint.kind = manifold::JointKind::none;
     options_.segment = {100.0, 10.0};
     options_.families = family;
     return error(N, 0);
@@ -218,4 +218,4 @@ TEST_F(DmOnTum, QuasiKeyframesComeFromTheTrackedFrames) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dm_real_data_test

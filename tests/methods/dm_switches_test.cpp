@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/moving_frames.hpp"
 
-namespace loopbench {
+namespace loopbench::dm_switches_test {
 
 using namespace methods;
 
@@ -147,7 +147,7 @@ TEST_P(EverySwitch, JumpsAtNodesMatchTheJointType) {
 TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
   const Problem problem = keyframes_only(wandering(40, 7));
   Dm::Options options{.planar = 5};
-  options.joint.meet = manifold::Meet::quintic_bridge;
+  options.joint.kind = manifold::JointKind::quintic_bridge;
   Report report;
   const auto curve = Dm(options).smooth(problem, report);
   const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
@@ -185,7 +185,7 @@ TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
   Dm::Options options{.planar = 3};
   options.frame = manifold::Axes::world;
   options.guard = false;
-  options.joint.meet = manifold::Meet::none;
+  options.joint.kind = manifold::JointKind::none;
   options.segment = {100.0, 3.2};
   Report report;
   const auto curve = Dm(options).smooth(problem, report);
@@ -239,4 +239,4 @@ TEST(DmSwitches, RejectsContradictoryOptions) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dm_switches_test

@@ -5,7 +5,7 @@
 #include "datasets/core/interpolate.hpp"
 #include "manifold_paths.hpp"
 
-namespace loopbench {
+namespace loopbench::dm_test {
 
 using namespace methods;
 
@@ -157,7 +157,7 @@ TEST(Dm, ExactFamiliesInterpolateEveryNodeInTheFittingFrame) {
         nodes, manifold::segments(nodes, {}), spline, Vector3::UnitZ(), {.size = N});
     std::size_t graphs = 0;
     for (std::size_t k = 0; k < fit.pieces.size(); ++k) {
-      const auto* graph = std::get_if<manifold::Graph<manifold::Polynomial>>(&fit.pieces[k]);
+      const auto* graph = std::get_if<manifold::GraphPiece<manifold::Polynomial>>(&fit.pieces[k]);
       if (graph == nullptr) continue;
       ++graphs;
       for (const auto& point : manifold::local(nodes, fit.windows[k].fitted, graph->frame)) {
@@ -217,7 +217,7 @@ TEST(Dm, StaysOnAQuadricBetweenKeyframes) {
   for (Vector3& point : points) point.z() = height(point);
   const Problem problem = keyframes_only(through(points));
   Dm::Options options = spatial(6);
-  options.up = manifold::Up::world_z;
+  options.up = manifold::UpDirection::world_z;
   options.segment = {10.0, 3.2};  // one segment
   EXPECT_EQ(counted(problem, options, "spatial_windows"), 2.0);
   EXPECT_EQ(counted(problem, options, "spatial_truncated"), 0.0);  // in general position
@@ -261,7 +261,7 @@ TEST(Dm, RejectsASurfaceThatLeavesTheHeightRangeAndCountsIt) {
   }
   const Problem problem = keyframes_only(through(points));
   Dm::Options options = spatial(6);
-  options.up = manifold::Up::world_z;
+  options.up = manifold::UpDirection::world_z;
   options.segment = {10.0, 3.2};  // one segment
   const auto highest = [&] {
     const auto curve = smoothed(problem, options);
@@ -296,4 +296,4 @@ TEST(Dm, RejectsOtherWindowSizes) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dm_test

@@ -7,7 +7,7 @@
 #include "methods/correctors/chain.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::dual_test {
 
 using namespace methods;
 
@@ -143,4 +143,4 @@ TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dual_test

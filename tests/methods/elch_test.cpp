@@ -5,7 +5,7 @@
 #include "methods/correctors/uniform.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::elch_test {
 
 using namespace methods;
 
@@ -61,4 +61,4 @@ TEST(Elch, ClosesItsLastLoop) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::elch_test

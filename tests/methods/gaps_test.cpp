@@ -11,7 +11,7 @@
 #include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::gaps_test {
 
 using namespace methods;
 
@@ -53,9 +53,10 @@ constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
                                               GaussianProcess::Prior::acceleration};
 
 TEST(Stretches, AreSplitAtTheGivenIntervals) {
-  EXPECT_EQ(stretches(5, [](std::size_t i) { return i == 1 || i == 3; }),
-            (std::vector<Stretch>{{0, 1}, {2, 3}, {4, 4}}));
-  EXPECT_EQ(stretches(1, [](std::size_t) { return true; }), (std::vector<Stretch>{{0, 0}}));
+  EXPECT_EQ(runs_without_breaks(5, [](std::size_t i) { return i == 1 || i == 3; }),
+            (std::vector<PoseRun>{{0, 1}, {2, 3}, {4, 4}}));
+  EXPECT_EQ(runs_without_breaks(1, [](std::size_t) { return true; }),
+            (std::vector<PoseRun>{{0, 0}}));
 }
 
 TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
@@ -167,4 +168,4 @@ TEST(Dm, AGapWithFramesIsFilled) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gaps_test

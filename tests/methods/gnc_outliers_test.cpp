@@ -9,7 +9,7 @@
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/pose_graph.hpp"
 
-namespace loopbench {
+namespace loopbench::gnc_outliers_test {
 
 using namespace methods;
 
@@ -90,4 +90,4 @@ TEST(GncOutliers, ThirtyPercentAddAtMostTenPercentErrorOnKitti00) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gnc_outliers_test

@@ -9,7 +9,7 @@
 #include "methods/correctors/stiffness.hpp"
 #include "methods/method.hpp"
 
-namespace loopbench {
+namespace loopbench::gnc_start_test {
 
 using namespace methods;
 
@@ -128,4 +128,4 @@ TEST(MotionDriftPcm, TwentyPercentFalseClosuresAddAtMostTenPercentError) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gnc_start_test

@@ -6,7 +6,7 @@
 #include "methods/smoothers/gp/link.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::gp_links_test {
 
 using namespace methods;
 
@@ -33,7 +33,7 @@ TEST(BodyRate, DerivativeAgreesWithDifferences) {
     Twist xi = random_twist(random, 2.0, 1.0);
     xi.tail<3>() *= angle / xi.tail<3>().norm();
     const Twist v = random_twist(random, 1.0, 1.0);
-    const Matrix6 analytic = body_rate_by_step(xi, v);
+    const Matrix6 analytic = body_rate_jacobian(xi, v);
     constexpr double step = 1e-6;
     for (int k = 0; k < 6; ++k) {
       const Twist d = step * Twist::Unit(k);
@@ -121,4 +121,4 @@ TEST(Prior, BetweenTwoStatesConstantVelocityIsTheHermiteCubic) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gp_links_test

@@ -9,7 +9,7 @@
 #include "tests/support/counts.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::gp_smoothers_test {
 
 using namespace methods;
 
@@ -111,7 +111,7 @@ TEST(GaussianProcess, EvidenceAgreesWithTheDenseComputationForTwelvePoses) {
   const double unit = std::pow(posterior.interval(), 3);
   const auto both = [&](double sigma, double power) {
     const GpParameters parameters{sigma, 1e-7, power * unit, 1e-12};
-    auto states = posterior.first_guess();
+    auto states = posterior.initial_states();
     posterior.solve(states, parameters);
     return std::pair{posterior.negative_evidence(states, parameters),
                      dense_negative_evidence(keyframes, sigma, power)};
@@ -202,4 +202,4 @@ TEST(GaussianProcess, DeclinesTooFewKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::gp_smoothers_test

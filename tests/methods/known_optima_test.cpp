@@ -9,7 +9,7 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 
-namespace loopbench {
+namespace loopbench::known_optima_test {
 
 using namespace methods;
 
@@ -102,4 +102,4 @@ TEST(KnownOptimum, DualFindsTheLowerMinimumOfMit) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::known_optima_test

@@ -8,10 +8,10 @@
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/spline/basis.hpp"
-#include "methods/smoothers/spline/turning.hpp"
+#include "methods/smoothers/spline/rotation_derivative.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::local_smoothers_test {
 
 using namespace methods;
 
@@ -112,21 +112,21 @@ TEST(SplineBasis, IsANonNegativePartitionOfUnityAndReproducesTime) {
   }
 }
 
-TEST(Turning, AgreesWithDifferences) {
+TEST(RotationDerivative, AgreesWithDifferences) {
   const std::array<Rotation, 5> controls{exp_so3({0.1, 0.2, 0.3}),
                                          exp_so3({0.4, 0.0, 0.6}),
                                          exp_so3({0.5, -0.6, 0.9}),
                                          exp_so3({1.5, -0.6, 0.4}),
                                          exp_so3({1.2, -1.6, 0.0})};
   const SplineBasis::Values B{1.0, 0.95, 0.7, 0.3, 0.02, 0.0};
-  const Turning current = turning(controls.data(), 5, B);
+  const RotationDerivative current = rotation_derivative(controls.data(), 5, B);
   constexpr double step = 1e-6;
   for (std::size_t j = 0; j < 5; ++j) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto moved = [&](double by) {
         auto moved_controls = controls;
         moved_controls[j] = exp_so3(by * Vector3::Unit(axis)) * moved_controls[j];
-        return turning(moved_controls.data(), 5, B).rotation;
+        return rotation_derivative(moved_controls.data(), 5, B).rotation;
       };
       const Vector3 numeric = log_so3(moved(step) * moved(-step).conjugate()) / (2.0 * step);
       EXPECT_LT((numeric - current.by[j].col(axis)).norm(), 1e-8) << j << ", " << axis;
@@ -286,4 +286,4 @@ TEST(SavitzkyGolay, RejectsAWindowSmallerThanItsDegree) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::local_smoothers_test

@@ -4,7 +4,7 @@
 #include "methods/smoothers/manifold/bspline.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_bspline_test {
 namespace {
 
 using Value = BSpline::Value;
@@ -60,7 +60,7 @@ TEST_P(EveryOrder, JetsAgreeWithDifferences) {
   if (GetParam() < 4) return;  // the second derivative is not continuous
   const BSpline spline = BSpline::through(kSites, values_of(smooth_function), GetParam());
   const double h = 1e-4, u = 1.55;
-  const Jet<Value> jet = spline.at(moving_time(u));
+  const Jet<Value> jet = spline.at(time_jet(u));
   EXPECT_LT((jet.first - (spline.at(u + h) - spline.at(u - h)) / (2 * h)).norm(), 1e-5);
   EXPECT_LT(
       (jet.second - (spline.at(u + h) - 2 * spline.at(u) + spline.at(u - h)) / (h * h)).norm(),
@@ -111,4 +111,4 @@ TEST(NodeSpline, PolylineIsStraightBetweenNodes) {
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_bspline_test

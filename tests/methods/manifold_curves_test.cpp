@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/family.hpp"
 #include "methods/smoothers/manifold/selection.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_curves_test {
 namespace {
 
 template <class Function>
@@ -230,4 +230,4 @@ TEST(Selection, AiccMatchesTheFormulaAndIsInfiniteForTooFewNodes) {
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_curves_test

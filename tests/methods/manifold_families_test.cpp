@@ -8,7 +8,7 @@
 #include "methods/smoothers/manifold/families/quadric.hpp"
 #include "methods/smoothers/manifold/up.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_families_test {
 namespace {
 
 TEST(Polynomial, ParabolaPassesThroughThreePoints) {
@@ -116,25 +116,26 @@ TEST(Guard, RejectsAHairpinAStopAndARightAngle) {
   EXPECT_FALSE(is_graph(std::vector<Vector2>{{0, 0}, {1, 1.1}, {2, 0}}));
 }
 
-TEST(Up, IsTheNormalOfATiltedPlane) {
+TEST(UpDirection, IsTheNormalOfATiltedPlane) {
   const Rotation tilt = exp_so3({0.4, -0.7, 0.1});
   Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}});
   for (StampedPose& pose : poses)
     pose.world_from_body = Pose{tilt, {5e5, 5e6, 0}} * pose.world_from_body;
   // Counter-clockwise motion seen against the axis.
-  EXPECT_TRUE(up_axis(poses, Up::pca).isApprox(tilt * Vector3::UnitZ(), 1e-9));
-  EXPECT_EQ(up_axis(poses, Up::world_z), Vector3::UnitZ());
+  EXPECT_TRUE(up_axis(poses, UpDirection::pca).isApprox(tilt * Vector3::UnitZ(), 1e-9));
+  EXPECT_EQ(up_axis(poses, UpDirection::world_z), Vector3::UnitZ());
 }
 
-TEST(Up, OfAStraightLineIsPerpendicularAndRotatesWithTheBody) {
+TEST(UpDirection, OfAStraightLineIsPerpendicularAndRotatesWithTheBody) {
   Trajectory poses = through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {7, 14, 21}});
   const Rotation rotation = exp_so3({1.0, 2.0, -0.5});
-  const Vector3 original = up_axis(poses, Up::pca);
+  const Vector3 original = up_axis(poses, UpDirection::pca);
   for (StampedPose& pose : poses)
     pose.world_from_body = Pose{rotation, {9, 9, 9}} * pose.world_from_body;
   EXPECT_NEAR(original.dot(Vector3(1, 2, 3)), 0.0, 1e-9);
-  EXPECT_NEAR(original.cross(rotation.conjugate() * up_axis(poses, Up::pca)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(
+      original.cross(rotation.conjugate() * up_axis(poses, UpDirection::pca)).norm(), 0.0, 1e-9);
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_families_test

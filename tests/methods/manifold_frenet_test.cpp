@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/frenet.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_frenet_test {
 namespace {
 
 // Right-handed helix of radius 2 with a rise of 3 m per radian: kappa = 2 / 13, tau = 3 / 13.
@@ -84,12 +84,12 @@ TEST(RotationMinimising, KeepsTheNormalOfAPlaneAndRotatesWithTheTorsion) {
   const Triad propagated = rotation_minimising(up, along_up, start).back();
   const Triad frenet_frame = frenet(Helix{2}.first(), Helix{2}.second()).value();
   const double expected = 3.0 / 13.0 * 2.0 * std::sqrt(13.0);
-  EXPECT_NEAR(turn_between(propagated.N, frenet_frame.N), expected, 1e-5);
+  EXPECT_NEAR(angle_between_directions(propagated.N, frenet_frame.N), expected, 1e-5);
 }
 
 TEST(AnyTriad, IsRightHandedAndUnit) {
   for (const Vector3& t : {Vector3(1, 0, 0), Vector3(0, 0.6, 0.8), Vector3(1, 1, 1).normalized()}) {
-    const Triad triad = any_triad(t);
+    const Triad triad = arbitrary_triad(t);
     EXPECT_NEAR(triad.N.dot(t), 0.0, 1e-15);
     EXPECT_TRUE(triad.T.cross(triad.N).isApprox(triad.B, 1e-15));
   }
@@ -100,7 +100,7 @@ TEST(Psi, FrechetMeanOfTwoDirectionsDividesTheirAngle) {
   const std::vector<WeightedDirection> two{{Vector3::UnitX(), 2.0}, {Vector3::UnitY(), 1.0}};
   const double angle = std::numbers::pi / 6.0;
   EXPECT_TRUE(frechet_mean(two).isApprox(Vector3(std::cos(angle), std::sin(angle), 0), 1e-9));
-  EXPECT_NEAR(spread(Vector3::UnitX(), two), std::numbers::pi * std::numbers::pi / 4.0, 1e-12);
+  EXPECT_NEAR(dispersion(Vector3::UnitX(), two), std::numbers::pi * std::numbers::pi / 4.0, 1e-12);
   EXPECT_EQ(frechet_mean({}), Vector3::Zero());
 }
 
@@ -132,7 +132,7 @@ TEST(Psi, ClampedSplineHasTheGivenVelocityOnBothSides) {
   const std::vector<Clamp> at{{0, {0.1, 0.2, 0.3}}, {5, {-0.3, 0.1, 0.0}}, {11, {0.2, 0.0, 0.1}}};
   const NodeSpline spline(nodes, at);
   const auto velocity = [&](std::size_t edge, std::size_t node) {
-    return spline.at(edge, moving_time(nodes.stamps[node])).point.first;
+    return spline.at(edge, time_jet(nodes.stamps[node])).point.first;
   };
   EXPECT_LT((velocity(0, 0) - at[0].velocity).norm(), 1e-12);
   EXPECT_LT((velocity(4, 5) - at[1].velocity).norm(), 1e-12);
@@ -141,11 +141,11 @@ TEST(Psi, ClampedSplineHasTheGivenVelocityOnBothSides) {
   for (std::size_t i = 0; i < 11; ++i) {
     EXPECT_LT((spline.at(i, nodes.stamps[i]).point - nodes.points[i]).norm(), 1e-12);
     if (i > 0 && i != 5) {
-      const Vector3 before = spline.at(i - 1, moving_time(nodes.stamps[i])).point.second;
-      EXPECT_LT((spline.at(i, moving_time(nodes.stamps[i])).point.second - before).norm(), 1e-10);
+      const Vector3 before = spline.at(i - 1, time_jet(nodes.stamps[i])).point.second;
+      EXPECT_LT((spline.at(i, time_jet(nodes.stamps[i])).point.second - before).norm(), 1e-10);
     }
   }
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_frenet_test

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "manifold_paths.hpp"
+#include "methods/smoothers/manifold/piecewise_curve.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
-#include "methods/smoothers/manifold/strip.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_joints_test {
 namespace {
 
 TEST(NodeSpline, AgreesWithTheNaturalSplineByHand) {
@@ -20,11 +20,11 @@ TEST(NodeSpline, InterpolatesEveryNodeAndTheArcLength) {
   double path_length = 0.0;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     EXPECT_TRUE(spline.at(i, nodes.stamps[i]).point.isApprox(nodes.points[i], 1e-12));
-    EXPECT_NEAR(spline.at(i, nodes.stamps[i]).way, path_length, 1e-12);
+    EXPECT_NEAR(spline.at(i, nodes.stamps[i]).distance, path_length, 1e-12);
     path_length += nodes.step(i).norm();
     EXPECT_TRUE(spline.at(i, nodes.stamps[i + 1]).point.isApprox(nodes.points[i + 1], 1e-12));
   }
-  EXPECT_NEAR(spline.way(29), path_length, 1e-12);
+  EXPECT_NEAR(spline.distance(29), path_length, 1e-12);
 }
 
 TEST(NodeSpline, KeepsUniformMotion) {
@@ -75,13 +75,14 @@ TEST(Joint, OfSlidingWindowsCoversTheEdgesTheyRepresent) {
   EXPECT_NEAR(after_line.end, 0.5 * (nodes.stamps[2] + nodes.stamps[3]), 1e-12);
 }
 
-TEST(Strip, BlendsNeighboursAtTheirJointOnly) {
+TEST(PiecewiseCurve, BlendsNeighboursAtTheirJointOnly) {
   const Nodes nodes(through(std::vector<Vector3>(9, Vector3::Zero())));
   const std::vector<Window> windows{{{0, 4}, {0, 4}}, {{4, 8}, {4, 8}}};
   const auto constant_piece = [](double piece, std::size_t, const Jet<double>&) {
     return Jet<double>{piece, 0.0, 0.0};
   };
-  const auto curve = laid<double>(nodes, windows, std::vector{10.0, 20.0}, {}, constant_piece);
+  const auto curve =
+      join_pieces<double>(nodes, windows, std::vector{10.0, 20.0}, {}, constant_piece);
   const auto identity = [](double piece) { return piece; };
   EXPECT_EQ(curve.at(0, 0.5, identity), 10.0);
   EXPECT_EQ(curve.at(4, 4.0, identity), 15.0);
@@ -90,4 +91,4 @@ TEST(Strip, BlendsNeighboursAtTheirJointOnly) {
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_joints_test

@@ -9,7 +9,7 @@
 #include "methods/smoothers/manifold/short_segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_segments_test {
 namespace {
 
 using Ranges = std::vector<NodeRange>;
@@ -51,7 +51,7 @@ TEST(Kappa, EveryDefinitionMatchesAHandComputedRightAngle) {
   Trajectory poses = through({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}});
   poses[2].world_from_body.rotation = exp_so3({0.0, 0.8, 0.0});
   const Nodes nodes(poses);
-  const auto at_corner = [&](Kappa kappa, Plane plane) {
+  const auto at_corner = [&](Kappa kappa, CurveSpace plane) {
     const auto all = kappas(nodes, poses, kappa, plane, Vector3::UnitZ());
     EXPECT_EQ(all.size(), 3u);
     EXPECT_EQ(all[0], 0.0);
@@ -59,14 +59,15 @@ TEST(Kappa, EveryDefinitionMatchesAHandComputedRightAngle) {
     return all[1];
   };
   const double right = std::numbers::pi / 2.0;
-  EXPECT_NEAR(at_corner(Kappa::turn_per_kf, Plane::space), right, 1e-15);
-  EXPECT_NEAR(at_corner(Kappa::menger, Plane::space), 2.0 / std::sqrt(10.0), 1e-15);
-  EXPECT_NEAR(at_corner(Kappa::dtheta_ds, Plane::space), right / 2.0, 1e-15);
-  EXPECT_NEAR(at_corner(Kappa::dtheta_dt, Plane::space), right, 1e-15);
-  EXPECT_NEAR(at_corner(Kappa::rotation_per_kf, Plane::space), 0.4, 1e-12);
+  EXPECT_NEAR(at_corner(Kappa::turn_per_kf, CurveSpace::space), right, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::menger, CurveSpace::space), 2.0 / std::sqrt(10.0), 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::dtheta_ds, CurveSpace::space), right / 2.0, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::dtheta_dt, CurveSpace::space), right, 1e-15);
+  EXPECT_NEAR(at_corner(Kappa::rotation_per_kf, CurveSpace::space), 0.4, 1e-12);
   // Natural spline: velocity (0.5, 0, 1.5), acceleration 1.5 (-1, 0, 3).
-  EXPECT_NEAR(at_corner(Kappa::analytic_spline, Plane::space), 4.5 / std::pow(2.5, 1.5), 1e-12);
-  EXPECT_EQ(at_corner(Kappa::turn_per_kf, Plane::plane), 0.0);  // at rest in the projection
+  EXPECT_NEAR(
+      at_corner(Kappa::analytic_spline, CurveSpace::space), 4.5 / std::pow(2.5, 1.5), 1e-12);
+  EXPECT_EQ(at_corner(Kappa::turn_per_kf, CurveSpace::plane), 0.0);  // at rest in the projection
 }
 
 TEST(Kappa, OfACircleIsOneOverItsRadius) {
@@ -75,32 +76,33 @@ TEST(Kappa, OfACircleIsOneOverItsRadius) {
     points.push_back({4 * std::cos(0.05 * i), 4 * std::sin(0.05 * i), 0});
   const Trajectory poses = through(points);
   for (const Kappa kappa : {Kappa::menger, Kappa::dtheta_ds, Kappa::analytic_spline}) {
-    EXPECT_NEAR(kappas(Nodes(poses), poses, kappa, Plane::plane, Vector3::UnitZ())[20], 0.25, 1e-4);
+    EXPECT_NEAR(
+        kappas(Nodes(poses), poses, kappa, CurveSpace::plane, Vector3::UnitZ())[20], 0.25, 1e-4);
   }
 }
 
 TEST(ShortSegments, MergeIntoTheNeighbourOfSimilarSpeed) {
   const Nodes nodes = with_speeds({1.0, 1.0, 1.0, 1.8, 2.0, 2.0, 2.0});
-  EXPECT_EQ(merged(nodes, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 3}, {3, 7}}));
+  EXPECT_EQ(merge_short_segments(nodes, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 3}, {3, 7}}));
   const Nodes other = with_speeds({1.0, 1.0, 1.0, 1.2, 2.0, 2.0, 2.0});
-  EXPECT_EQ(merged(other, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 4}, {4, 7}}));
+  EXPECT_EQ(merge_short_segments(other, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 4}, {4, 7}}));
 }
 
 TEST(ShortSegments, MergingStopsWithOneSegment) {
   const Nodes nodes = with_speeds({1.0, 2.0, 3.0});
-  EXPECT_EQ(merged(nodes, {{0, 1}, {1, 2}, {2, 3}}, 9), (Ranges{{0, 3}}));
-  EXPECT_EQ(merged(nodes, {{0, 3}}, 9), (Ranges{{0, 3}}));
+  EXPECT_EQ(merge_short_segments(nodes, {{0, 1}, {1, 2}, {2, 3}}, 9), (Ranges{{0, 3}}));
+  EXPECT_EQ(merge_short_segments(nodes, {{0, 3}}, 9), (Ranges{{0, 3}}));
 }
 
 TEST(ShortSegments, AreFilledFromTrackedFramesOnly) {
   const Trajectory nodes = through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
   Trajectory frames;
   for (const double t : {0.5, 1.3, 1.6, 2.5}) frames.push_back({t, {}});
-  const Filled out = filled(nodes, {{0, 1}, {1, 3}}, frames, 3);
+  const FilledSegments out = fill_short_segments(nodes, {{0, 1}, {1, 3}}, frames, 3);
   EXPECT_EQ(stamps(out.nodes), (std::vector{0.0, 0.5, 1.0, 2.0, 3.0}));
   EXPECT_EQ(out.runs, (Ranges{{0, 2}, {2, 4}}));
   EXPECT_EQ(out.inserted, 1u);
-  EXPECT_EQ(filled(nodes, {{0, 1}, {1, 3}}, {}, 3).runs, (Ranges{{0, 1}, {1, 3}}));
+  EXPECT_EQ(fill_short_segments(nodes, {{0, 1}, {1, 3}}, {}, 3).runs, (Ranges{{0, 1}, {1, 3}}));
 }
 
 TEST(Scheme, SlidingWindowsOfOddSizeAreCentredOnTheirFirstNode) {
@@ -173,4 +175,4 @@ TEST(DmReport, ListsSegmentsAndWindowsAsSections) {
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_segments_test

@@ -5,7 +5,7 @@
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
-namespace loopbench::methods::manifold {
+namespace loopbench::methods::manifold::manifold_windows_test {
 namespace {
 
 using Ranges = std::vector<NodeRange>;
@@ -72,7 +72,8 @@ Problem with_gap(const std::vector<double>& stamps) {
 
 TEST(QuasiKeyframes, AreTheTrackedFramesNearestToEqualParts) {
   // Three parts: divisions at 1 s and 2 s.
-  const Densified dense = with_quasi_keyframes(with_gap({0.4, 0.9, 1.3, 1.7, 2.2, 2.9}), {});
+  const NodesWithQuasiKeyframes dense =
+      with_quasi_keyframes(with_gap({0.4, 0.9, 1.3, 1.7, 2.2, 2.9}), {});
   EXPECT_EQ(stamps(dense.nodes), (std::vector{0.0, 0.9, 2.2, 3.0}));
   EXPECT_EQ(dense.nodes[1].world_from_body.translation, Vector3(0.9, 7.0, 0.0));
   EXPECT_EQ(dense.inserted, 2u);
@@ -80,7 +81,7 @@ TEST(QuasiKeyframes, AreTheTrackedFramesNearestToEqualParts) {
 }
 
 TEST(QuasiKeyframes, AreNeverInterpolated) {
-  const Densified dense = with_quasi_keyframes(with_gap({-1.0, 0.0, 3.0, 4.0}), {});
+  const NodesWithQuasiKeyframes dense = with_quasi_keyframes(with_gap({-1.0, 0.0, 3.0, 4.0}), {});
   EXPECT_EQ(stamps(dense.nodes), (std::vector{0.0, 3.0}));
   EXPECT_EQ(dense.gaps_left, 1u);
 }
@@ -101,9 +102,9 @@ TEST(QuasiKeyframes, AreInsertedForLargeRotations) {
 TEST(QuasiKeyframes, AGapOfExactlyTheLimitIsKept) {
   Problem problem = with_gap({0.5});
   problem.keyframes[1].stamp = 1.0 + 1e-9;
-  const Densified dense = with_quasi_keyframes(problem, {});
+  const NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, {});
   EXPECT_EQ(dense.inserted + dense.gaps_left, 0u);
 }
 
 }  // namespace
-}  // namespace loopbench::methods::manifold
+}  // namespace loopbench::methods::manifold::manifold_windows_test

@@ -9,7 +9,7 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::motion_drift_evidence_test {
 
 using namespace methods;
 
@@ -18,15 +18,15 @@ namespace {
 MotionModel every_term() {
   MotionModel out;
   double value = 0.01;
-  for (const Half half : {Half::translation, Half::rotation}) {
-    for (const Growth growth : kGrowths) {
-      out.push_back({Cause::noise, half, growth, value});
-      out.push_back({Cause::drift, half, growth, value *= 0.9});
+  for (const Component component : {Component::translation, Component::rotation}) {
+    for (const Regressor regressor : kRegressors) {
+      out.push_back({TermKind::noise, component, regressor, value});
+      out.push_back({TermKind::drift, component, regressor, value *= 0.9});
     }
-    out.push_back({Cause::closures, half, Growth::edge, 1.5});
+    out.push_back({TermKind::closures, component, Regressor::edge, 1.5});
   }
-  out.push_back({Cause::drift, Half::rotation, Growth::time, 0.003, false, 1});
-  out.push_back({Cause::stated, Half::rotation, Growth::edge, 0.4});
+  out.push_back({TermKind::drift, Component::rotation, Regressor::time, 0.003, false, 1});
+  out.push_back({TermKind::stated, Component::rotation, Regressor::edge, 0.4});
   return out;
 }
 
@@ -64,8 +64,8 @@ Dense dense(const MotionModel& model, const Problem& problem) {
     out.A.col(column) = (perturbed_by(1e-6) - perturbed_by(-1e-6)) / 2e-6;
   }
   for (const Term& term : model) {
-    if (term.cause == Cause::closures) continue;
-    if (term.cause == Cause::stated) {
+    if (term.kind == TermKind::closures) continue;
+    if (term.kind == TermKind::stated) {
       for (Eigen::Index i = 0; i < n / 6; ++i) {
         out.S.block<6, 6>(6 * i, 6 * i) +=
             term.value * problem.odometry[static_cast<std::size_t>(i)].information.inverse();
@@ -74,13 +74,13 @@ Dense dense(const MotionModel& model, const Problem& problem) {
     }
     for (Eigen::Index i = 0; i < n / 6; ++i) {
       for (Eigen::Index j = 0; j < n / 6; ++j) {
-        if (term.cause == Cause::noise && i != j) continue;
-        const double a = grown(term.growth, edge_motions[static_cast<std::size_t>(i)]);
-        const double b = grown(term.growth, edge_motions[static_cast<std::size_t>(j)]);
-        const double entry = term.value * (term.cause == Cause::noise ? a : a * b);
-        const Eigen::Index half = term.half == Half::translation ? 0 : 3;
-        for (Eigen::Index axis = half; axis < half + 3; ++axis) {
-          if (term.axis >= 0 && axis != half + term.axis) continue;
+        if (term.kind == TermKind::noise && i != j) continue;
+        const double a = regressor_value(term.regressor, edge_motions[static_cast<std::size_t>(i)]);
+        const double b = regressor_value(term.regressor, edge_motions[static_cast<std::size_t>(j)]);
+        const double entry = term.value * (term.kind == TermKind::noise ? a : a * b);
+        const Eigen::Index component = term.component == Component::translation ? 0 : 3;
+        for (Eigen::Index axis = component; axis < component + 3; ++axis) {
+          if (term.axis >= 0 && axis != component + term.axis) continue;
           out.S(6 * i + axis, 6 * j + axis) += entry;
         }
       }
@@ -97,7 +97,7 @@ TEST(MotionDriftEvidence, EqualsTheDenseGapDensity) {
     loop.information.block<3, 3>(3, 0).setZero();
   }
   const MotionModel model = every_term();
-  const LoopedChain chain(problem, stated_belief(problem));
+  const LoopedChain chain(problem, stated_noise_model(problem));
   const Evidence evidence = evidence_of(model, chain, problem, motions(problem), {0, 1, 2});
 
   const Dense by_hand = dense(model, problem);
@@ -117,7 +117,7 @@ TEST(MotionDriftEvidence, EqualsTheDenseGapDensity) {
 
 TEST(MotionDriftEvidence, UsesPlanarRowsAndSelectedClosuresOnly) {
   const Problem problem = test::planar();
-  const LoopedChain chain(problem, stated_belief(problem));
+  const LoopedChain chain(problem, stated_noise_model(problem));
   const MotionModel model = every_term();
   const Evidence all = evidence_of(model, chain, problem, motions(problem), {0, 1});
   EXPECT_EQ(all.gap.size(), 6);
@@ -134,7 +134,7 @@ TEST(MotionDriftEvidence, OneSolveIsTheConditionalMeanOfTheModel) {
   const Problem problem = test::walk(4, 10, 1e-6);
   const MotionModel model = every_term();
   const Dense by_hand = dense(model, problem);
-  const ChainBelief noise_model = belief_of(model, problem, motions(problem));
+  const NoiseModel noise_model = noise_model_of(model, problem, motions(problem));
   LoopedChain chain(problem, noise_model);
   for (int i = 0; i < 10; ++i) chain.step();
   Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
@@ -160,10 +160,10 @@ TEST(MotionDriftEvidence, MeanErrorsAverageTheConditionalMeans) {
   MotionModel other = model;
   for (std::size_t j = 0; j < other.size(); ++j) other[j].value *= j % 2 == 0 ? 3.0 : 0.2;
   const std::vector<EdgeMotion> edge_motions = motions(problem);
-  const LoopedChain chain(problem, belief_of(model, problem, edge_motions));
+  const LoopedChain chain(problem, noise_model_of(model, problem, edge_motions));
   const auto expected = [&](const MotionModel& of) -> Eigen::VectorXd {
     const Dense by_hand = dense(of, problem);
-    const ChainBelief noise_model = belief_of(of, problem, edge_motions);
+    const NoiseModel noise_model = noise_model_of(of, problem, edge_motions);
     Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
     for (std::size_t k = 0; k < problem.closures.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(6 * k);
@@ -193,9 +193,9 @@ TEST(MotionDriftEvidence, MeanErrorsAverageTheConditionalMeans) {
 
 /// One gap of 2 explained by one term with median variance 1 and spread 1.5.
 struct OneGap {
-  MotionPrior prior{
-      {{.medians = {{Cause::noise, Half::translation, Growth::edge, 1.0}}, .hangs = {{{1, 1.5}}}}},
-      2};
+  MotionPrior prior{{{.medians = {{TermKind::noise, Component::translation, Regressor::edge, 1.0}},
+                      .loadings = {{{1, 1.5}}}}},
+                    2};
   Evidence evidence{{0}, Eigen::VectorXd::Constant(1, 2.0), {Eigen::MatrixXd::Ones(1, 1)}};
 };
 
@@ -228,7 +228,7 @@ TEST(MotionDriftPosterior, SamplesMatchTheIntegratedPosteriorOfAVariance) {
 
 TEST(MotionDriftPosterior, ZeroSpreadKeepsTheMedianAndASingularCovarianceThrows) {
   OneGap one;
-  one.prior.hypotheses[0].hangs[0][0].spread = 0.0;
+  one.prior.hypotheses[0].loadings[0][0].coefficient = 0.0;
   const MotionPosterior drawn = posterior_of(one.prior, one.evidence, {.draws = 5});
   for (const MotionModel& model : drawn.draws) EXPECT_DOUBLE_EQ(model[0].value, 1.0);
   one.prior.hypotheses[0].medians[0].value = 0.0;
@@ -238,7 +238,7 @@ TEST(MotionDriftPosterior, ZeroSpreadKeepsTheMedianAndASingularCovarianceThrows)
 TEST(MotionDriftPosterior, HypothesisProbabilitiesFollowBayesRule) {
   // Variance 1 or 4 with the prior odds one to three, and a gap of 2.
   OneGap two;
-  two.prior.hypotheses[0].hangs[0][0].spread = 0.0;
+  two.prior.hypotheses[0].loadings[0][0].coefficient = 0.0;
   two.prior.hypotheses.push_back(two.prior.hypotheses[0]);
   two.prior.hypotheses[0].chance = 0.25;
   two.prior.hypotheses[1].chance = 0.75;
@@ -246,23 +246,23 @@ TEST(MotionDriftPosterior, HypothesisProbabilitiesFollowBayesRule) {
   const double first = 0.25 * std::exp(-2.0);
   const double second = 0.75 * std::exp(-0.5) / 2.0;
   const MotionPosterior drawn = posterior_of(two.prior, two.evidence, {.draws = 4000, .steps = 3});
-  EXPECT_NEAR(drawn.chances[0], first / (first + second), 0.03);
-  EXPECT_NEAR(drawn.chances[0] + drawn.chances[1], 1.0, 1e-9);
+  EXPECT_NEAR(drawn.probabilities[0], first / (first + second), 0.03);
+  EXPECT_NEAR(drawn.probabilities[0] + drawn.probabilities[1], 1.0, 1e-9);
   EXPECT_DOUBLE_EQ(drawn.centre[0].value, 4.0);
 }
 
 TEST(MotionDriftPrior, AsStatedHasOneFactorAndTheLastHypothesisHasAllTerms) {
   const Problem problem = test::hand_held();
-  const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
-  const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
-                          {Cause::stated, Half::rotation, Growth::edge},
-                          {Cause::drift, Half::rotation, Growth::time, 0.0, false, 2},
-                          {Cause::closures, Half::translation, Growth::edge, 1.0}};
+  const Eigen::VectorXd gap = LoopedChain(problem, stated_noise_model(problem)).linearise().gap;
+  const MotionModel terms{{TermKind::noise, Component::rotation, Regressor::time},
+                          {TermKind::stated, Component::rotation, Regressor::edge},
+                          {TermKind::drift, Component::rotation, Regressor::time, 0.0, false, 2},
+                          {TermKind::closures, Component::translation, Regressor::edge, 1.0}};
   const MotionPrior prior = prior_of(terms, {}, problem, motions(problem), gap);
   ASSERT_EQ(prior.hypotheses.size(), 6u);
-  double chances = 0.0;
-  for (const MotionPrior::Hypothesis& one : prior.hypotheses) chances += one.chance;
-  EXPECT_NEAR(chances, 1.0, 1e-12);
+  double probabilities = 0.0;
+  for (const MotionPrior::Hypothesis& one : prior.hypotheses) probabilities += one.chance;
+  EXPECT_NEAR(probabilities, 1.0, 1e-12);
   for (const Term& term : prior.hypotheses.back().medians) EXPECT_GT(term.value, 0.0);
 
   Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(prior.unknowns, -1.0, 1.0);
@@ -280,9 +280,9 @@ TEST(MotionDriftPrior, AsStatedHasOneFactorAndTheLastHypothesisHasAllTerms) {
 TEST(MotionDriftPrior, MediansFollowSteadyAfter) {
   const Problem problem = test::planar();
   const std::vector<EdgeMotion> edge_motions = motions(problem);
-  const Eigen::VectorXd gap = LoopedChain(problem, stated_belief(problem)).linearised().gap;
-  const MotionModel terms{{Cause::noise, Half::rotation, Growth::time},
-                          {Cause::drift, Half::rotation, Growth::time, 0.0, false, 2}};
+  const Eigen::VectorXd gap = LoopedChain(problem, stated_noise_model(problem)).linearise().gap;
+  const MotionModel terms{{TermKind::noise, Component::rotation, Regressor::time},
+                          {TermKind::drift, Component::rotation, Regressor::time, 0.0, false, 2}};
   double seconds = 0.0;  // mean loop duration
   double squared = 0.0;  // mean squared loop duration
   for (const Edge& loop : problem.closures) {
@@ -298,4 +298,4 @@ TEST(MotionDriftPrior, MediansFollowSteadyAfter) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::motion_drift_evidence_test

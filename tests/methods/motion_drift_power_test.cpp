@@ -6,7 +6,7 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 
-namespace loopbench {
+namespace loopbench::motion_drift_power_test {
 
 using namespace methods;
 
@@ -212,4 +212,4 @@ TEST(MotionDriftPower, WithoutDriftTheLossIsNegligible) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::motion_drift_power_test

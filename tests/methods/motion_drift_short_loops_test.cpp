@@ -10,7 +10,7 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::motion_drift_short_loops_test {
 
 using namespace methods;
 
@@ -86,18 +86,19 @@ TEST(MotionDriftShortLoops, DriftReachIsAMultipleOfTheLoopLength) {
   problem.closures.front().to = 40;
   std::vector<EdgeMotion> moved = motions(problem);
   limit_drift(moved, problem, 0.525);
-  const auto part = [&](Growth growth, std::size_t edge) {
-    return moved[edge].drift_part[static_cast<std::size_t>(growth)];
+  const auto part = [&](Regressor regressor, std::size_t edge) {
+    return moved[edge].drift_part[static_cast<std::size_t>(regressor)];
   };
   // Twenty edges of 0.5 s and 5 m inside the loop, ten and a half beyond either end.
-  for (const Growth growth : {Growth::edge, Growth::time, Growth::distance, Growth::rotation}) {
-    EXPECT_EQ(part(growth, 8), 0.0);
-    EXPECT_NEAR(part(growth, 9), 0.5, 1e-9);
-    EXPECT_EQ(part(growth, 10), 1.0);
-    EXPECT_EQ(part(growth, 30), 1.0);
-    EXPECT_EQ(part(growth, 49), 1.0);
-    EXPECT_NEAR(part(growth, 50), 0.5, 1e-9);
-    EXPECT_EQ(part(growth, 51), 0.0);
+  for (const Regressor regressor :
+       {Regressor::edge, Regressor::time, Regressor::distance, Regressor::rotation}) {
+    EXPECT_EQ(part(regressor, 8), 0.0);
+    EXPECT_NEAR(part(regressor, 9), 0.5, 1e-9);
+    EXPECT_EQ(part(regressor, 10), 1.0);
+    EXPECT_EQ(part(regressor, 30), 1.0);
+    EXPECT_EQ(part(regressor, 49), 1.0);
+    EXPECT_NEAR(part(regressor, 50), 0.5, 1e-9);
+    EXPECT_EQ(part(regressor, 51), 0.0);
   }
 }
 
@@ -105,7 +106,7 @@ TEST(MotionDriftShortLoops, ALoopAtRestHasNoReachInDistance) {
   const Problem problem = with_a_stop();
   std::vector<EdgeMotion> moved = motions(problem);
   limit_drift(moved, problem, 1.0);
-  const auto by_distance = static_cast<std::size_t>(Growth::distance);
+  const auto by_distance = static_cast<std::size_t>(Regressor::distance);
   EXPECT_EQ(moved[65].drift_part[by_distance], 1.0);
   EXPECT_NEAR(moved[70].drift_part[by_distance], 0.1 / 5.0, 1e-9);  // ten edges of one centimetre
   EXPECT_EQ(moved[71].drift_part[by_distance], 0.0);
@@ -143,4 +144,4 @@ TEST(MotionDriftShortLoops, AGapExplainsItsLengthAndItsAngleTimesTheLeverArm) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::motion_drift_short_loops_test

@@ -7,7 +7,7 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::motion_drift_test {
 
 using namespace methods;
 
@@ -195,4 +195,4 @@ TEST(MotionDrift, KeepsGivenValuesWithoutFit) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::motion_drift_test

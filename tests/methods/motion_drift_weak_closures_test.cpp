@@ -10,7 +10,7 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::motion_drift_weak_closures_test {
 
 using namespace methods;
 
@@ -34,7 +34,7 @@ Problem with_weak_closure(Problem problem, double sigma) {
 }
 
 Eigen::VectorXd gap_of(const Problem& problem) {
-  return LoopedChain(problem, stated_belief(problem)).linearised().gap;
+  return LoopedChain(problem, stated_noise_model(problem)).linearise().gap;
 }
 
 double largest_distance(const Trajectory& a, const Trajectory& b) {
@@ -57,22 +57,23 @@ TEST(MotionDriftWeakClosures, DoNotChangeAveragesOverTheLoops) {
   const LoopAverages without(problem, moved, gap_of(problem));
   const Problem weak = with_weak_closure(problem, 1e5);
   const LoopAverages with(weak, moved, gap_of(weak));
-  for (const Half half : {Half::translation, Half::rotation}) {
+  for (const Component component : {Component::translation, Component::rotation}) {
     // The weights depend on the median gap, which may move by one rank.
-    EXPECT_NEAR(with.gap(half), without.gap(half), 0.05 * without.gap(half));
-    EXPECT_NEAR(with.stated(half), without.stated(half), 0.05 * without.stated(half));
-    const double metres = without.motion(half, Growth::distance, true);
-    EXPECT_NEAR(with.motion(half, Growth::distance, true), metres, 0.05 * metres);
+    EXPECT_NEAR(with.gap(component), without.gap(component), 0.05 * without.gap(component));
+    EXPECT_NEAR(
+        with.stated(component), without.stated(component), 0.05 * without.stated(component));
+    const double metres = without.motion(component, Regressor::distance, true);
+    EXPECT_NEAR(with.motion(component, Regressor::distance, true), metres, 0.05 * metres);
   }
 }
 
 /// Prior medians of all terms for default options.
 MotionModel medians_of(const Problem& problem) {
-  const MotionModel terms{{Cause::noise, Half::translation, Growth::distance},
-                          {Cause::noise, Half::rotation, Growth::time},
-                          {Cause::stated, Half::rotation, Growth::edge},
-                          {Cause::closures, Half::translation, Growth::edge, 1.0},
-                          {Cause::closures, Half::rotation, Growth::edge, 1.0}};
+  const MotionModel terms{{TermKind::noise, Component::translation, Regressor::distance},
+                          {TermKind::noise, Component::rotation, Regressor::time},
+                          {TermKind::stated, Component::rotation, Regressor::edge},
+                          {TermKind::closures, Component::translation, Regressor::edge, 1.0},
+                          {TermKind::closures, Component::rotation, Regressor::edge, 1.0}};
   return prior_of(terms, {}, problem, motions(problem), gap_of(problem)).hypotheses.back().medians;
 }
 
@@ -115,10 +116,10 @@ TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
     mean += metres / static_cast<double>(problem.closures.size());
   }
   const LoopAverages loops(problem, moved, gap_of(problem));
-  EXPECT_NEAR(loops.stated(Half::rotation), 0.09, 1e-12);
-  EXPECT_GE(loops.motion(Half::translation, Growth::distance, false),
+  EXPECT_NEAR(loops.stated(Component::rotation), 0.09, 1e-12);
+  EXPECT_GE(loops.motion(Component::translation, Regressor::distance, false),
             mean);  // bound for slow loops
-  EXPECT_NEAR(loops.motion(Half::translation, Growth::distance, false), mean, 0.2 * mean);
+  EXPECT_NEAR(loops.motion(Component::translation, Regressor::distance, false), mean, 0.2 * mean);
 }
 
 TEST(MotionDriftWeakClosures, AWeakClosureDoesNotChangeTheTrajectory) {
@@ -143,4 +144,4 @@ TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheTrajectory) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::motion_drift_weak_closures_test

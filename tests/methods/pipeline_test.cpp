@@ -6,7 +6,7 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::pipeline_test {
 
 using namespace methods;
 
@@ -120,4 +120,4 @@ TEST(Compose, DeclinesForEitherStage) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pipeline_test

@@ -8,7 +8,7 @@
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/counts.hpp"
 
-namespace loopbench {
+namespace loopbench::plausibility_test {
 
 using namespace methods;
 
@@ -84,4 +84,4 @@ TEST(Plausibility, FewDegreesOfFreedomMayBeFarFromOne) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::plausibility_test

@@ -8,7 +8,7 @@
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
 
-namespace loopbench {
+namespace loopbench::pose_graph_groups_test {
 
 using namespace methods;
 
@@ -82,7 +82,7 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
     const auto at = edge_residual<G>(inverse_measured, from, to);
     EXPECT_LT((at.error - xi).norm(), 1e-12);
     const auto error = [&](const auto& a, const auto& b) {
-      return edge_error_in<G>(inverse_measured, G::compose(G::inverse(a), b));
+      return group_edge_error<G>(inverse_measured, G::compose(G::inverse(a), b));
     };
     constexpr double h = 1e-5;
     for (int d = 0; d < G::kDof; ++d) {
@@ -124,4 +124,4 @@ TEST(PoseGroups, AScaledStepAlongAStraightLineIsAGeometricSeries) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pose_graph_groups_test

@@ -11,7 +11,7 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::pose_graph_test {
 
 using namespace methods;
 
@@ -144,18 +144,18 @@ TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
   problem.closures.resize(1);
   Pose& measured = problem.closures[0].from_from_to;
   measured.translation += Vector3(50.0, 0.0, 0.0);
-  const auto moved = [&](Loss loss) {
+  const auto moved = [&](RobustLoss loss) {
     const Trajectory out = corrected(problem, {.loss = loss});
     const std::size_t to = problem.closures[0].to;
     return (out[to].world_from_body.translation - problem.keyframes[to].world_from_body.translation)
         .norm();
   };
-  const double plain = moved(Loss::none);
+  const double plain = moved(RobustLoss::none);
   EXPECT_GT(plain, 10.0);
-  EXPECT_LT(moved(Loss::huber), 0.2 * plain);
-  EXPECT_LT(moved(Loss::cauchy), moved(Loss::huber));
-  EXPECT_LT(moved(Loss::dcs), 0.01 * plain);
-  EXPECT_LT(moved(Loss::switchable), 0.01 * plain);
+  EXPECT_LT(moved(RobustLoss::huber), 0.2 * plain);
+  EXPECT_LT(moved(RobustLoss::cauchy), moved(RobustLoss::huber));
+  EXPECT_LT(moved(RobustLoss::dcs), 0.01 * plain);
+  EXPECT_LT(moved(RobustLoss::switchable), 0.01 * plain);
 }
 
 /// Three keyframes on a line: steps measured as 1 m, the total as 2.3 m, equal information.
@@ -260,4 +260,4 @@ TEST(PoseGraph, RejectsSingularInformation) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pose_graph_test

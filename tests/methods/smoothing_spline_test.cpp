@@ -12,7 +12,7 @@
 #include "tests/support/counts.hpp"
 #include "tests/support/noisy_paths.hpp"
 
-namespace loopbench {
+namespace loopbench::smoothing_spline_test {
 
 using namespace methods;
 
@@ -90,34 +90,34 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
 
 TEST(Lattice, FindsTheMinimum) {
   for (const int at : {-20, -3, 0, 7, 31}) {
-    EXPECT_EQ(least_on_lattice(-20, 31, 8, [&](int k) { return 1.0 + std::abs(k - at); }), at);
+    EXPECT_EQ(minimise_on_lattice(-20, 31, 8, [&](int k) { return 1.0 + std::abs(k - at); }), at);
   }
 }
 
-TEST(Unrolled, ConstantAngularVelocityIsAStraightLine) {
+TEST(UnrolledRotations, ConstantAngularVelocityIsAStraightLine) {
   std::vector<Rotation> rotations;
   const Vector3 rate(0.3, -0.5, 0.8);
   for (int i = 0; i < 20; ++i) rotations.push_back(exp_so3({0.4, 1.0, -2.0}) * exp_so3(i * rate));
-  const Unrolled path(rotations);
+  const UnrolledRotations path(rotations);
   for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_LT((path.flattened(i, rotations[i]) - static_cast<double>(i) * rate).norm(), 1e-12);
+    EXPECT_LT((path.unroll(i, rotations[i]) - static_cast<double>(i) * rate).norm(), 1e-12);
   }
-  EXPECT_LT(angle_between(path.rolled(3, 0.25, 3.25 * rate), rotations[3] * exp_so3(0.25 * rate)),
+  EXPECT_LT(angle_between(path.roll(3, 0.25, 3.25 * rate), rotations[3] * exp_so3(0.25 * rate)),
             1e-12);
 }
 
-TEST(Unrolled, RollingIsTheInverse) {
+TEST(UnrolledRotations, RollingIsTheInverse) {
   const Trajectory path = hand_held_truth(30);
   std::vector<Rotation> base, near;
   for (const StampedPose& pose : path) {
     base.push_back(pose.world_from_body.rotation);
     near.push_back(base.back() * exp_so3({0.2, -0.1, 0.3}));
   }
-  const Unrolled flat(base);
+  const UnrolledRotations flat(base);
   for (std::size_t i = 0; i < base.size(); ++i) {
-    EXPECT_LT(angle_between(flat.rolled(i, 0.0, flat.flattened(i, near[i])), near[i]), 1e-12);
+    EXPECT_LT(angle_between(flat.roll(i, 0.0, flat.unroll(i, near[i])), near[i]), 1e-12);
     if (i == 0) continue;  // also reached from the previous interval
-    EXPECT_LT(angle_between(flat.rolled(i - 1, 1.0, flat.flattened(i, near[i])), near[i]), 1e-12);
+    EXPECT_LT(angle_between(flat.roll(i - 1, 1.0, flat.unroll(i, near[i])), near[i]), 1e-12);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(SmoothingSpline, WithASmallPenaltyIsTheNaturalCubicSpline) {
 }
 
 TEST(SmoothingSpline, WithALargePenaltyAngularVelocityIsConstant) {
-  const Trajectory keyframes = shaken(hand_held_truth(20), 0.05, 3);
+  const Trajectory keyframes = with_white_noise(hand_held_truth(20), 0.05, 3);
   Report report;
   const auto curve =
       smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e9}, {"lambda_r", 1e9}}, &report);
@@ -169,7 +169,7 @@ TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
     double before = 0.0, after = 0.0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const Trajectory truth = hand_held_truth(120);
-      const Trajectory keyframes = shaken(truth, 0.02, seed);
+      const Trajectory keyframes = with_white_noise(truth, 0.02, seed);
       before += rms_error(*smooth<CubicSpline>(keyframes), truth);
       after += rms_error(
           *smooth<SmoothingSpline>(keyframes, {{"criterion", std::string(criterion)}}), truth);
@@ -179,7 +179,7 @@ TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
 }
 
 TEST(SmoothingSpline, HasContinuousAngularVelocity) {
-  const Trajectory keyframes = shaken(hand_held_truth(20), 0.02, 5);
+  const Trajectory keyframes = with_white_noise(hand_held_truth(20), 0.02, 5);
   Report report;
   const auto curve = smooth<SmoothingSpline>(keyframes, {}, &report);
   EXPECT_TRUE(report.notes.empty());
@@ -196,7 +196,7 @@ TEST(SmoothingSpline, HasContinuousAngularVelocity) {
 
 TEST(SmoothingSpline, EachAxisCanHaveItsOwnPenalty) {
   Report report;
-  const Trajectory keyframes = shaken(hand_held_truth(60), 0.02, 5);
+  const Trajectory keyframes = with_white_noise(hand_held_truth(60), 0.02, 5);
   smooth<SmoothingSpline>(keyframes, {{"axes", std::string("each")}}, &report);
   for (const char* name : {"lambda_x", "lambda_y", "lambda_z"}) EXPECT_GT(count(report, name), 0.0);
 }
@@ -207,4 +207,4 @@ TEST(SmoothingSpline, DeclinesTwoKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::smoothing_spline_test

@@ -6,7 +6,7 @@
 #include "methods/pipeline.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::tracked_frames_test {
 
 using namespace methods;
 
@@ -65,4 +65,4 @@ TEST(TrackedFrames, DeclineAProblemWithoutFrames) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::tracked_frames_test

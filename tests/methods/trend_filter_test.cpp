@@ -7,7 +7,7 @@
 #include "tests/support/counts.hpp"
 #include "tests/support/noisy_paths.hpp"
 
-namespace loopbench {
+namespace loopbench::trend_filter_test {
 
 using namespace methods;
 
@@ -47,7 +47,7 @@ TEST(TrendFilter, FindsTheKinksUnderNoiseAndReducesTheError) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Trajectory truth = stop_and_go();
-    const Trajectory keyframes = shaken(truth, 0.02, seed);
+    const Trajectory keyframes = with_white_noise(truth, 0.02, seed);
     Report report;
     const auto curve = smooth<TrendFilter>(keyframes, {{"refit", true}}, &report);
     before += rms_error(Polyline(keyframes), truth);
@@ -61,7 +61,7 @@ TEST(TrendFilter, ReducesNoiseOnACurvedPath) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Trajectory truth = hand_held_truth(120);
-    const Trajectory keyframes = shaken(truth, 0.02, seed);
+    const Trajectory keyframes = with_white_noise(truth, 0.02, seed);
     Report report;
     before += rms_error(Polyline(keyframes), truth);
     after += rms_error(*smooth<TrendFilter>(keyframes, {}, &report), truth);
@@ -75,7 +75,7 @@ TEST(TrendFilter, KinkOfThreePointsIsSoftThresholded) {
   // >= 2 / 6; below, x = y + lambda D' = (lambda, 1 - 2 lambda, lambda).
   const Trend trend({0.0, 1.0, 2.0});
   const std::vector<Vector3> y{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-  EXPECT_NEAR(trend.straight_from(y), 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(trend.min_lambda_of_line(y), 1.0 / 3.0, 1e-15);
   for (const double lambda : {0.05, 0.2, 0.5}) {
     const auto fit = trend.fit(y, lambda, {.tolerance = 1e-10});
     const double expected = std::min(lambda, 1.0 / 3.0);
@@ -92,7 +92,7 @@ TEST(TrendFilter, SatisfiesTheOptimalityConditions) {
   // y - x = D' v with |v_j| <= lambda, and v_j = lambda z_j / |z_j| where z = D x is nonzero.
   const std::vector<Vector3> y = wavy(kTwelve);
   const Trend trend(kTwelve);
-  const double lambda = 0.2 * trend.straight_from(y);
+  const double lambda = 0.2 * trend.min_lambda_of_line(y);
   const auto fit = trend.fit(y, lambda, {.tolerance = 1e-11});
   ASSERT_TRUE(fit.converged);
   std::vector<double> times = kTwelve;
@@ -115,4 +115,4 @@ TEST(TrendFilter, SatisfiesTheOptimalityConditions) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::trend_filter_test

@@ -7,7 +7,7 @@
 #include "methods/correctors/dual.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::two_pass_test {
 
 using namespace methods;
 
@@ -131,4 +131,4 @@ TEST(TwoPass, RejectsUnsortedClosures) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::two_pass_test

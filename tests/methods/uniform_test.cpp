@@ -4,7 +4,7 @@
 
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::uniform_test {
 
 using namespace methods;
 
@@ -196,4 +196,4 @@ TEST(Uniform, RecoversACircleWithConstantYawDrift) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::uniform_test

@@ -9,7 +9,7 @@
 #include "tests/support/counts.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench {
+namespace loopbench::variance_components_test {
 
 using namespace methods;
 
@@ -60,7 +60,7 @@ TEST(VarianceComponents, EstimatesWrongVariancesFromTheLoops) {
 }
 
 TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
-  double right = 0.0, wrong = 0.0, rescaled = 0.0;
+  double right = 0.0, wrong = 0.0, with_estimated_factors = 0.0;
   for (int seed = 1; seed <= 6; ++seed) {
     const Sequence sequence = simulated(seed);
     const Problem misstated = with_factors(sequence.problem, {100.0, 0.01});
@@ -74,10 +74,11 @@ TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
     }
     right += rms_between(best, truth);
     wrong += rms_between(Dual({}).correct(misstated, report), truth);
-    rescaled += rms_between(Dual({.rescale = true}).correct(misstated, report), truth);
+    with_estimated_factors +=
+        rms_between(Dual({.rescale = true}).correct(misstated, report), truth);
   }
   EXPECT_GT(wrong, 1.1 * right);
-  EXPECT_LT(rescaled, 1.03 * right);
+  EXPECT_LT(with_estimated_factors, 1.03 * right);
 }
 
 TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
@@ -91,4 +92,4 @@ TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::variance_components_test

@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::alignment_test {
 
 using namespace metrics;
 
@@ -223,4 +223,4 @@ TEST(Alignment, NoneChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::alignment_test

@@ -6,7 +6,7 @@
 #include "metrics/errors/ate.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::along_cross_test {
 
 using namespace metrics;
 
@@ -19,11 +19,11 @@ using test::why;
 /// Two metres along x, then two along y, at 1 m/s.
 Trajectory corner() {
   Trajectory out(5);
-  const std::array<Vector3, 5> places{
+  const std::array<Vector3, 5> positions{
       {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, 1.0, 0.0}, {2.0, 2.0, 0.0}}};
   for (std::size_t i = 0; i < 5; ++i) {
     out[i].stamp = static_cast<double>(i);
-    out[i].world_from_body.translation = places[i];
+    out[i].world_from_body.translation = positions[i];
     out[i].world_from_body.rotation = exp_so3({0.0, 0.0, 0.3 * static_cast<double>(i)});
   }
   return out;
@@ -42,7 +42,7 @@ TEST(AlongCross, ByHandOnBothArmsOfACorner) {
   EXPECT_DOUBLE_EQ(find(scores, "translation", "cross").sse, 16.0 + 9.0);
   EXPECT_DOUBLE_EQ(find(scores, "translation", "vertical").sse, 144.0 + 144.0);
   EXPECT_DOUBLE_EQ(find(scores, "translation", "off_track").sse, 160.0 + 153.0);
-  const auto camera = along_cross(beside(corner(), estimate), {.up = Up::x});
+  const auto camera = along_cross(beside(corner(), estimate), {.up = UpAxis::x});
   EXPECT_EQ(find(camera, "translation", "cross").count, 3u);  // the first two travel along x
 }
 
@@ -102,4 +102,4 @@ TEST(PathLength, RefusesAReferenceThatStandsStill) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::along_cross_test

@@ -6,7 +6,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::association_error_test {
 
 using namespace metrics;
 
@@ -73,4 +73,4 @@ TEST(InterpolateReference, TakesAReferenceOfTenHertz) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::association_error_test

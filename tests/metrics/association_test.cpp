@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::association_test {
 
 using namespace metrics;
 
@@ -262,4 +262,4 @@ TEST(Association, IndexPairsByNumberOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::association_test

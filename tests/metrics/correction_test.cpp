@@ -2,14 +2,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "judged_cell.hpp"
+#include "evaluated_cell.hpp"
 #include "metrics/correction/closure_residual.hpp"
 #include "metrics/correction/gain_along.hpp"
 #include "metrics/correction/local_shape.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::correction_test {
 
 using namespace metrics;
 
@@ -201,4 +201,4 @@ TEST(LocalShape, RefusesFiles) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::correction_test

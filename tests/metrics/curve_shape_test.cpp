@@ -2,12 +2,12 @@
 #include <cmath>
 #include <functional>
 
-#include "judged_cell.hpp"
+#include "evaluated_cell.hpp"
 #include "metrics/correction/jerk.hpp"
 #include "metrics/correction/jumps.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::curve_shape_test {
 
 using namespace metrics;
 
@@ -165,4 +165,4 @@ TEST(Jerk, OfAStraightReferenceHasNoRatio) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::curve_shape_test

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <set>
 
-#include "judged_cell.hpp"
+#include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::ddof_test {
 
 using namespace metrics;
 
@@ -77,4 +77,4 @@ TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::ddof_test

@@ -12,7 +12,7 @@
 #include "metrics/trajectory/position_only.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::diagnostics_test {
 
 using namespace metrics;
 
@@ -47,7 +47,7 @@ TEST(Diagnostics, OfAHealthyPair) {
   EXPECT_EQ(d.matched, 151u);
   EXPECT_EQ(d.possible, 151u);
   EXPECT_NEAR(d.largest_gap, 0.1, 1e-12);
-  EXPECT_EQ(d.repeated + d.crossing + d.losses, 0u);
+  EXPECT_EQ(d.repeated + d.crossing + d.tracking_gaps, 0u);
   EXPECT_LT(d.off_unit, 1e-15);
   EXPECT_EQ(d.rank, 2);  // planar motion
   EXPECT_GT(d.condition, 1.0);
@@ -59,16 +59,16 @@ TEST(Diagnostics, OfAHealthyPair) {
 TEST(Diagnostics, ALossIsAPauseDuringWhichTheReferenceMoved) {
   const Trajectory reference = with_a_stop();
   const Diagnostics moving = of(reference, without(reference, 1.05, 4.05));
-  EXPECT_EQ(moving.losses, 1u);
+  EXPECT_EQ(moving.tracking_gaps, 1u);
   EXPECT_NEAR(moving.lost, 3.1, 1e-9);
-  EXPECT_NEAR(moving.longest_loss, 3.1, 1e-9);
+  EXPECT_NEAR(moving.longest_gap, 3.1, 1e-9);
   EXPECT_NEAR(moving.largest_gap, 3.1, 1e-9);
   const Diagnostics standing = of(reference, without(reference, 6.05, 9.05));
-  EXPECT_EQ(standing.losses, 0u);
+  EXPECT_EQ(standing.tracking_gaps, 0u);
   EXPECT_NEAR(standing.largest_gap, 3.1, 1e-9);
   const Trajectory holed = without(reference, 1.05, 4.05);  // gap of the reference itself
-  EXPECT_EQ(of(holed, reference).losses, 0u);
-  EXPECT_EQ(of(reference, without(without(reference, 0.05, 2.55), 10.05, 14.05)).losses, 2u);
+  EXPECT_EQ(of(holed, reference).tracking_gaps, 0u);
+  EXPECT_EQ(of(reference, without(without(reference, 0.05, 2.55), 10.05, 14.05)).tracking_gaps, 2u);
 }
 
 TEST(Diagnostics, CountsPosesUsedAgainAndPairsThatCross) {
@@ -157,4 +157,4 @@ TEST(PositionOnly, AnEstimateCanBeSoToo) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::diagnostics_test

@@ -3,12 +3,12 @@
 #include <numbers>
 #include <set>
 
-#include "judged_cell.hpp"
+#include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench {
+namespace loopbench::direction_test {
 
 using namespace metrics;
 
@@ -81,7 +81,7 @@ TEST(Direction, DescriptionsHaveNone) {
                              "interpolation_floor",
                              "smoothing_headroom",
                              "coverage",
-                             "body_offset",
+                             "extrinsic_offset",
                              "diagnostics"}) {
     expect_all(metric, Better::neither);
   }
@@ -122,4 +122,4 @@ TEST(Direction, OfPrecisionAndRecallIsHigherAndOfCountsNone) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::direction_test

@@ -5,7 +5,7 @@
 #include "datasets/core/polyline.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::evaluation_test {
 
 using namespace metrics;
 
@@ -204,4 +204,4 @@ TEST(Evaluation, SaysThatNoReferenceLiesOnTheCurve) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::evaluation_test

@@ -14,7 +14,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::golden_test {
 
 using namespace metrics;
 
@@ -239,4 +239,4 @@ TEST(Golden, RandomPairsHaveNoDelta) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::golden_test

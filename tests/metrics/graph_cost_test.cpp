@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace loopbench {
+namespace loopbench::graph_cost_test {
 
 using namespace metrics;
 
@@ -73,4 +73,4 @@ TEST(GraphCost, NeedsEdgesOfOneUnit) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::graph_cost_test

@@ -11,7 +11,7 @@
 #include "metrics/numerics/natural_cubic.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::headroom_test {
 
 using namespace metrics;
 
@@ -174,4 +174,4 @@ TEST(InterpolationFloor, RefusesAReferenceThatIsNoDenserThanTheKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::headroom_test

@@ -10,7 +10,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::kitti_evo_test {
 
 using namespace metrics;
 
@@ -65,4 +65,4 @@ TEST(EvoOnKitti, OtherPairsThanPoseByPoseHaveNoDigits) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::kitti_evo_test

@@ -10,7 +10,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::kitti_golden_test {
 
 using namespace metrics;
 
@@ -81,4 +81,4 @@ TEST(KittiGolden, RotationsMadeOfTheDigitsAgreeLessWell) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::kitti_golden_test

@@ -3,7 +3,7 @@
 
 #include "datasets/core/sequence.hpp"
 
-namespace loopbench {
+namespace loopbench::loop_detection_test {
 
 using namespace metrics;
 
@@ -24,7 +24,7 @@ Detection judged(const Sequence& sequence) {
   DetectionRule rule;
   rule.radius = 0.5;
   rule.min_gap = 1.5;
-  return judge_detection(sequence, rule);
+  return evaluate_detection(sequence, rule);
 }
 
 TEST(LoopDetection, AllRightIsOneThroughout) {
@@ -107,4 +107,4 @@ TEST(LoopDetection, NeedsAReferenceAndFindsNoRevisitWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::loop_detection_test

@@ -11,7 +11,7 @@
 
 #include "metrics/numerics/statistics.hpp"
 
-namespace loopbench {
+namespace loopbench::median_test {
 
 using namespace metrics;
 
@@ -98,4 +98,4 @@ TEST(Statistics, ThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::median_test

@@ -9,7 +9,7 @@
 #include "metrics/errors/rpe.hpp"
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::metrics_test {
 
 using namespace metrics;
 
@@ -233,4 +233,4 @@ TEST(Metrics, MovedInputGivesZeroUnderSe3AndScaledUnderSim3) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::metrics_test

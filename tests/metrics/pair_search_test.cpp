@@ -6,7 +6,7 @@
 
 #include "support.hpp"
 
-namespace loopbench {
+namespace loopbench::pair_search_test {
 
 using namespace metrics;
 
@@ -82,4 +82,4 @@ TEST(PairSearch, DistancesAccumulate) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::pair_search_test

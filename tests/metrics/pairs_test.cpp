@@ -13,7 +13,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::pairs_test {
 
 using namespace metrics;
 
@@ -48,9 +48,9 @@ TEST(Consecutive, FramesGoOneStretchAfterTheOther) {
 TEST(Consecutive, MetresLeaveTheFirstPoseOutAndAnglesDoNot) {
   // Sums 0, 1, 2 | 1, 2 | 1, 2: cuts at 2, 4 and 6.
   const std::vector<double> steps{0, 1, 1, 1, 1, 1, 1, 1};
-  EXPECT_EQ(consecutive_stretches(steps, 2.0, FirstPose::left_out), (Pairs{{2, 4}, {4, 6}}));
-  EXPECT_EQ(consecutive_stretches(steps, 2.0, FirstPose::starts), (Pairs{{0, 2}, {2, 4}, {4, 6}}));
-  EXPECT_EQ(consecutive_stretches({}, 2.0, FirstPose::starts), Pairs{});
+  EXPECT_EQ(consecutive_by_measure(steps, 2.0, FirstPose::left_out), (Pairs{{2, 4}, {4, 6}}));
+  EXPECT_EQ(consecutive_by_measure(steps, 2.0, FirstPose::starts), (Pairs{{0, 2}, {2, 4}, {4, 6}}));
+  EXPECT_EQ(consecutive_by_measure({}, 2.0, FirstPose::starts), Pairs{});
 }
 
 TEST(Consecutive, SecondsMissByNoMoreThanTheTolerance) {
@@ -119,7 +119,7 @@ Pairs of_whole_estimate(const TumMotions& motions) {
 TEST(TumMotions, DropTheLastPoseAsAnEndAndGapsInTheReference) {
   Trajectory reference = turning({0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   const Trajectory estimate = reference;
-  const Stretch one{1.0, DeltaUnit::s, 0.1};
+  const PairDelta one{1.0, DeltaUnit::s, 0.1};
   // 8 -> 9 and 9 -> 9 end in the last pose.
   const auto motions = [&] { return tum_motions({reference, estimate}, 0.0, {}, one, kMostPairs); };
   EXPECT_EQ(motions().pairs.size(), 8u);
@@ -233,9 +233,7 @@ TEST(TumRandomMotions, DrawFromAHundredOn) {
 TEST(StretchPairs, RefuseWhatNoStretchCanBe) {
   const Trajectory poses = turning({0.0, 1.0});
   const auto refusal = [&](double delta, DeltaUnit unit) {
-    return why<OptionError>([&] {
-      stretch_pairs(poses, poses, PairRule::all, {delta, unit, 0.1});
-    });
+    return why<OptionError>([&] { select_pairs(poses, poses, PairRule::all, {delta, unit, 0.1}); });
   };
   EXPECT_EQ(refusal(1.5, DeltaUnit::frames), "delta = 1.5: expected a whole number of frames");
   EXPECT_EQ(refusal(181.0, DeltaUnit::deg), "delta = 181.0: expected at most 180 degrees");
@@ -243,4 +241,4 @@ TEST(StretchPairs, RefuseWhatNoStretchCanBe) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::pairs_test

@@ -10,7 +10,7 @@
 #include "metrics/trajectory/projection.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::pose_error_test {
 
 using namespace metrics;
 
@@ -31,15 +31,15 @@ TEST(Euler, TakesApartWhatWasPutTogether) {
 
 TEST(Projection, KeepsTheAngleAcrossThePlane) {
   const Trajectory poses{{0.0, {turn(0.1, 0.2, 0.3), Vector3(1, 2, 3)}}};
-  const auto flat = [&](Plane plane) {
+  const auto flat = [&](ProjectionPlane plane) {
     Trajectory out = poses;
     project(out, plane);
     return out[0].world_from_body;
   };
-  EXPECT_TRUE(is_close(flat(Plane::xy), {turn(0, 0, 0.3), Vector3(1, 2, 0)}, 0.0, 1e-14));
-  EXPECT_TRUE(is_close(flat(Plane::xz), {turn(0, 0.2, 0), Vector3(1, 0, 3)}, 0.0, 1e-14));
-  EXPECT_TRUE(is_close(flat(Plane::yz), {turn(0.1, 0, 0), Vector3(0, 2, 3)}, 0.0, 1e-14));
-  EXPECT_TRUE(is_close(flat(Plane::none), poses[0].world_from_body, 0.0, 0.0));
+  EXPECT_TRUE(is_close(flat(ProjectionPlane::xy), {turn(0, 0, 0.3), Vector3(1, 2, 0)}, 0.0, 1e-14));
+  EXPECT_TRUE(is_close(flat(ProjectionPlane::xz), {turn(0, 0.2, 0), Vector3(1, 0, 3)}, 0.0, 1e-14));
+  EXPECT_TRUE(is_close(flat(ProjectionPlane::yz), {turn(0.1, 0, 0), Vector3(0, 2, 3)}, 0.0, 1e-14));
+  EXPECT_TRUE(is_close(flat(ProjectionPlane::none), poses[0].world_from_body, 0.0, 0.0));
 }
 
 /// The reference at the origin, then 4 m ahead; the estimate with the same start, then 5 m ahead
@@ -116,4 +116,4 @@ TEST(Rpe, TumPairsAreForProtocolsThatAskForThem) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::pose_error_test

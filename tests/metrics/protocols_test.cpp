@@ -10,7 +10,7 @@
 #include "metrics/numerics/angle.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::protocols_test {
 
 using namespace metrics;
 
@@ -199,4 +199,4 @@ TEST(Eth3d, ErrorsAreOfTheMetresGoneAndNothingIsScaled) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::protocols_test

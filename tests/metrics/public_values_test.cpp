@@ -11,7 +11,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::public_values_test {
 
 using namespace metrics;
 
@@ -105,4 +105,4 @@ TEST_F(PublicValues, Fr1XyzRgbdSlam) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::public_values_test

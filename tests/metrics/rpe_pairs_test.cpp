@@ -6,7 +6,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::rpe_pairs_test {
 
 using namespace metrics;
 
@@ -95,4 +95,4 @@ TEST(RpeAxes, TheListSaysWhatTheyAre) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::rpe_pairs_test

@@ -10,7 +10,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::test {
+namespace loopbench::test::segments_test {
 
 using namespace metrics;
 
@@ -161,4 +161,4 @@ TEST(Segments, WithoutAnySaysSo) {
 }
 
 }  // namespace
-}  // namespace loopbench::test
+}  // namespace loopbench::test::segments_test

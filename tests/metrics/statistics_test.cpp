@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace loopbench {
+namespace loopbench::statistics_test {
 
 using namespace metrics;
 
@@ -52,4 +52,4 @@ TEST(Statistics, RefusesNothingAndNonsense) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::statistics_test

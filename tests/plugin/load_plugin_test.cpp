@@ -83,6 +83,10 @@ TEST(LoadPlugin, RefusesAnotherAbi) {
   expect_refused(kOutside / "misaligned.so", "was built with another");
 }
 
+TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 2");
+}
+
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {
   expect_refused(kOutside / "silent.so", "has no LOOPBENCH_PLUGIN line");
 }

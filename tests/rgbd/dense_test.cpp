@@ -7,7 +7,7 @@
 #include "datasets/rgbd/dense/align_surface.hpp"
 #include "datasets/rgbd/dense/refine_by_depth.hpp"
 
-namespace loopbench {
+namespace loopbench::dense_test {
 
 using namespace rgbd;
 
@@ -45,7 +45,7 @@ DepthImage depth_from(const Pose& world_from_camera, int walls) {
 }
 
 Surface surface_from(const Pose& world_from_camera, int walls) {
-  return surface_of(small_depth(depth_from(world_from_camera, walls), toy_camera(), 160, 10.0),
+  return surface_of(downsample_depth(depth_from(world_from_camera, walls), toy_camera(), 160, 10.0),
                     0.003);
 }
 
@@ -71,7 +71,7 @@ TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
   camera.fx = camera.fy = 10.0;
   camera.cx = 2.5;
   camera.cy = 0.5;
-  const SmallDepth small = small_depth(depth, camera, 3, 5.0);
+  const DownsampledDepth small = downsample_depth(depth, camera, 3, 5.0);
   ASSERT_EQ(small.depth.width, 3);
   ASSERT_EQ(small.depth.height, 1);
   EXPECT_FLOAT_EQ(small.depth.at(0, 0), 1.0075f);
@@ -80,7 +80,7 @@ TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
   EXPECT_DOUBLE_EQ(small.camera.fx, 5.0);
   EXPECT_DOUBLE_EQ(small.camera.cx, 1.0);  // the principal point stays in the centre
   EXPECT_DOUBLE_EQ(small.camera.cy, 0.0);
-  EXPECT_EQ(small_depth(depth, camera, 3, 0.5).depth.at(0, 0), 0.0f);  // deeper than depth_max
+  EXPECT_EQ(downsample_depth(depth, camera, 3, 0.5).depth.at(0, 0), 0.0f);  // deeper than depth_max
 }
 
 TEST(Surface, UndoesLensDistortion) {
@@ -92,7 +92,7 @@ TEST(Surface, UndoesLensDistortion) {
   camera.k1 = 0.1;
   DepthImage depth(101, 101, 1.0f);
   depth.at(91, 50) = 2.0f;  // (90 - 50) / 100 = 0.4 becomes 0.4 (1 + 0.1 * 0.16): 90.64 px
-  const SmallDepth straight = small_depth(depth, camera, 101, 5.0);
+  const DownsampledDepth straight = downsample_depth(depth, camera, 101, 5.0);
   EXPECT_EQ(straight.depth.at(90, 50), 2.0f);
   EXPECT_EQ(straight.depth.at(50, 50), 1.0f);
   EXPECT_FALSE(straight.camera.distorted());
@@ -110,7 +110,7 @@ TEST(Surface, NormalsFaceTheCamera) {
 }
 
 TEST(Surface, NothingComesOfNothing) {
-  const Surface none = surface_of(SmallDepth{}, 0.003);
+  const Surface none = surface_of(DownsampledDepth{}, 0.003);
   EXPECT_TRUE(none.points.empty());
   const SurfaceAlignment found =
       align_surface(none, {}, {still(), Matrix6::Identity()}, PoseOptions{});
@@ -127,7 +127,7 @@ TEST(AlignSurface, FindsThePoseInACorner) {
       align_surface(second, {{&first, still()}}, {off, Matrix6::Zero()}, PoseOptions{});
   EXPECT_TRUE(is_close(found.world_from_camera, truth, 1e-3, 1e-3));
   EXPECT_GT(found.share, 0.8);
-  EXPECT_LT(found.spread, 0.1);
+  EXPECT_LT(found.residual_rms, 0.1);
   EXPECT_EQ(found.information.llt().info(), Eigen::Success);
 }
 
@@ -200,8 +200,8 @@ Edge rough(const CornerWalk& walk, std::size_t from, std::size_t to) {
   return {from, to, walk.step(from, to) * off, isotropic_information(1e-3, 1e-3)};
 }
 
-Tracked roughly_tracked(const CornerWalk& walk) {
-  Tracked out;
+TrackingResult roughly_tracked(const CornerWalk& walk) {
+  TrackingResult out;
   Pose world_from_camera = still();
   for (std::size_t k = 0; k < walk.size(); ++k) {
     if (k > 0) {
@@ -213,7 +213,9 @@ Tracked roughly_tracked(const CornerWalk& walk) {
   return out;
 }
 
-RefinedEdges refined(const CornerWalk& walk, const Tracked& tracked, const RefineOptions& options) {
+RefinedEdges refined(const CornerWalk& walk,
+                     const TrackingResult& tracked,
+                     const RefineOptions& options) {
   return refine_by_depth(
       walk, tracked, {rough(walk, 0, 5)}, {}, 10.0, options, [](std::size_t, std::size_t) {});
 }
@@ -232,7 +234,7 @@ TEST(RefineByDepth, MeasuresStepsAndLoopsAgain) {
 
 TEST(RefineByDepth, LeavesGuessesAndWhatOverlapsTooLittle) {
   const CornerWalk walk(kNoneMissing);
-  Tracked tracked = roughly_tracked(walk);
+  TrackingResult tracked = roughly_tracked(walk);
   tracked.odometry[2].information = isotropic_information(0.25, 0.25);  // edge between two maps
   const RefinedEdges out = refined(walk, tracked, {});
   EXPECT_EQ(out.odometry_refined, 4u);
@@ -247,7 +249,7 @@ TEST(RefineByDepth, LeavesGuessesAndWhatOverlapsTooLittle) {
 
 TEST(RefineByDepth, LeavesTheEdgesOfAnImageThatCannotBeRead) {
   const CornerWalk walk(3);
-  const Tracked tracked = roughly_tracked(walk);
+  const TrackingResult tracked = roughly_tracked(walk);
   const RefinedEdges out = refined(walk, tracked, {});
   EXPECT_EQ(out.odometry_refined, 3u);
   for (const std::size_t k : {std::size_t{2}, std::size_t{3}}) {  // edges to and from this keyframe
@@ -257,10 +259,10 @@ TEST(RefineByDepth, LeavesTheEdgesOfAnImageThatCannotBeRead) {
 
 TEST(FollowOdometry, FramesKeepTheirPlacesBetweenKeyframes) {
   const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
-  Tracked tracked;
+  TrackingResult tracked;
   tracked.keyframes = {{0, 0.0, at(0.0), {}}, {2, 1.0, at(1.0), {}}, {4, 2.0, at(2.0), {}}};
   tracked.frames = {{0.5, at(0.5)}, {1.25, at(1.25)}};
-  follow_odometry(tracked, {{0, 1, at(2.0)}, {1, 2, at(1.0)}});
+  update_poses(tracked, {{0, 1, at(2.0)}, {1, 2, at(1.0)}});
   EXPECT_DOUBLE_EQ(tracked.keyframes[1].world_from_camera.translation.x(), 2.0);
   EXPECT_DOUBLE_EQ(tracked.keyframes[2].world_from_camera.translation.x(), 3.0);
   // Moved with the first keyframe it is at 0.5, with the second at 1.5; the stamp is in the middle.
@@ -270,4 +272,4 @@ TEST(FollowOdometry, FramesKeepTheirPlacesBetweenKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::dense_test

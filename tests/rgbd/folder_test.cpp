@@ -7,7 +7,7 @@
 #include "tests/rgbd/recording.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::folder_test {
 
 using namespace rgbd;
 
@@ -216,4 +216,4 @@ TEST(RegisterDepth, MovesAPointToThePixelThatSeesIt) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::folder_test

@@ -6,7 +6,7 @@
 #include "tests/rgbd/recording.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench {
+namespace loopbench::frontend_test {
 
 using namespace rgbd;
 
@@ -82,7 +82,7 @@ TEST(Frontend, TracksAndClosesTheLoopOfARoomWalkedOutAndBack) {
   EXPECT_LT(largest_error(sequence, source), kDrift);
   EXPECT_EQ(sequence.problem.keyframes.size() + sequence.problem.frames.size(), source.size());
   EXPECT_EQ(sequence.problem.odometry.size() + 1, sequence.problem.keyframes.size());
-  EXPECT_EQ(sequence.problem.common_view.size(), sequence.problem.odometry.size());
+  EXPECT_EQ(sequence.problem.shared_landmarks.size(), sequence.problem.odometry.size());
   ASSERT_FALSE(sequence.problem.closures.empty());
   for (const Edge& loop : sequence.problem.closures) {
     const auto pose = [&](std::size_t k) {
@@ -111,7 +111,7 @@ void expect_same(const Sequence& a, const Sequence& b) {
   for (std::size_t i = 0; i < a.problem.odometry.size(); ++i) {
     EXPECT_EQ(a.problem.odometry[i].information, b.problem.odometry[i].information);
   }
-  EXPECT_EQ(a.problem.common_view, b.problem.common_view);
+  EXPECT_EQ(a.problem.shared_landmarks, b.problem.shared_landmarks);
   EXPECT_EQ(a.problem.frames.size(), b.problem.frames.size());
   EXPECT_EQ(a.loop_candidates.size(), b.loop_candidates.size());
 }
@@ -278,4 +278,4 @@ TEST(Frontend, OtherFeaturesTrackToo) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::frontend_test

@@ -6,7 +6,7 @@
 #include "datasets/rgbd/render/rendered_room.hpp"
 #include "datasets/rgbd/render/sensor.hpp"
 
-namespace loopbench {
+namespace loopbench::render_test {
 
 using namespace rgbd;
 
@@ -34,13 +34,13 @@ Scene bare_room() {
 
 TEST(Render, ARayMeetsTheWallWhereGeometrySays) {
   const Scene scene = bare_room();
-  const Hit ahead = cast(scene, {0.5, 0.0, 0.0}, {1.0, 0.0, 0.0});
+  const Hit ahead = cast_ray(scene, {0.5, 0.0, 0.0}, {1.0, 0.0, 0.0});
   EXPECT_EQ(ahead.face, 1);
   EXPECT_FLOAT_EQ(ahead.depth, 0.5f);
   EXPECT_FLOAT_EQ(ahead.cosine, 1.0f);
   EXPECT_FLOAT_EQ(ahead.u, 2.0f);  // y from the corner
   EXPECT_FLOAT_EQ(ahead.v, 3.0f);  // z from the corner
-  const Hit down = cast(scene, {0.0, 0.0, 0.0}, {0.0, 0.6, -1.8});
+  const Hit down = cast_ray(scene, {0.0, 0.0, 0.0}, {0.0, 0.6, -1.8});
   EXPECT_EQ(down.face, 4);
   EXPECT_NEAR(down.depth, 3.0 / 1.8, 1e-6);
   EXPECT_NEAR(down.cosine, 1.8 / std::hypot(0.6, 1.8), 1e-6);
@@ -49,9 +49,9 @@ TEST(Render, ARayMeetsTheWallWhereGeometrySays) {
 TEST(Render, FurnitureHidesTheWallBehindIt) {
   Scene scene = bare_room();
   scene.furniture.push_back({{0.7, -0.5, -0.5}, {1.0, 0.5, 0.5}, {0, 0, 0, 0, 0, 0}});
-  EXPECT_FLOAT_EQ(cast(scene, {0, 0, 0}, {1.0, 0.0, 0.0}).depth, 0.7f);
-  EXPECT_EQ(cast(scene, {0, 0, 0}, {1.0, 0.0, 0.0}).face, 0);
-  EXPECT_FLOAT_EQ(cast(scene, {0, 0, 0}, {1.0, 0.9, 0.0}).depth, 1.0f);
+  EXPECT_FLOAT_EQ(cast_ray(scene, {0, 0, 0}, {1.0, 0.0, 0.0}).depth, 0.7f);
+  EXPECT_EQ(cast_ray(scene, {0, 0, 0}, {1.0, 0.0, 0.0}).face, 0);
+  EXPECT_FLOAT_EQ(cast_ray(scene, {0, 0, 0}, {1.0, 0.9, 0.0}).depth, 1.0f);
 }
 
 TEST(Render, DepthIsAlongTheAxisSoAFlatWallIsFlat) {
@@ -63,7 +63,7 @@ TEST(Render, DepthIsAlongTheAxisSoAFlatWallIsFlat) {
   camera.cy = 11.5;
   Matrix3 R;  // camera looks along x
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const Rendered rendered = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
+  const RenderedImage rendered = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
   for (const float depth : rendered.depth.pixels) EXPECT_NEAR(depth, 0.8, 1e-6);
 }
 
@@ -151,4 +151,4 @@ TEST(RenderedRoom, KnowsItsReferenceAtFourTimesTheRate) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::render_test

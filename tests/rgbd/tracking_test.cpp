@@ -12,7 +12,7 @@
 #include "datasets/rgbd/tracking/keyframe_rule.hpp"
 #include "datasets/rgbd/tracking/local_map.hpp"
 
-namespace loopbench {
+namespace loopbench::tracking_test {
 
 using namespace rgbd;
 
@@ -82,14 +82,14 @@ TEST(CameraPose, InformationTellsTheScatterOfThePose) {
 
 TEST(KeyframeRule, IsDueAtEachThresholdAlone) {
   KeyframeOptions o;
-  const View same{
-      .points = 300, .common = 300, .way = 0.0, .depth = 2.0, .angle = 0.0, .time = 0.0};
+  const FrameRelation same{
+      .points = 300, .common = 300, .distance = 0.0, .depth = 2.0, .angle = 0.0, .time = 0.0};
   EXPECT_LT(novelty(same, o), 1.0);
-  View view = same;
+  FrameRelation view = same;
   view.common = 60;  // of 300: both the share (0.2) and the number (60) are at their thresholds
   EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
   view = same;
-  view.way = 0.15 * 2.0;
+  view.distance = 0.15 * 2.0;
   EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
   view = same;
   view.angle = 30.0 * std::numbers::pi / 180.0;
@@ -158,10 +158,10 @@ TEST(RemeasuredGap, IsTheDistanceOverItsVarianceWorkedByHand) {
   const std::vector<Edge> first{{0, 1, step_of(2.0)}, {1, 2, step_of(1.0)}};
   std::vector<Edge> again{{0, 1, step_of(3.5)}, first[1]};
   again[0].information = 2.0 * Matrix6::Identity();
-  const std::vector<double> gaps = remeasured_gaps(first, again);
+  const std::vector<double> gaps = repeated_measurement_gaps(first, again);
   ASSERT_EQ(gaps.size(), 1u);  // the other edge has no second measurement
   EXPECT_NEAR(gaps[0], 9.0 / 2.0 / 6.0, 1e-5);
-  EXPECT_EQ(remeasured_excess(first, again, 2), 1.0);  // too few edges
+  EXPECT_EQ(repeated_measurement_excess(first, again, 2), 1.0);  // too few edges
 }
 
 TEST(Descriptors, DistanceIsTheShareOfBits) {
@@ -201,13 +201,13 @@ TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
     query.descriptors.insert(
         query.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
   }
-  const std::vector<Seen> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
-  const std::vector<Match> matches = match_near(points, all, query, camera, {}, 10.0, {});
+  const std::vector<MapPoint> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
+  const std::vector<Match> matches = match_guided(points, all, query, camera, {}, 10.0, {});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].a, 1u);  // descriptor row 0 is equal, row 1 differs slightly
   EXPECT_EQ(matches[0].b, 0u);
   EXPECT_TRUE(
-      match_near(points, all, query, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
+      match_guided(points, all, query, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
 }
 
 TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {
@@ -223,7 +223,7 @@ TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {
   EXPECT_EQ(map.points().size(), 40u);
   map.add(2, 2, one, {{7, 0, 0.0f}}, {}, {});
   ASSERT_EQ(map.points().size(), 1u);
-  EXPECT_EQ(map.last_seen(0), 2u);
+  EXPECT_EQ(map.last_keyframe_of(0), 2u);
   EXPECT_EQ(map.points()[0].row, 0u);
 }
 
@@ -257,4 +257,4 @@ TEST(OrderedPipeline, PassesOnWhatEitherSideThrows) {
 }
 
 }  // namespace
-}  // namespace loopbench
+}  // namespace loopbench::tracking_test

@@ -60,7 +60,7 @@ class ChainMaker {
     }
     const std::size_t least = keyframes.size() / 10;
     std::erase_if(problem.closures, [&](const Edge& e) { return e.to - e.from <= least; });
-    keep(problem, spread(problem.closures.size(), 60));
+    keep(problem, subsample(problem.closures.size(), 60));
     add(use, problem, truth);
   }
 
@@ -72,7 +72,7 @@ class ChainMaker {
   }
 
   /// At most `most` of 0 .. size - 1, evenly.
-  static std::vector<std::size_t> spread(std::size_t size, std::size_t most) {
+  static std::vector<std::size_t> subsample(std::size_t size, std::size_t most) {
     std::vector<std::size_t> out;
     const std::size_t count = std::min(size, most);
     for (std::size_t i = 0; i < count; ++i) out.push_back(i * size / count);
@@ -94,7 +94,7 @@ class ChainMaker {
       if (loops > problem.closures.size()) continue;
       DevelopmentChain& chain = chains.emplace_back(whole);
       chain.name = use.odometer + ", " + std::to_string(loops) + " loops";
-      keep(chain.problem, spread(problem.closures.size(), loops));
+      keep(chain.problem, subsample(problem.closures.size(), loops));
     }
     add_stretches(use, whole);
   }
@@ -118,7 +118,7 @@ class ChainMaker {
       const std::size_t wanted = 1 + static_cast<std::size_t>(uniform() * 6.0);
       std::vector<std::size_t> kept;
       std::size_t farthest = 0;
-      for (const std::size_t i : spread(inside.size(), wanted)) {
+      for (const std::size_t i : subsample(inside.size(), wanted)) {
         const Edge& loop = whole.problem.closures[inside[i]];
         kept.push_back(inside[i]);
         farthest = std::max(farthest, loop.to - loop.from);

@@ -55,7 +55,7 @@ std::vector<std::vector<double>> log_ratios(const std::vector<DevelopmentChain>&
                                             const std::vector<Setting>& settings) {
   std::vector<std::vector<double>> out(chains.size());
   std::atomic<std::size_t> next{0};
-  in_parallel(cores(), [&](std::size_t) {
+  parallel_invoke(hardware_threads(), [&](std::size_t) {
     for (std::size_t i = next++; i < chains.size(); i = next++) {
       Report report;
       const double stated = rmse_of(Dual({}).correct(chains[i].problem, report), chains[i]);

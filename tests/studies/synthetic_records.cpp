@@ -89,7 +89,7 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         Record r = score(m, group, run);
         if (truth.states_groups && truth.runs_in_group > 1) r.group = std::to_string(group);
         r.content = r.sequence;
-        r.statistics.rmse = size * std::exp(truth.effects[m] + truth.spread * deviation);
+        r.statistics.rmse = size * std::exp(truth.effects[m] + truth.dispersion * deviation);
         const bool fails = !truth.failures.empty() && uniform(bits) < truth.failures[m];
         if (fails) {
           r.status = "failed";

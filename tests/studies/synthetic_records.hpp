@@ -30,7 +30,7 @@ struct Truth {
   std::size_t groups = 10;
   std::size_t runs_in_group = 1;      ///< runs of a group share `shared` of their deviation
   double shared = 0.0;                ///< intra-group correlation of the deviations [-]
-  double spread = 0.3;                ///< standard deviation of a method's logarithm [-]
+  double dispersion = 0.3;            ///< standard deviation of a method's logarithm [-]
   std::vector<double> failures = {};  ///< probability that a method fails; empty: never
   bool states_groups = true;          ///< false: records without Record::group
   double copies = 0.0;                ///< share of runs repeated with equal content

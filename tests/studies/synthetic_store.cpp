@@ -33,10 +33,10 @@ CellResult result_of(const Record& record, const Cell& cell) {
   CellResult out;
   out.cell = cell;
   out.seconds = {1e-3};
-  SequenceFacts facts;
-  facts.group = record.group;
-  facts.content = record.content;
-  out.facts = std::make_shared<const SequenceFacts>(facts);
+  SequenceMetadata metadata;
+  metadata.group = record.group;
+  metadata.content = record.content;
+  out.metadata = std::make_shared<const SequenceMetadata>(metadata);
   if (record.metric.empty()) {
     out.status = Status::failed;
     out.why = "drawn to fail";

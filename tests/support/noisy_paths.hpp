@@ -24,7 +24,7 @@ inline std::vector<Vector3> wavy(const std::vector<double>& stamps) {
 }
 
 /// White noise of sigma on positions and, a tenth of it, on attitudes.
-inline Trajectory shaken(Trajectory keyframes, double sigma, std::uint64_t seed) {
+inline Trajectory with_white_noise(Trajectory keyframes, double sigma, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, sigma);
   const auto any = [&] { return Vector3(normal(random), normal(random), normal(random)); };

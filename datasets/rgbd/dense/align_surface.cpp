@@ -115,8 +115,9 @@ SurfaceAlignment align_surface(const Surface& surface,
     const double gate = step < kWideSteps ? kWideGate : kNarrowGate;
     const PlaneEquation planes = plane_equation(surface, model, out.world_from_camera, gate);
     out.share = planes.found / std::max(1.0, planes.points);
-    out.spread = std::sqrt(planes.squares / std::max(1.0, planes.found));
-    const double weight = options.information_scale / std::max(1.0, out.spread * out.spread);
+    out.residual_rms = std::sqrt(planes.squares / std::max(1.0, planes.found));
+    const double weight =
+        options.information_scale / std::max(1.0, out.residual_rms * out.residual_rms);
     const Twist from_prior = log_se3(prior.world_from_camera.inverse() * out.world_from_camera);
     out.information = weight * planes.H + prior.information;
     const Twist gradient = weight * planes.g + prior.information * from_prior;

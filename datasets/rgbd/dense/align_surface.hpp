@@ -23,8 +23,8 @@ struct PriorPose {
 struct SurfaceAlignment {
   Pose world_from_camera;
   Matrix6 information = Matrix6::Zero();  ///< sum of surface and prior information
-  double share = 0.0;   ///< share of points associated with a surface of the model [-]
-  double spread = 0.0;  ///< RMS of whitened distances; 1 if the noise model is correct
+  double share = 0.0;         ///< share of points associated with a surface of the model [-]
+  double residual_rms = 0.0;  ///< RMS of whitened distances; 1 if the noise model is correct
 };
 
 /// Aligns `surface` to all surfaces of `model` by point-to-plane ICP with projective association

@@ -29,38 +29,41 @@ bool is_accepted(const SurfaceAlignment& found, const Pose& prior, const RefineO
 }
 
 struct TimedDepth {
-  SmallDepth image;
+  DownsampledDepth image;
   double seconds = 0.0;
 };
 
 /// Reads downsampled depth images of all keyframes; empty for images that cannot be read.
-std::vector<SmallDepth> keyframe_depths(const RgbdSource& source,
-                                        const std::vector<Keyframe>& keyframes,
-                                        double depth_max,
-                                        double& seconds) {
+std::vector<DownsampledDepth> keyframe_depths(const RgbdSource& source,
+                                              const std::vector<Keyframe>& keyframes,
+                                              double depth_max,
+                                              double& seconds) {
   const Camera camera = source.camera();
   const auto read = [&](std::size_t k) {
     const double begin = cpu_seconds();
     TimedDepth out;
     std::string why;
     if (const auto images = source.read(keyframes[k].frame, why)) {
-      out.image = small_depth(images->depth, camera, kSurfaceWidth, depth_max);
+      out.image = downsample_depth(images->depth, camera, kSurfaceWidth, depth_max);
     }
     out.seconds = cpu_seconds() - begin;
     return out;
   };
-  std::vector<SmallDepth> out;
-  ordered_pipeline<TimedDepth>(
-      keyframes.size(), cores(), 4 * cores(), read, [&](std::size_t, TimedDepth depth) {
-        seconds += depth.seconds;
-        out.push_back(std::move(depth.image));
-      });
+  std::vector<DownsampledDepth> out;
+  ordered_pipeline<TimedDepth>(keyframes.size(),
+                               hardware_threads(),
+                               4 * hardware_threads(),
+                               read,
+                               [&](std::size_t, TimedDepth depth) {
+                                 seconds += depth.seconds;
+                                 out.push_back(std::move(depth.image));
+                               });
   return out;
 }
 
 /// Aligns every keyframe with the previous ones. Returns the keyframe poses in the frame of the
 /// first keyframe and writes the refined edges to `out`.
-std::vector<Pose> refine_odometry(const std::vector<SmallDepth>& depths,
+std::vector<Pose> refine_odometry(const std::vector<DownsampledDepth>& depths,
                                   const PoseOptions& pose,
                                   const RefineOptions& options,
                                   const std::function<void(std::size_t)>& progress,
@@ -103,7 +106,7 @@ struct RefinedClosure {
 };
 
 RefinedClosure refine_closure(const Edge& closure,
-                              const std::vector<SmallDepth>& depths,
+                              const std::vector<DownsampledDepth>& depths,
                               const std::vector<Pose>& world_from_keyframe,
                               const PoseOptions& pose,
                               const RefineOptions& options) {
@@ -134,7 +137,7 @@ RefinedClosure refine_closure(const Edge& closure,
 }  // namespace
 
 RefinedEdges refine_by_depth(const RgbdSource& source,
-                             const Tracked& tracked,
+                             const TrackingResult& tracked,
                              const std::vector<Edge>& closures,
                              const PoseOptions& pose,
                              double depth_max,
@@ -150,17 +153,20 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
   const auto refine = [&](std::size_t i) {
     return refine_closure(closures[i], depths, poses, pose, options);
   };
-  ordered_pipeline<RefinedClosure>(
-      closures.size(), cores(), 4 * cores(), refine, [&](std::size_t i, RefinedClosure one) {
-        progress(tracked.keyframes.size() + i + 1, steps);
-        out.seconds += one.seconds;
-        out.closures_refined += one.refined ? 1 : 0;
-        out.closures.push_back(std::move(one.edge));
-      });
+  ordered_pipeline<RefinedClosure>(closures.size(),
+                                   hardware_threads(),
+                                   4 * hardware_threads(),
+                                   refine,
+                                   [&](std::size_t i, RefinedClosure one) {
+                                     progress(tracked.keyframes.size() + i + 1, steps);
+                                     out.seconds += one.seconds;
+                                     out.closures_refined += one.refined ? 1 : 0;
+                                     out.closures.push_back(std::move(one.edge));
+                                   });
   return out;
 }
 
-void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry) {
+void update_poses(TrackingResult& tracked, const std::vector<Edge>& odometry) {
   std::vector<Pose> before;
   for (const Keyframe& keyframe : tracked.keyframes) before.push_back(keyframe.world_from_camera);
   for (std::size_t k = 1; k < tracked.keyframes.size(); ++k) {

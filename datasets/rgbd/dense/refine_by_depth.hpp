@@ -49,7 +49,7 @@ struct RefinedEdges {
 /// odometry edge the window is restarted. Depth images of keyframes are read again and stored at 77
 /// kB each. Bit-identical for any number of threads. O(keyframes * window * pixels).
 RefinedEdges refine_by_depth(const RgbdSource& source,
-                             const Tracked& tracked,
+                             const TrackingResult& tracked,
                              const std::vector<Edge>& closures,
                              const PoseOptions& pose,
                              double depth_max,
@@ -58,6 +58,6 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
 
 /// Recomputes keyframe poses from `odometry`. Frames between two keyframes are moved with both,
 /// interpolated in time. O(keyframes + frames).
-void follow_odometry(Tracked& tracked, const std::vector<Edge>& odometry);
+void update_poses(TrackingResult& tracked, const std::vector<Edge>& odometry);
 
 }  // namespace loopbench::rgbd

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/core/upper_median.hpp"
+
 namespace loopbench::rgbd {
 namespace {
 
@@ -42,9 +44,7 @@ DepthImage undistorted(const DepthImage& depth, const Camera& camera) {
 /// Mean of the depths near their median; 0 if less than half of the block is measured.
 float block_depth(std::vector<float>& measured, std::size_t pixels) {
   if (2 * measured.size() < pixels) return 0.0f;
-  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
-  std::nth_element(measured.begin(), middle, measured.end());
-  const float median = *middle;
+  const float median = upper_median(measured);
   float sum = 0.0f;
   std::size_t count = 0;
   for (const float z : measured) {
@@ -93,12 +93,15 @@ Eigen::Vector3f normal_at(const Surface& surface, int x, int y) {
 
 }  // namespace
 
-SmallDepth small_depth(const DepthImage& depth, const Camera& camera, int width, double depth_max) {
+DownsampledDepth downsample_depth(const DepthImage& depth,
+                                  const Camera& camera,
+                                  int width,
+                                  double depth_max) {
   const DepthImage rectified = camera.distorted() ? undistorted(depth, camera) : DepthImage();
   const DepthImage& from = camera.distorted() ? rectified : depth;
   const int block = std::max(1, (depth.width + width - 1) / width);
   const double scale = 1.0 / block;
-  SmallDepth out;
+  DownsampledDepth out;
   out.block = block;
   out.camera.width = depth.width / block;
   out.camera.height = depth.height / block;
@@ -123,7 +126,7 @@ SmallDepth small_depth(const DepthImage& depth, const Camera& camera, int width,
   return out;
 }
 
-Surface surface_of(const SmallDepth& image, double inverse_depth_sigma) {
+Surface surface_of(const DownsampledDepth& image, double inverse_depth_sigma) {
   const DepthImage& depth = image.depth;
   Surface out;
   out.camera = image.camera;

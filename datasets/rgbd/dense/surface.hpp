@@ -9,7 +9,7 @@
 namespace loopbench::rgbd {
 
 /// A downsampled, undistorted depth image with its pinhole camera.
-struct SmallDepth {
+struct DownsampledDepth {
   Camera camera;
   DepthImage depth;
   int block = 1;  ///< side of the block averaged to one pixel [px]
@@ -18,7 +18,10 @@ struct SmallDepth {
 /// Undistorts and downsamples a depth image to at most `width` columns. Each pixel is the mean of
 /// the depths within 2 % of the median of its block; 0 if less than half of the block has a depth
 /// below depth_max [m]. O(pixels).
-SmallDepth small_depth(const DepthImage& depth, const Camera& camera, int width, double depth_max);
+DownsampledDepth downsample_depth(const DepthImage& depth,
+                                  const Camera& camera,
+                                  int width,
+                                  double depth_max);
 
 /// Points and normals of all pixels in row-major order, in camera axes.
 struct Surface {
@@ -32,6 +35,6 @@ struct Surface {
 /// beside depth edges, on curved patches (beyond noise) and at grazing angles have no normal.
 /// `inverse_depth_sigma` [1/m] is the standard deviation of one pixel of the original image; noise
 /// of neighbouring pixels is assumed independent. O(pixels).
-Surface surface_of(const SmallDepth& image, double inverse_depth_sigma);
+Surface surface_of(const DownsampledDepth& image, double inverse_depth_sigma);
 
 }  // namespace loopbench::rgbd

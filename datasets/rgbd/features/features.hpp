@@ -54,7 +54,7 @@ void fields(FeatureOptions& o, Visit visit) {
         o.cells,
         "number of grid columns for an even distribution of features",
         Between{1, 100});
-  visit("features.depth_max", o.depth_max, "maximum depth that is used [m]", Above{0});
+  visit("features.depth_max", o.depth_max, "maximum depth that is used [m]", GreaterThan{0});
 }
 
 /// Detects four times `count` features and keeps the strongest ones of each grid cell, for an even

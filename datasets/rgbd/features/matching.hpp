@@ -38,10 +38,10 @@ void fields(MatchOptions& o, Visit visit) {
 }
 
 /// Matches features by descriptor with ratio test and mutual check. Sorted by a. O(|a| |b|).
-std::vector<Match> match_everywhere(const Features& a, const Features& b, const MatchOptions& o);
+std::vector<Match> match_exhaustive(const Features& a, const Features& b, const MatchOptions& o);
 
 /// A map point.
-struct Seen {
+struct MapPoint {
   Vector3 in_world;         ///< point in the world frame [m]
   std::int32_t octave = 0;  ///< pyramid level of the last observation
   std::size_t row = 0;      ///< row of its descriptor
@@ -51,12 +51,12 @@ struct Seen {
 /// within `radius` [px] of its projection, plus one pixel per octave. The ratio test uses features
 /// of similar octaves. Each feature is matched once, with the point of smallest distance.
 /// `descriptors` holds the rows of the points. Sorted by b. O(points * features in the circle).
-std::vector<Match> match_near(const std::vector<Seen>& points,
-                              const Features& descriptors,
-                              const Features& features,
-                              const Camera& camera,
-                              const Pose& world_from_camera,
-                              double radius,
-                              const MatchOptions& o);
+std::vector<Match> match_guided(const std::vector<MapPoint>& points,
+                                const Features& descriptors,
+                                const Features& features,
+                                const Camera& camera,
+                                const Pose& world_from_camera,
+                                double radius,
+                                const MatchOptions& o);
 
 }  // namespace loopbench::rgbd

@@ -52,7 +52,7 @@ void fields(FolderOptions& o, Visit visit) {
   visit("colour_focal",
         o.colour_focal,
         "focal length of the colour camera for depth: kinect [px]",
-        Above{0});
+        GreaterThan{0});
   visit("pair_gap",
         o.pair_gap,
         "maximum time difference between paired depth and colour images [s]",
@@ -60,7 +60,7 @@ void fields(FolderOptions& o, Visit visit) {
   visit("rate",
         o.rate,
         "frame rate of 7-Scenes and ICL-NUIM recordings, which have no stamps [Hz]",
-        Above{0});
+        GreaterThan{0});
   visit("every", o.every, "interval between used frames [frames]", Between{1});
   visit("first", o.first, "index of the first used frame, from 0", Between{0});
   visit("frames", o.frames, "maximum number of used frames; 0: all", Between{0});

@@ -16,7 +16,7 @@ struct Best {
 
 }  // namespace
 
-DetectedLoops detect_loops(const Tracked& tracked,
+DetectedLoops detect_loops(const TrackingResult& tracked,
                            const Camera& camera,
                            const TrackOptions& track,
                            const LoopOptions& options,
@@ -30,7 +30,7 @@ DetectedLoops detect_loops(const Tracked& tracked,
   const auto best_of = [&](std::size_t k) {
     const double start = cpu_seconds();
     Best best;
-    for (const Alike& candidate : candidates[k]) {
+    for (const RetrievedKeyframe& candidate : candidates[k]) {
       Verified verified = verify(keyframes, candidate.keyframe, k, camera, track);
       const double score =
           static_cast<double>(verified.inliers) + std::min(1.0, candidate.similarity);
@@ -39,17 +39,21 @@ DetectedLoops detect_loops(const Tracked& tracked,
     best.seconds = cpu_seconds() - start;
     return best;
   };
-  ordered_pipeline<Best>(
-      keyframes.size(), cores(), 4 * cores(), best_of, [&](std::size_t k, Best best) {
-        progress(k + 1, keyframes.size());
-        out.seconds += best.seconds;
-        if (best.score < 0.0) return;
-        const Verified& loop = best.verified;
-        const bool accepted = loop.inliers >= static_cast<std::size_t>(options.inliers_min) &&
-                              loop.share >= options.share_min;
-        out.candidates.push_back({loop.edge.from, k, best.score, accepted});
-        if (accepted) out.closures.push_back(loop.edge);
-      });
+  ordered_pipeline<Best>(keyframes.size(),
+                         hardware_threads(),
+                         4 * hardware_threads(),
+                         best_of,
+                         [&](std::size_t k, Best best) {
+                           progress(k + 1, keyframes.size());
+                           out.seconds += best.seconds;
+                           if (best.score < 0.0) return;
+                           const Verified& loop = best.verified;
+                           const bool accepted =
+                               loop.inliers >= static_cast<std::size_t>(options.inliers_min) &&
+                               loop.share >= options.share_min;
+                           out.candidates.push_back({loop.edge.from, k, best.score, accepted});
+                           if (accepted) out.closures.push_back(loop.edge);
+                         });
   return out;
 }
 

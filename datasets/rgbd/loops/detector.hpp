@@ -30,7 +30,7 @@ void fields(LoopOptions& o, Visit visit) {
   visit("loops.min_gap",
         o.min_gap,
         "minimum time between the keyframes of a loop closure [s]",
-        Above{0});
+        GreaterThan{0});
   visit("loops.candidates",
         o.candidates,
         "maximum number of candidates verified per keyframe",
@@ -74,7 +74,7 @@ struct DetectedLoops {
 /// number of inliers plus its similarity (0..1); it is accepted with at least inliers_min inliers
 /// and share_min of the guided matches. Bit-identical for any number of threads. O(keyframes^2)
 /// comparisons of about 1 us; feature matching dominates up to ten thousand keyframes.
-DetectedLoops detect_loops(const Tracked& tracked,
+DetectedLoops detect_loops(const TrackingResult& tracked,
                            const Camera& camera,
                            const TrackOptions& track,
                            const LoopOptions& options,

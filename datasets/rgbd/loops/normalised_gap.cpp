@@ -1,7 +1,8 @@
 #include "datasets/rgbd/loops/normalised_gap.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
+
+#include "datasets/core/upper_median.hpp"
 
 namespace loopbench::rgbd {
 namespace {
@@ -16,9 +17,7 @@ Matrix6 transformed(const Pose& a_from_b, const Matrix6& covariance) {
 
 double excess_of(std::vector<double> gaps, std::size_t min_count) {
   if (gaps.empty() || gaps.size() < min_count) return 1.0;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle / kMedianOfSix;
+  return upper_median(gaps) / kMedianOfSix;
 }
 
 }  // namespace
@@ -54,8 +53,8 @@ double information_excess(const std::vector<Edge>& odometry,
   return excess_of(normalised_gaps(odometry, closures), min_count);
 }
 
-std::vector<double> remeasured_gaps(const std::vector<Edge>& first,
-                                    const std::vector<Edge>& again) {
+std::vector<double> repeated_measurement_gaps(const std::vector<Edge>& first,
+                                              const std::vector<Edge>& again) {
   std::vector<double> out;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const Matrix6 second = again[i].information - first[i].information;
@@ -71,10 +70,10 @@ std::vector<double> remeasured_gaps(const std::vector<Edge>& first,
   return out;
 }
 
-double remeasured_excess(const std::vector<Edge>& first,
-                         const std::vector<Edge>& again,
-                         std::size_t min_count) {
-  return excess_of(remeasured_gaps(first, again), min_count);
+double repeated_measurement_excess(const std::vector<Edge>& first,
+                                   const std::vector<Edge>& again,
+                                   std::size_t min_count) {
+  return excess_of(repeated_measurement_gaps(first, again), min_count);
 }
 
 }  // namespace loopbench::rgbd

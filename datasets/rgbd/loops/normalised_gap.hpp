@@ -26,11 +26,12 @@ double information_excess(const std::vector<Edge>& odometry,
 /// `first` holds the first measurements, `again` the fusion of both, with the sum of their
 /// information. The mean is 1 for correct information. Edges without a second measurement are
 /// omitted. O(edges).
-std::vector<double> remeasured_gaps(const std::vector<Edge>& first, const std::vector<Edge>& again);
+std::vector<double> repeated_measurement_gaps(const std::vector<Edge>& first,
+                                              const std::vector<Edge>& again);
 
-/// The factor of information_excess() for remeasured_gaps().
-double remeasured_excess(const std::vector<Edge>& first,
-                         const std::vector<Edge>& again,
-                         std::size_t min_count);
+/// The factor of information_excess() for repeated_measurement_gaps().
+double repeated_measurement_excess(const std::vector<Edge>& first,
+                                   const std::vector<Edge>& again,
+                                   std::size_t min_count);
 
 }  // namespace loopbench::rgbd

@@ -44,20 +44,21 @@ std::vector<Bag> bags_of(const std::vector<Keyframe>& keyframes, const LoopOptio
   return bags(words, vocabulary.words());
 }
 
-bool same_place(const Alike& a, const Alike& b) {
+bool same_place(const RetrievedKeyframe& a, const RetrievedKeyframe& b) {
   const auto [low, high] = std::minmax(a.keyframe, b.keyframe);
   return high - low <= kSamePlace;
 }
 
 /// Whether the previous `consistency` keyframes retrieved this candidate or a neighbour of it.
-bool consistent(const Alike& candidate,
-                const std::vector<std::vector<Alike>>& found,
+bool consistent(const RetrievedKeyframe& candidate,
+                const std::vector<std::vector<RetrievedKeyframe>>& found,
                 std::size_t query,
                 std::size_t consistency) {
   if (query < consistency) return false;
   for (std::size_t back = 1; back <= consistency; ++back) {
-    const std::vector<Alike>& earlier = found[query - back];
-    if (std::ranges::none_of(earlier, [&](const Alike& a) { return same_place(a, candidate); })) {
+    const std::vector<RetrievedKeyframe>& earlier = found[query - back];
+    if (std::ranges::none_of(
+            earlier, [&](const RetrievedKeyframe& a) { return same_place(a, candidate); })) {
       return false;
     }
   }
@@ -66,9 +67,9 @@ bool consistent(const Alike& candidate,
 
 }  // namespace
 
-std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
-                                         const LoopOptions& o) {
-  std::vector<std::vector<Alike>> found(keyframes.size());
+std::vector<std::vector<RetrievedKeyframe>> retrieve(const std::vector<Keyframe>& keyframes,
+                                                     const LoopOptions& o) {
+  std::vector<std::vector<RetrievedKeyframe>> found(keyframes.size());
   if (keyframes.size() < 3) return found;
   const std::vector<Bag> all = bags_of(keyframes, o);
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
@@ -79,14 +80,14 @@ std::vector<std::vector<Alike>> retrieve(const std::vector<Keyframe>& keyframes,
       const double share = similarity(all[k], all[j]) / reference;
       if (share >= o.similarity_min) found[k].push_back({j, share});
     }
-    std::ranges::stable_sort(found[k], std::greater{}, &Alike::similarity);
+    std::ranges::stable_sort(found[k], std::greater{}, &RetrievedKeyframe::similarity);
     // More candidates than are verified are kept for the consistency check of later keyframes.
     const auto keep = static_cast<std::size_t>(4 * o.candidates);
     if (found[k].size() > keep) found[k].resize(keep);
   }
-  std::vector<std::vector<Alike>> out(keyframes.size());
+  std::vector<std::vector<RetrievedKeyframe>> out(keyframes.size());
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
-    for (const Alike& candidate : found[k]) {
+    for (const RetrievedKeyframe& candidate : found[k]) {
       if (out[k].size() == static_cast<std::size_t>(o.candidates)) break;
       if (consistent(candidate, found, k, static_cast<std::size_t>(o.consistency))) {
         out[k].push_back(candidate);

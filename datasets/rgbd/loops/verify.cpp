@@ -15,7 +15,7 @@ constexpr double kRadius = 0.02;         // of the guided search relative to the
 void collect(const Keyframe& keyframe,
              const Pose& world_from_camera,
              const Camera& camera,
-             std::vector<Seen>& points,
+             std::vector<MapPoint>& points,
              Features& descriptors) {
   const Features& f = keyframe.features;
   descriptors.bytes = f.bytes;
@@ -44,10 +44,10 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   out.edge.from = from;
   out.edge.to = to;
   const Features& query = keyframes[to].features;
-  std::vector<Seen> points;
+  std::vector<MapPoint> points;
   Features descriptors;
   collect(keyframes[from], {}, camera, points, descriptors);
-  const std::vector<Match> wide = match_everywhere(descriptors, query, options.match);
+  const std::vector<Match> wide = match_exhaustive(descriptors, query, options.match);
   if (wide.size() < kMinMatches) return out;
   const std::vector<Observation> first = observations(points, query, wide);
   const std::optional<Pose> found = pose_by_ransac(first, camera, options.pose);
@@ -65,13 +65,13 @@ Verified verify(const std::vector<Keyframe>& keyframes,
             points,
             descriptors);
   }
-  const std::vector<Match> near = match_near(points,
-                                             descriptors,
-                                             query,
-                                             camera,
-                                             rough.world_from_camera,
-                                             kRadius * camera.width,
-                                             options.match);
+  const std::vector<Match> near = match_guided(points,
+                                               descriptors,
+                                               query,
+                                               camera,
+                                               rough.world_from_camera,
+                                               kRadius * camera.width,
+                                               options.match);
   const RefinedPose pose =
       refine_pose(observations(points, query, near), camera, rough.world_from_camera, options.pose);
   if (pose.inliers < 6) return out;

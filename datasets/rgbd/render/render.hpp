@@ -8,13 +8,13 @@
 
 namespace loopbench::rgbd {
 
-struct Rendered {
-  Image<float> grey;   ///< 0..255
-  DepthImage depth;    ///< depth of every pixel [m]
-  Image<float> slant;  ///< cosine of the angle between ray and surface normal [-]
+struct RenderedImage {
+  Image<float> grey;              ///< 0..255
+  DepthImage depth;               ///< depth of every pixel [m]
+  Image<float> incidence_cosine;  ///< cosine of the angle between ray and surface normal [-]
 };
 
 /// Casts one ray through the centre of each pixel. O(pixels * furniture).
-Rendered render(const Scene& scene, const Camera& camera, const Pose& world_from_camera);
+RenderedImage render(const Scene& scene, const Camera& camera, const Pose& world_from_camera);
 
 }  // namespace loopbench::rgbd

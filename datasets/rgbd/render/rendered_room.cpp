@@ -62,8 +62,8 @@ class RenderedRoom final : public RgbdSource {
     const Pose now = pose(time);
     const Pose begin = pose(std::max(0.0, time - 0.5 * options_.blur));
     const Pose end = pose(time + 0.5 * options_.blur);
-    const Rendered ideal = render(scene_, camera_, now);
-    return sensed(ideal, camera_, begin.inverse() * end, time, index, options_);
+    const RenderedImage ideal = render(scene_, camera_, now);
+    return apply_sensor_model(ideal, camera_, begin.inverse() * end, time, index, options_);
   }
 
   std::uint64_t content() const override {

@@ -98,7 +98,7 @@ Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
   return scene;
 }
 
-Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction) {
+Hit cast_ray(const Scene& scene, const Vector3& origin, const Vector3& direction) {
   const Vector3 inverse =
       direction.cwiseInverse();  // infinite for parallel rays, which the slab test handles
   const Crossing walls = cross(scene.room, origin, inverse);

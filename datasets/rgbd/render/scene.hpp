@@ -36,6 +36,6 @@ struct Hit {
 };
 
 /// First intersection of a ray that starts inside the room. O(furniture).
-Hit cast(const Scene& scene, const Vector3& origin, const Vector3& direction);
+Hit cast_ray(const Scene& scene, const Vector3& origin, const Vector3& direction);
 
 }  // namespace loopbench::rgbd

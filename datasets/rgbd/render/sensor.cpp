@@ -47,18 +47,18 @@ bool beside_edge(const DepthImage& depth, int x, int y) {
 
 }  // namespace
 
-RgbdFrame sensed(const Rendered& ideal,
-                 const Camera& camera,
-                 const Pose& begin_from_end,
-                 double stamp,
-                 std::uint64_t frame,
-                 const RenderOptions& o) {
+RgbdFrame apply_sensor_model(const RenderedImage& ideal,
+                             const Camera& camera,
+                             const Pose& begin_from_end,
+                             double stamp,
+                             std::uint64_t frame,
+                             const RenderOptions& o) {
   const int w = camera.width;
   const int h = camera.height;
   RgbdFrame out{GreyImage(w, h), DepthImage(w, h)};
   const std::uint64_t seed = mixed(static_cast<std::uint64_t>(o.seed), 0x5e4505 + frame);
   const double gain = 1.0 + o.exposure * std::sin(0.9 * stamp) +
-                      0.1 * o.exposure * static_cast<double>(about_normal(mixed(seed, 1u)));
+                      0.1 * o.exposure * static_cast<double>(approximate_normal(mixed(seed, 1u)));
   const Pose end_from_begin = begin_from_end.inverse();
   const double diagonal = 0.25 * (w * w + h * h);
   for (int y = 0; y < h; ++y) {
@@ -72,7 +72,8 @@ RgbdFrame sensed(const Rendered& ideal,
       const double dx = x - camera.cx;
       const double dy = y - camera.cy;
       const double corner = 1.0 - 0.25 * (dx * dx + dy * dy) / diagonal;
-      const double grey = light * gain * corner + o.noise * static_cast<double>(about_normal(draw));
+      const double grey =
+          light * gain * corner + o.noise * static_cast<double>(approximate_normal(draw));
       out.grey.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey + 0.5, 0.0, 255.0));
 
       const std::uint64_t chance = mixed(seed, 17 + 2 * pixel);
@@ -84,11 +85,11 @@ RgbdFrame sensed(const Rendered& ideal,
       const float hole = 0.015f * static_cast<float>(o.dropouts);
       const bool dropped =
           o.dropouts > 0.0 &&
-          (ideal.slant.at(x, y) < kGrazing || beside_edge(ideal.depth, x, y) ||
+          (ideal.incidence_cosine.at(x, y) < kGrazing || beside_edge(ideal.depth, x, y) ||
            uniform(mixed(seed ^ 0xd409, patch)) < hole || uniform(mixed(chance)) < hole);
       if (dropped || exact < kMinDepth || exact > kMaxDepth) continue;
       const float sigma = kNoise * static_cast<float>(o.depth_noise);
-      float measured = exact + sigma * exact * exact * about_normal(mixed(chance, 3u));
+      float measured = exact + sigma * exact * exact * approximate_normal(mixed(chance, 3u));
       if (with_noise) {
         const float eighths = std::round(8.0f * kKinectFocal * kBaseline / measured);
         measured = 8.0f * kKinectFocal * kBaseline / eighths;

@@ -19,11 +19,11 @@ namespace loopbench::rgbd {
 /// pixel. Depth is missing below 0.5 m, above 4.5 m, on slanted surfaces, in the projector's shadow
 /// beside depth edges and in random patches.
 /// All draws are determined by `frame` and the seed. O(pixels).
-RgbdFrame sensed(const Rendered& ideal,
-                 const Camera& camera,
-                 const Pose& begin_from_end,
-                 double stamp,
-                 std::uint64_t frame,
-                 const RenderOptions& options);
+RgbdFrame apply_sensor_model(const RenderedImage& ideal,
+                             const Camera& camera,
+                             const Pose& begin_from_end,
+                             double stamp,
+                             std::uint64_t frame,
+                             const RenderOptions& options);
 
 }  // namespace loopbench::rgbd

@@ -28,12 +28,14 @@ struct PoseOptions {
 
 template <class Visit>
 void fields(PoseOptions& o, Visit visit) {
-  visit(
-      "pose.pixel_sigma", o.pixel_sigma, "standard deviation of a feature position [px]", Above{0});
+  visit("pose.pixel_sigma",
+        o.pixel_sigma,
+        "standard deviation of a feature position [px]",
+        GreaterThan{0});
   visit("pose.inverse_depth_sigma",
         o.inverse_depth_sigma,
         "standard deviation of the inverse depth [1/m]",
-        Above{0});
+        GreaterThan{0});
   visit("pose.ransac_iterations",
         o.ransac_iterations,
         "maximum number of RANSAC iterations",
@@ -41,11 +43,11 @@ void fields(PoseOptions& o, Visit visit) {
   visit("pose.ransac_pixels",
         o.ransac_pixels,
         "maximum reprojection error of a RANSAC inlier [px]",
-        Above{0});
+        GreaterThan{0});
   visit("pose.information_scale",
         o.information_scale,
         "factor on the information of a pose, below 1 because residuals are correlated [-]",
-        Above{0});
+        GreaterThan{0});
 }
 
 /// Estimates world_from_camera by P3P (Ke and Roumeliotis 2017) with RANSAC, using
@@ -60,7 +62,7 @@ struct RefinedPose {
   std::vector<bool> inlier = {};  ///< one per observation
   std::size_t inliers = 0;
   Matrix6 information = Matrix6::Zero();  ///< of the twist e in world_from_camera * exp(e)
-  double spread = 0.0;  ///< RMS of whitened inlier residuals; 1 if the noise model is correct
+  double residual_rms = 0.0;  ///< RMS of whitened inlier residuals; 1 if the noise model is correct
 };
 
 /// Refines a pose by Gauss-Newton on pixel and inverse-depth residuals with Huber weights. After

@@ -39,7 +39,7 @@ KeyframePair match_pair(const Keyframe& a,
   KeyframePair out;
   out.first_from_second = a.world_from_camera.inverse() * b.world_from_camera;
   const Features& features = a.features;
-  std::vector<Seen> points;
+  std::vector<MapPoint> points;
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < features.size(); ++i) {
     const Feature& f = features.points[i];
@@ -47,13 +47,13 @@ KeyframePair match_pair(const Keyframe& a,
     points.push_back({point_of(f, camera), f.octave, i});
     rows.push_back(i);
   }
-  for (const Match& match : match_near(points,
-                                       features,
-                                       b.features,
-                                       camera,
-                                       out.first_from_second,
-                                       kSearchRadius * camera.width,
-                                       options.match)) {
+  for (const Match& match : match_guided(points,
+                                         features,
+                                         b.features,
+                                         camera,
+                                         out.first_from_second,
+                                         kSearchRadius * camera.width,
+                                         options.match)) {
     out.matches.push_back({features.points[rows[match.a]], b.features.points[match.b]});
   }
   return out;
@@ -145,7 +145,7 @@ FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
       pair.first_from_second = pose.world_from_camera;
       const FactorEquation equation = factor_equation(observations, pose, scaled, options.pose);
       const double weight =
-          options.pose.information_scale / std::max(1.0, pose.spread * pose.spread);
+          options.pose.information_scale / std::max(1.0, pose.residual_rms * pose.residual_rms);
       sum.curvature += weight * equation.curvature;
       sum.gradient += weight * equation.gradient;
     }

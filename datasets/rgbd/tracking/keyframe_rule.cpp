@@ -6,12 +6,12 @@
 
 namespace loopbench::rgbd {
 
-double novelty(const View& view, const KeyframeOptions& o) {
+double novelty(const FrameRelation& view, const KeyframeOptions& o) {
   const double common = static_cast<double>(view.common);
   const double share = view.points == 0 ? 0.0 : common / static_cast<double>(view.points);
   return std::max({(1.0 - share) / (1.0 - o.tracked_min),
                    static_cast<double>(o.common_min) / std::max(common, 1.0),
-                   view.way / std::max(view.depth, 0.1) / o.parallax_max,
+                   view.distance / std::max(view.depth, 0.1) / o.parallax_max,
                    view.angle * 180.0 / std::numbers::pi / o.angle_max,
                    view.time / o.time_max});
 }

@@ -33,22 +33,22 @@ void fields(KeyframeOptions& o, Visit visit) {
   visit("keyframes.parallax_max",
         o.parallax_max,
         "new keyframe above this distance to the last one, relative to the median depth [-]",
-        Above{0});
+        GreaterThan{0});
   visit("keyframes.angle_max",
         o.angle_max,
         "new keyframe above this rotation angle to the last one [deg]",
-        Above{0});
+        GreaterThan{0});
   visit("keyframes.time_max",
         o.time_max,
         "new keyframe above this time since the last one [s]",
-        Above{0});
+        GreaterThan{0});
 }
 
 /// Relation of a frame to the last keyframe.
-struct View {
+struct FrameRelation {
   std::size_t points = 0;  ///< number of points observed in the keyframe
   std::size_t common = 0;  ///< number of these points also observed in the frame
-  double way = 0.0;        ///< distance between the two [m]
+  double distance = 0.0;   ///< distance between the two [m]
   double depth = 1.0;      ///< median depth of the frame [m]
   double angle = 0.0;      ///< rotation angle between the two [rad]
   double time = 0.0;       ///< time between the two [s]
@@ -56,7 +56,7 @@ struct View {
 
 /// Maximum over all criteria of the ratio of value and threshold. A frame becomes a keyframe if
 /// this reaches novelty_due().
-double novelty(const View& view, const KeyframeOptions& options);
+double novelty(const FrameRelation& view, const KeyframeOptions& options);
 
 /// Novelty threshold for a new keyframe. With options.target it doubles for each keyframe (of
 /// `made`) above the number planned up to `frame` of `frames`, and halves for each missing one;

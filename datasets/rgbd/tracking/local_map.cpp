@@ -30,7 +30,7 @@ void LocalMap::add(std::size_t keyframe,
   for (const Match& match : matches) {
     matched[match.b] = true;
     const Feature& feature = features.points[match.b];
-    Seen& point = points_[match.a];
+    MapPoint& point = points_[match.a];
     if (feature.depth > 0.0f) {
       const double weight = weight_at(static_cast<double>(feature.depth));
       double& sum = weights_[match.a];
@@ -55,7 +55,7 @@ void LocalMap::add(std::size_t keyframe,
   }
 }
 
-std::vector<std::size_t> LocalMap::seen_by(std::size_t keyframe) const {
+std::vector<std::size_t> LocalMap::points_last_seen_in(std::size_t keyframe) const {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (last_seen_[k] == keyframe) out.push_back(k);

@@ -12,11 +12,11 @@ namespace loopbench::rgbd {
 
 class LocalMap {
  public:
-  const std::vector<Seen>& points() const { return points_; }
-  const Features& looks() const { return features_; }  ///< descriptor row k of points()[k]
+  const std::vector<MapPoint>& points() const { return points_; }
+  const Features& descriptors() const { return features_; }  ///< descriptor row k of points()[k]
 
   /// Index of the last keyframe that observed point k.
-  std::size_t last_seen(std::size_t k) const { return last_seen_[k]; }
+  std::size_t last_keyframe_of(std::size_t k) const { return last_seen_[k]; }
 
   /// Adds a keyframe. Matched points (a: point, b: feature) are updated to the mean weighted by the
   /// inverse variance of depth, and their descriptors are replaced. Unmatched features with depth
@@ -30,14 +30,14 @@ class LocalMap {
            const Pose& world_from_camera);
 
   /// Indices of the points last observed in `keyframe`. O(points).
-  std::vector<std::size_t> seen_by(std::size_t keyframe) const;
+  std::vector<std::size_t> points_last_seen_in(std::size_t keyframe) const;
 
   void clear() { *this = {}; }
 
  private:
   void forget(std::size_t before);
 
-  std::vector<Seen> points_;
+  std::vector<MapPoint> points_;
   std::vector<double> weights_;
   std::vector<std::size_t> last_seen_;
   Features features_;

@@ -2,7 +2,7 @@
 
 namespace loopbench::rgbd {
 
-std::vector<Observation> observations(const std::vector<Seen>& points,
+std::vector<Observation> observations(const std::vector<MapPoint>& points,
                                       const Features& features,
                                       const std::vector<Match>& matches) {
   std::vector<Observation> out;

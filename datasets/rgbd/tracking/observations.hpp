@@ -6,7 +6,7 @@
 namespace loopbench::rgbd {
 
 /// Converts matches to observations of map points in an image, in the same order. O(matches).
-std::vector<Observation> observations(const std::vector<Seen>& points,
+std::vector<Observation> observations(const std::vector<MapPoint>& points,
                                       const Features& features,
                                       const std::vector<Match>& matches);
 

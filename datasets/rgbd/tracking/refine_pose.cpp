@@ -92,9 +92,9 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
       out.information.setZero();
       return out;
     }
-    out.spread = std::sqrt(sum / std::max(1.0, dimension - 6.0));
+    out.residual_rms = std::sqrt(sum / std::max(1.0, dimension - 6.0));
   }
-  out.information *= options.information_scale / std::max(1.0, out.spread * out.spread);
+  out.information *= options.information_scale / std::max(1.0, out.residual_rms * out.residual_rms);
   out.information = (0.5 * (out.information + out.information.transpose())).eval();
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "datasets/core/upper_median.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "datasets/rgbd/tracking/observations.hpp"
 
@@ -23,9 +24,7 @@ double median_depth(const Features& features) {
     if (f.depth > 0.0f) depths.push_back(f.depth);
   }
   if (depths.empty()) return 1.0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(upper_median(depths));
 }
 
 }  // namespace
@@ -51,13 +50,13 @@ std::optional<Tracker::Located> Tracker::estimate_pose(const Features& features,
   if (initial.inliers < min_inliers / 2) return std::nullopt;
 
   const double radius = kNarrower * options_.match.radius * camera_.width;
-  std::vector<Match> guided = match_near(map_.points(),
-                                         map_.looks(),
-                                         features,
-                                         camera_,
-                                         initial.world_from_camera,
-                                         radius,
-                                         options_.match);
+  std::vector<Match> guided = match_guided(map_.points(),
+                                           map_.descriptors(),
+                                           features,
+                                           camera_,
+                                           initial.world_from_camera,
+                                           radius,
+                                           options_.match);
   const RefinedPose pose = refine_pose(observations(map_.points(), features, guided),
                                        camera_,
                                        initial.world_from_camera,
@@ -75,13 +74,13 @@ std::optional<Tracker::Located> Tracker::estimate_pose(const Features& features,
 std::optional<Tracker::Located> Tracker::locate(const Features& features,
                                                 const Pose& prediction) const {
   const auto near = [&](double wider) {
-    return match_near(map_.points(),
-                      map_.looks(),
-                      features,
-                      camera_,
-                      prediction,
-                      wider * options_.match.radius * camera_.width,
-                      options_.match);
+    return match_guided(map_.points(),
+                        map_.descriptors(),
+                        features,
+                        camera_,
+                        prediction,
+                        wider * options_.match.radius * camera_.width,
+                        options_.match);
   };
   std::vector<Match> matches = near(1.0);
   if (matches.size() < kFewMatches) matches = near(kWider);
@@ -90,32 +89,32 @@ std::optional<Tracker::Located> Tracker::locate(const Features& features,
 }
 
 std::vector<Match> Tracker::match_last_keyframe(const Features& features) const {
-  const std::vector<std::size_t> recent = map_.seen_by(out_.keyframes.size() - 1);
+  const std::vector<std::size_t> recent = map_.points_last_seen_in(out_.keyframes.size() - 1);
   Features candidates;
-  candidates.bytes = map_.looks().bytes;
-  candidates.binary = map_.looks().binary;
+  candidates.bytes = map_.descriptors().bytes;
+  candidates.binary = map_.descriptors().binary;
   for (const std::size_t k : recent) {
-    const std::uint8_t* row = map_.looks().descriptor(k);
-    candidates.points.push_back(map_.looks().points[k]);
+    const std::uint8_t* row = map_.descriptors().descriptor(k);
+    candidates.points.push_back(map_.descriptors().points[k]);
     candidates.descriptors.insert(candidates.descriptors.end(), row, row + candidates.bytes);
   }
-  std::vector<Match> out = match_everywhere(candidates, features, options_.match);
+  std::vector<Match> out = match_exhaustive(candidates, features, options_.match);
   for (Match& match : out) match.a = recent[match.a];
   return out;
 }
 
-View Tracker::view(const Located& located) const {
+FrameRelation Tracker::view(const Located& located) const {
   const std::size_t last = out_.keyframes.size() - 1;
   const Keyframe& keyframe = out_.keyframes.back();
-  View view;
+  FrameRelation view;
   for (std::size_t k = 0; k < map_.points().size(); ++k) {
-    if (map_.last_seen(k) == last) ++view.points;
+    if (map_.last_keyframe_of(k) == last) ++view.points;
   }
   for (const Match& match : located.matches) {
-    if (map_.last_seen(match.a) == last) ++view.common;
+    if (map_.last_keyframe_of(match.a) == last) ++view.common;
   }
   const Pose step = keyframe.world_from_camera.inverse() * located.world_from_camera;
-  view.way = step.translation.norm();
+  view.distance = step.translation.norm();
   view.angle = log_so3(step.rotation).norm();
   view.depth = median_depth(located.features);
   view.time = located.stamp - keyframe.stamp;
@@ -125,7 +124,7 @@ View Tracker::view(const Located& located) const {
 void Tracker::make_keyframe(Located located) {
   const std::size_t index = out_.keyframes.size();
   if (index > 0) {
-    out_.common_view.push_back(view(located).common);
+    out_.shared_landmarks.push_back(view(located).common);
     const Pose step = out_.keyframes.back().world_from_camera.inverse() * located.world_from_camera;
     out_.odometry.push_back({index - 1, index, normalized(step), located.information});
   }
@@ -212,7 +211,7 @@ void Tracker::add(std::size_t frame, double stamp, Features features) {
   }
 }
 
-Tracked Tracker::finish() {
+TrackingResult Tracker::finish() {
   if (lost_since_) {
     out_.notes.push_back(
         fmt::format("tracking lost at {:.3f} s until the end: {} frames have no pose",

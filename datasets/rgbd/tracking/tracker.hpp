@@ -48,14 +48,14 @@ struct Keyframe {
 };
 
 /// Result of tracking. The world frame is the camera frame of the first keyframe.
-struct Tracked {
+struct TrackingResult {
   std::vector<Keyframe> keyframes = {};
-  std::vector<Edge> odometry = {};            ///< one per pair of consecutive keyframes
-  std::vector<std::size_t> common_view = {};  ///< points common to these keyframes
-  Trajectory frames = {};                     ///< tracked frames that are not keyframes
-  std::size_t lost = 0;                       ///< number of frames without a pose
-  std::size_t skipped = 0;                    ///< number of frames that could not be read
-  std::vector<std::string> notes = {};        ///< tracking losses and recoveries
+  std::vector<Edge> odometry = {};                 ///< one per pair of consecutive keyframes
+  std::vector<std::size_t> shared_landmarks = {};  ///< points common to these keyframes
+  Trajectory frames = {};                          ///< tracked frames that are not keyframes
+  std::size_t lost = 0;                            ///< number of frames without a pose
+  std::size_t skipped = 0;                         ///< number of frames that could not be read
+  std::vector<std::string> notes = {};             ///< tracking losses and recoveries
 };
 
 /// Tracks an RGB-D camera. Call add() for each frame in order, then finish().
@@ -75,7 +75,7 @@ class Tracker {
   void add(std::size_t frame, double stamp, Features features);
 
   /// Returns the result. The last tracked frame becomes a keyframe. Call once.
-  Tracked finish();
+  TrackingResult finish();
 
  private:
   struct Located {
@@ -92,7 +92,7 @@ class Tracker {
   std::optional<Located> estimate_pose(const Features& features,
                                        const std::vector<Match>& matches) const;
   Pose predicted(double stamp) const;
-  View view(const Located& located) const;
+  FrameRelation view(const Located& located) const;
   void start_map(std::size_t frame, double stamp, Features features);
   void handle_lost_frame(std::size_t frame, double stamp, Features features);
   void make_keyframe(Located located);
@@ -100,7 +100,7 @@ class Tracker {
   Camera camera_;
   std::size_t count_;
   TrackOptions options_;
-  Tracked out_;
+  TrackingResult out_;
   LocalMap map_;
   std::optional<Located> last_;       ///< last tracked frame if it is not a keyframe
   Trajectory recent_;                 ///< the last two poses, for the velocity

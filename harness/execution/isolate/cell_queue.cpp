@@ -9,41 +9,41 @@ CellQueue::CellQueue(const std::vector<Cell>& cells) {
   std::vector<std::size_t> datasets;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
-    const auto [place, fresh] = known.try_emplace({cell.dataset, cell.repeat}, groups_.size());
+    const auto [entry, fresh] = known.try_emplace({cell.dataset, cell.repeat}, groups_.size());
     if (fresh) groups_.emplace_back();
-    groups_[place->second].push_back(i);
-    group_of_.push_back(place->second);
+    groups_[entry->second].push_back(i);
+    group_of_.push_back(entry->second);
     if (datasets.empty() || datasets.back() != cell.dataset) {
       datasets.push_back(cell.dataset);
       first_of_datasets_.push_back(i);
     }
   }
   for (const auto& group : groups_) unfinished_.push_back(group.size());
-  begun_.assign(groups_.size(), false);
+  started_.assign(groups_.size(), false);
 }
 
 std::optional<std::size_t> CellQueue::next(std::optional<std::size_t>& group) {
   const auto take = [&](std::size_t from) {
-    if (!begun_[from]) open_.push_back(from);
-    begun_[from] = true;
+    if (!started_[from]) open_.push_back(from);
+    started_[from] = true;
     group = from;
     const std::size_t index = groups_[from].front();
     groups_[from].pop_front();
     return index;
   };
   if (group && !groups_[*group].empty()) return take(*group);
-  while (untouched_ < groups_.size() && begun_[untouched_]) ++untouched_;
-  if (untouched_ < groups_.size()) return take(untouched_);
+  while (first_unstarted_ < groups_.size() && started_[first_unstarted_]) ++first_unstarted_;
+  if (first_unstarted_ < groups_.size()) return take(first_unstarted_);
   std::erase_if(open_, [&](std::size_t g) { return groups_[g].empty(); });
   if (open_.empty()) return std::nullopt;
   return take(
       *std::ranges::max_element(open_, {}, [&](std::size_t g) { return groups_[g].size(); }));
 }
 
-void CellQueue::give_back(std::size_t index) {
+void CellQueue::requeue(std::size_t index) {
   const std::size_t group = group_of_[index];
   groups_[group].push_front(index);
-  if (begun_[group] && std::ranges::count(open_, group) == 0) open_.push_back(group);
+  if (started_[group] && std::ranges::count(open_, group) == 0) open_.push_back(group);
 }
 
 }  // namespace loopbench::harness

@@ -22,7 +22,7 @@ class CellQueue {
   std::optional<std::size_t> next(std::optional<std::size_t>& group);
 
   /// Returns a cell whose worker ended before starting it.
-  void give_back(std::size_t index);
+  void requeue(std::size_t index);
 
   /// Marks a cell as done; returns whether it was the last of its group.
   bool finish(std::size_t index) { return --unfinished_[group_of_[index]] == 0; }
@@ -37,8 +37,8 @@ class CellQueue {
   std::vector<std::size_t> group_of_;            ///< by cell
   std::vector<std::size_t> first_of_datasets_;
   std::vector<std::size_t> unfinished_;  ///< by group
-  std::vector<bool> begun_;              ///< by group
-  std::size_t untouched_ = 0;            ///< all groups before this one are started
+  std::vector<bool> started_;            ///< by group
+  std::size_t first_unstarted_ = 0;      ///< all groups before this one are started
   std::vector<std::size_t> open_;        ///< started groups that can have cells left
 };
 

@@ -55,7 +55,7 @@ class IsolatedSweep {
         stop_(stop),
         finished_(finished),
         queue_(context.cells),
-        facts_(context.cells.size()),
+        metadata_(context.cells.size()),
         slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
         pinned_(context.sweep.serial ? last_core() : -1) {}
 
@@ -125,7 +125,7 @@ class IsolatedSweep {
       const Limits& limits = context_.sweep.limits;
       if (limits.memory > 0) at_most(kMemoryWatch);
       if (limits.seconds > 0.0) {
-        const bool idle = slot.process->board().job == Board::kIdle;
+        const bool idle = slot.process->shared_status().job == SharedStatus::kIdle;
         const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(slot) * 1e3);
         at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
       }
@@ -134,15 +134,19 @@ class IsolatedSweep {
   }
 
   static double busy_for(const WorkerSlot& slot) {
-    return 1e-9 * static_cast<double>(steady_nanoseconds() - slot.process->board().since);
+    return 1e-9 * static_cast<double>(steady_nanoseconds() - slot.process->shared_status().since);
   }
 
   /// Kills a worker that exceeds a limit.
   void watch(WorkerSlot& slot) {
-    const Board& board = slot.process->board();
-    const std::uint64_t job = board.job;
-    if (slot.verdict || job == Board::kIdle) return;
-    const char* doing = board.loading ? "loading its sequence" : "the cell";
+    const SharedStatus& shared_status = slot.process->shared_status();
+    const std::uint64_t job = shared_status.job;
+    if (slot.verdict || job == SharedStatus::kIdle) return;
+    if (job >= context_.cells.size()) {  // the worker has corrupted its memory
+      slot.process->kill();
+      return;
+    }
+    const char* doing = shared_status.loading ? "loading its sequence" : "the cell";
     const Limits& limits = context_.sweep.limits;
     CellResult verdict;
     verdict.cell = context_.cells[job];
@@ -185,9 +189,9 @@ class IsolatedSweep {
     if (slot.jobs.empty() || header.cell != slot.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
     if (header.kind == Header::Kind::loaded) {
-      auto facts = std::make_shared<SequenceFacts>();
-      if (!unpacked(body, *facts)) return false;
-      keep(header.cell, std::move(facts));
+      auto metadata = std::make_shared<SequenceMetadata>();
+      if (!unpacked(body, *metadata)) return false;
+      keep(header.cell, std::move(metadata));
       return true;
     }
     if (header.kind == Header::Kind::result) {
@@ -211,32 +215,32 @@ class IsolatedSweep {
     }
   }
 
-  void keep(std::size_t cell, std::shared_ptr<const SequenceFacts> facts) {
-    std::shared_ptr<const SequenceFacts>& kept = facts_[queue_.group_of(cell)];
-    if (kept &&
-        !std::ranges::equal(kept->inputs, facts->inputs, {}, &InputFile::hash, &InputFile::hash)) {
-      throw InputError(facts->inputs.front().path +
+  void keep(std::size_t cell, std::shared_ptr<const SequenceMetadata> metadata) {
+    std::shared_ptr<const SequenceMetadata>& kept = metadata_[queue_.group_of(cell)];
+    if (kept && !std::ranges::equal(
+                    kept->inputs, metadata->inputs, {}, &InputFile::hash, &InputFile::hash)) {
+      throw InputError(metadata->inputs.front().path +
                        " or a file read with it changed during the run");
     }
     if (kept) return;
     // Every worker loads its own copy, but the notes are printed once.
-    tell(context_.sweep.datasets[context_.cells[cell].dataset].label, facts->notes);
-    kept = std::move(facts);
+    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label, metadata->notes);
+    kept = std::move(metadata);
   }
 
   void finish(CellResult& result, std::size_t cell) {
     const std::size_t group = queue_.group_of(cell);
-    result.facts = facts_[group];
-    flag_trained_on_judged(result, context_.sweep);
-    if (queue_.finish(cell)) facts_[group].reset();  // no longer needed
+    result.metadata = metadata_[group];
+    flag_trained_on_evaluated(result, context_.sweep);
+    if (queue_.finish(cell)) metadata_[group].reset();  // no longer needed
     finished_(result);
   }
 
   /// Handles the end of a worker: sets the result of its current cell and requeues the others.
   void reap(WorkerSlot& slot) {
     const WorkerProcess::End end = slot.process->end();
-    const bool loading = slot.process->board().loading;
-    const bool idle = slot.process->board().job == Board::kIdle;
+    const bool loading = slot.process->shared_status().loading;
+    const bool idle = slot.process->shared_status().job == SharedStatus::kIdle;
     slot.process.reset();
     slot.bytes.clear();
     std::deque<Job> jobs = std::exchange(slot.jobs, {});
@@ -245,11 +249,11 @@ class IsolatedSweep {
     const Job first = jobs.front();
     const Cell& cell = context_.cells[first.cell];
     if (verdict && verdict->cell.index != cell.index) {
-      give_back(jobs);  // it had answered everything
+      requeue(jobs);  // it had answered everything
       return;
     }
     jobs.pop_front();
-    give_back(jobs);
+    requeue(jobs);
     if (first.only_load) return;  // each of its cells will report the failure
     CellResult result = verdict ? *verdict : CellResult{};
     result.cell = cell;
@@ -262,14 +266,13 @@ class IsolatedSweep {
       if (loading && !idle) result.why += ", while loading its sequence";
     }
     result.worker = {true, context_.sweep.serial, context_.sweep.serial};
-    result.oracle_method =
-        is_shown_reference(context_.sweep.methods[cell.method], context_.catalogue);
+    result.oracle_method = uses_reference(context_.sweep.methods[cell.method], context_.catalogue);
     finish(result, first.cell);
   }
 
-  void give_back(const std::deque<Job>& jobs) {
+  void requeue(const std::deque<Job>& jobs) {
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
-      if (!job->only_load) queue_.give_back(job->cell);
+      if (!job->only_load) queue_.requeue(job->cell);
     }
   }
 
@@ -279,7 +282,7 @@ class IsolatedSweep {
   CellQueue queue_;
   std::deque<Job> loads_;
   bool loads_done_ = false;
-  std::vector<std::shared_ptr<const SequenceFacts>> facts_;  ///< by group
+  std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;  ///< by group
   std::vector<WorkerSlot> slots_;
   int pinned_;
 };

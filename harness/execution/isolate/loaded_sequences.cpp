@@ -27,8 +27,8 @@ const LoadedSequences::Entry* LoadedSequences::find(const Cell& cell) {
 
 const LoadedSequences::Entry& LoadedSequences::load(const Cell& cell) {
   Sequence sequence = load_sequence(cell, context_.sweep, context_.catalogue, context_.root);
-  SequenceFacts facts = facts_of(sequence, cell, context_.sweep);
-  entries_.push_front({cell.dataset, cell.repeat, std::move(sequence), std::move(facts)});
+  SequenceMetadata metadata = metadata_of(sequence, cell, context_.sweep);
+  entries_.push_front({cell.dataset, cell.repeat, std::move(sequence), std::move(metadata)});
   std::size_t total = 0;
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     total += bytes_of(entry->sequence);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "harness/execution/isolate/worker.hpp"
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
 
@@ -15,7 +15,7 @@ class LoadedSequences {
     std::size_t dataset = 0;
     int repeat = 0;
     Sequence sequence;
-    SequenceFacts facts;
+    SequenceMetadata metadata;
   };
 
   explicit LoadedSequences(const WorkerContext& context) : context_(context) {}

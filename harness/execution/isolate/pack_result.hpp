@@ -38,11 +38,12 @@ requires std::same_as<std::remove_const_t<T>, InputFile>
 void walk(Archive& a, T& file) { a(file.option)(file.path)(file.bytes)(file.hash); }
 
 template <class Archive, class T>
-requires std::same_as<std::remove_const_t<T>, SequenceFacts>
-void walk(Archive& a, T& facts) {
-  a(facts.inputs)(facts.closures)(facts.oracle_closures)(facts.size)(facts.notes);
-  a(facts.content)(facts.source)(facts.group);
-  a(facts.trace.origin)(facts.trace.reference)(facts.trace.keyframes)(facts.trace.closures);
+requires std::same_as<std::remove_const_t<T>, SequenceMetadata>
+void walk(Archive& a, T& metadata) {
+  a(metadata.inputs)(metadata.closures)(metadata.oracle_closures)(metadata.size)(metadata.notes);
+  a(metadata.content)(metadata.source)(metadata.group);
+  a(metadata.trace.origin)(metadata.trace.reference)(metadata.trace.keyframes)(
+      metadata.trace.closures);
 }
 
 /// All members except the metadata of its sequence, which are sent once for all its cells.

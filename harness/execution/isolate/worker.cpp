@@ -52,11 +52,11 @@ bool pin(int core) {
   return sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
-void begin(Board& board, std::uint64_t job, bool loading) {
+void begin(SharedStatus& shared_status, std::uint64_t job, bool loading) {
   // Store the time first: the sweep must not combine an old time with a new job.
-  board.since = steady_nanoseconds();
-  board.loading = loading;
-  board.job = job;
+  shared_status.since = steady_nanoseconds();
+  shared_status.loading = loading;
+  shared_status.job = job;
 }
 
 /// Detects a method that exceeded the limit between two checks by the sweep.
@@ -76,34 +76,34 @@ std::int64_t steady_nanoseconds() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-void serve(const WorkerContext& context, int socket, Board& board, int pinned) {
+void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int pinned) {
   const Worker how{true, pinned >= 0, pinned >= 0 && pin(pinned)};
   LoadedSequences loaded(context);
   for (Job job; receive_all(socket, &job, sizeof job);) {
     const Cell& cell = context.cells[job.cell];
     const LoadedSequences::Entry* entry = loaded.find(cell);
     if (entry == nullptr) {
-      begin(board, job.cell, true);
+      begin(shared_status, job.cell, true);
       try {
         entry = &loaded.load(cell);
       } catch (const std::exception& error) {
         answer(socket, Header::Kind::cannot_load, job.cell, error.what());
         return;
       }
-      Packer facts;
-      facts(entry->facts);
-      if (!answer(socket, Header::Kind::loaded, job.cell, facts.bytes())) return;
+      Packer metadata;
+      metadata(entry->metadata);
+      if (!answer(socket, Header::Kind::loaded, job.cell, metadata.bytes())) return;
     }
     if (job.only_load) {
-      board.job = Board::kIdle;
+      shared_status.job = SharedStatus::kIdle;
       if (!answer(socket, Header::Kind::only_loaded, job.cell, "")) return;
       continue;
     }
-    begin(board, job.cell, false);
+    begin(shared_status, job.cell, false);
     CellResult result = run_cell(cell, context.sweep, entry->sequence, context.catalogue);
     result.worker = how;
     apply_limits(context.sweep.limits, result);
-    board.job = Board::kIdle;
+    shared_status.job = SharedStatus::kIdle;
     Packer packed;
     packed(result);
     if (!answer(socket, Header::Kind::result, job.cell, packed.bytes())) return;

@@ -11,7 +11,7 @@
 namespace loopbench::harness {
 
 /// Status of a worker in memory shared with the sweep, which checks the time limit.
-struct Board {
+struct SharedStatus {
   static constexpr std::uint64_t kIdle = ~std::uint64_t{0};
   std::atomic<std::uint64_t> job = kIdle;  ///< Job::cell
   std::atomic<std::int64_t> since = 0;     ///< start of the job [ns], steady clock
@@ -27,7 +27,7 @@ struct Job {
 /// Header of each message, followed by `size` bytes; sent as raw memory within one program.
 struct Header {
   enum class Kind : std::uint32_t {
-    loaded,       ///< SequenceFacts of a job's sequence, which was loaded for it
+    loaded,       ///< SequenceMetadata of a job's sequence, which was loaded for it
     cannot_load,  ///< message of the InputError, which ends the sweep
     result,       ///< CellResult
     only_loaded,  ///< a job with only_load is done
@@ -47,7 +47,7 @@ struct WorkerContext {
 
 /// Reads jobs from `socket` and answers there until it is closed. `pinned`: the core to run on, or
 /// -1. Does not throw; returns early if it cannot answer.
-void serve(const WorkerContext& context, int socket, Board& board, int pinned);
+void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int pinned);
 
 /// Steady clock [ns], common to all processes.
 std::int64_t steady_nanoseconds();

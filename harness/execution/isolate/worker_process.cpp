@@ -35,24 +35,24 @@ void offer_to_be_ended_first() {
 }  // namespace
 
 WorkerProcess::WorkerProcess(const WorkerContext& context, int pinned) {
-  void* shared =
-      mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* shared = mmap(
+      nullptr, sizeof(SharedStatus), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw refused("shared memory");
-  board_ = new (shared) Board;
+  shared_status_ = new (shared) SharedStatus;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    munmap(board_, sizeof(Board));
+    munmap(shared_status_, sizeof(SharedStatus));
     throw refused("socket pair");
   }
   std::fflush(nullptr);  // otherwise the worker would print buffered output again
   const pid_t parent = getpid();
   process_ = fork();
-  if (process_ == 0) be_worker(context, pinned, ends[1], parent);
+  if (process_ == 0) run_child(context, pinned, ends[1], parent);
   close(ends[1]);
   socket_ = ends[0];
   if (process_ > 0) return;
   close(socket_);
-  munmap(board_, sizeof(Board));
+  munmap(shared_status_, sizeof(SharedStatus));
   throw refused("fork");
 }
 
@@ -62,10 +62,10 @@ WorkerProcess::~WorkerProcess() {
     end();
   }
   close(socket_);
-  munmap(board_, sizeof(Board));
+  munmap(shared_status_, sizeof(SharedStatus));
 }
 
-void WorkerProcess::be_worker(const WorkerContext& context, int pinned, int socket, pid_t parent) {
+void WorkerProcess::run_child(const WorkerContext& context, int pinned, int socket, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // the parent has died in the meantime
   std::signal(SIGINT, SIG_IGN);       // the sweep handles interrupts
@@ -77,7 +77,7 @@ void WorkerProcess::be_worker(const WorkerContext& context, int pinned, int sock
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   offer_to_be_ended_first();
-  serve(context, kSocket, *board_, pinned);
+  run_worker(context, kSocket, *shared_status_, pinned);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }

@@ -38,13 +38,13 @@ class WorkerProcess {
   /// Resident size [bytes], 0 if unknown.
   std::int64_t resident_memory() const;
 
-  const Board& board() const { return *board_; }
+  const SharedStatus& shared_status() const { return *shared_status_; }
   int socket() const { return socket_; }
 
  private:
-  [[noreturn]] void be_worker(const WorkerContext& context, int pinned, int socket, pid_t parent);
+  [[noreturn]] void run_child(const WorkerContext& context, int pinned, int socket, pid_t parent);
 
-  Board* board_ = nullptr;  ///< in shared memory
+  SharedStatus* shared_status_ = nullptr;  ///< in shared memory
   int socket_ = -1;
   pid_t process_ = -1;  ///< -1 after its end
 };

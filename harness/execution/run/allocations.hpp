@@ -6,10 +6,12 @@
 
 namespace loopbench::harness {
 
-/// Calls of malloc, calloc, realloc and the aligned variants by all threads so far, including those
-/// by `new`, Eigen and C libraries. nullopt under sanitizers and outside glibc, where they are not
-/// counted. A program that links this replaces malloc by a counting wrapper around glibc's, which
-/// costs about a nanosecond.
+using AllocationCounter = std::int64_t (*)();
+
+/// Sets the function that counts allocations, before any thread starts; null: they are not counted.
+void set_allocation_counter(AllocationCounter counter);
+
+/// Calls by all threads so far; nullopt where they are not counted.
 std::optional<std::int64_t> allocations();
 
 }  // namespace loopbench::harness

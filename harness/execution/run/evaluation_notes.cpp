@@ -8,7 +8,7 @@
 #include "datasets/core/polyline.hpp"
 #include "metrics/checks/association_error.hpp"
 #include "metrics/errors/ate.hpp"
-#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -4,7 +4,7 @@
 
 namespace loopbench::harness {
 
-std::string why_incomplete(const metrics::Coverage& coverage, double min_coverage) {
+std::string incomplete_reason(const metrics::Coverage& coverage, double min_coverage) {
   if (coverage.least() >= min_coverage) return "";
   return fmt::format(
       "evaluated {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",

@@ -8,6 +8,6 @@
 namespace loopbench::harness {
 
 /// Reason why the coverage (pairs or time) is below `min_coverage` (0..1); empty if it is not.
-std::string why_incomplete(const metrics::Coverage& coverage, double min_coverage);
+std::string incomplete_reason(const metrics::Coverage& coverage, double min_coverage);
 
 }  // namespace loopbench::harness

@@ -10,16 +10,16 @@
 namespace loopbench::harness {
 
 /// Whether a stage is one of harness/oracle.
-bool is_shown_reference(const MethodChoice& method, const Catalogue& catalogue);
+bool uses_reference(const MethodChoice& method, const Catalogue& catalogue);
 
 /// Message naming the calibration if it was trained on the reference or the noise of this sequence;
 /// otherwise empty. Compares sources, see source_of(), or dataset labels if a calibration file has
 /// no sources.
-std::string trained_on_judged(const MethodChoice& method,
-                              const DatasetChoice& dataset,
-                              const SequenceFacts& facts);
+std::string trained_on_evaluated(const MethodChoice& method,
+                                 const DatasetChoice& dataset,
+                                 const SequenceMetadata& metadata);
 
 /// Sets oracle_method of such a cell and adds the reason to its notes. Needs the cell's facts.
-void flag_trained_on_judged(CellResult& result, const Sweep& sweep);
+void flag_trained_on_evaluated(CellResult& result, const Sweep& sweep);
 
 }  // namespace loopbench::harness

@@ -35,7 +35,7 @@ double process_cpu_seconds() {
 
 std::optional<std::int64_t> resident_memory() { return from_status("VmRSS:"); }
 
-bool forget_peak_memory() {
+bool reset_peak_memory() {
   const int file = open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
   if (file < 0) return false;
   const bool done = write(file, "5", 1) == 1;  // proc(5): resets VmHWM

@@ -14,7 +14,7 @@ std::optional<std::int64_t> resident_memory();
 
 /// Resets the largest resident size, so that peak_memory() covers the time from now on. False if
 /// the system does not support it.
-bool forget_peak_memory();
+bool reset_peak_memory();
 
 /// Largest resident size since the reset or the start of the process [bytes].
 std::optional<std::int64_t> peak_memory();

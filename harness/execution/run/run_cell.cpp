@@ -12,7 +12,7 @@
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
-#include "metrics/trajectory/losses.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -45,8 +45,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Method& method,
                                    const Problem& problem,
                                    int runs) {
-  const std::optional<std::int64_t> before =
-      forget_peak_memory() ? resident_memory() : std::nullopt;
+  const std::optional<std::int64_t> before = reset_peak_memory() ? resident_memory() : std::nullopt;
   std::unique_ptr<const Curve> curve;
   for (int run = 0; run < runs; ++run) {
     curve.reset();  // so that its destruction is not timed with the next run
@@ -127,7 +126,7 @@ void judge(CellResult& result,
                           nullptr,
                           &sequence.loop_candidates};
     ScoreResult usual = row;
-    usual.why = why_incomplete(evaluation.coverage, sweep.min_coverage);
+    usual.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
     if (!usual.why.empty()) {
       usual.status = Status::incomplete;
       result.status = Status::incomplete;
@@ -205,7 +204,7 @@ CellResult run_cell(const Cell& cell,
   CellResult result;
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];
-  result.oracle_method = is_shown_reference(choice, catalogue);
+  result.oracle_method = uses_reference(choice, catalogue);
   catch_errors(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {

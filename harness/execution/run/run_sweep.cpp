@@ -62,8 +62,8 @@ void run_sweep(const Sweep& sweep,
   for_each_index(cells.size(), jobs, stop, [&](std::size_t i) {
     const auto sequence = sequences.get(cells[i]);
     CellResult result = run_cell(cells[i], sweep, *sequence, catalogue);
-    result.facts = sequences.facts(cells[i]);
-    flag_trained_on_judged(result, sweep);
+    result.metadata = sequences.metadata(cells[i]);
+    flag_trained_on_evaluated(result, sweep);
     if (jobs > 1) {  // the process also runs other cells
       result.cpu_seconds.clear();
       result.peak_memory = result.added_memory = result.allocations = std::nullopt;

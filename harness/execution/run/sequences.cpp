@@ -21,16 +21,17 @@ std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
   if (!slot.sequence) {
     slot.sequence =
         std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
-    slot.facts = std::make_shared<const SequenceFacts>(facts_of(*slot.sequence, cell, sweep_));
-    tell(sweep_.datasets[cell.dataset].label, slot.facts->notes);
+    slot.metadata =
+        std::make_shared<const SequenceMetadata>(metadata_of(*slot.sequence, cell, sweep_));
+    print_notes(sweep_.datasets[cell.dataset].label, slot.metadata->notes);
   }
   return slot.sequence;
 }
 
-std::shared_ptr<const SequenceFacts> Sequences::facts(const Cell& cell) {
+std::shared_ptr<const SequenceMetadata> Sequences::metadata(const Cell& cell) {
   Slot& slot = slots_.at({cell.dataset, cell.repeat});
   const std::lock_guard lock(slot.mutex);
-  return slot.facts;
+  return slot.metadata;
 }
 
 void Sequences::done(const Cell& cell) {
@@ -39,8 +40,8 @@ void Sequences::done(const Cell& cell) {
   if (--slot.waiting == 0) slot.sequence.reset();
 }
 
-SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
-  SequenceFacts out = sequence_facts(sequence, sweep.traces);
+SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
+  SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
   const std::string& group = sweep.datasets[cell.dataset].group;
   if (!group.empty()) out.group = "group:" + group;
   for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));

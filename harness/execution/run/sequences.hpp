@@ -9,14 +9,14 @@
 #include "datasets/core/sequence.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/cells.hpp"
-#include "harness/model/sequence_facts.hpp"
+#include "harness/model/sequence_metadata.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
 /// Metadata of the sequence of a cell; the dataset's `group` overrides the source. Throws
 /// InputError.
-SequenceFacts facts_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep);
+SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep);
 
 /// Thread-safe.
 class Sequences {
@@ -31,7 +31,7 @@ class Sequences {
   std::shared_ptr<const Sequence> get(const Cell& cell);
 
   /// Metadata of the sequence. Only after get().
-  std::shared_ptr<const SequenceFacts> facts(const Cell& cell);
+  std::shared_ptr<const SequenceMetadata> metadata(const Cell& cell);
 
   /// Declares that a cell does not need its sequence any more.
   void done(const Cell& cell);
@@ -40,7 +40,7 @@ class Sequences {
   struct Slot {
     std::mutex mutex;
     std::shared_ptr<const Sequence> sequence;
-    std::shared_ptr<const SequenceFacts> facts;
+    std::shared_ptr<const SequenceMetadata> metadata;
     std::size_t waiting = 0;  ///< unfinished cells
   };
   using Key = std::pair<std::size_t, int>;  // dataset, repeat

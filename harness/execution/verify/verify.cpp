@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kParts{"status", "scores", "report", "trace"};
 
-struct Print {
+struct Digest {
   std::array<Hash, kParts.size()> parts;  ///< in the order of kParts
   bool ended_worker = false;
 };
@@ -27,7 +27,7 @@ Hash hash_of_values(const T&... values) {
   return hash_of(pack.bytes());
 }
 
-Print result_digest(const CellResult& r) {
+Digest result_digest(const CellResult& r) {
   return {{hash_of_values(r.status, r.why, r.signal),
            hash_of_values(r.scores),
            hash_of_values(r.report.counts, r.report.notes, r.report.sections),
@@ -38,7 +38,7 @@ Print result_digest(const CellResult& r) {
 
 }  // namespace
 
-std::string Manner::name() const {
+std::string RunMode::name() const {
   const std::string what = isolated ? " worker" : " thread";
   return std::to_string(jobs) + what + (jobs == 1 ? "" : "s");
 }
@@ -47,39 +47,38 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const std::vector<Cell>& cells,
                                const Catalogue& catalogue,
                                const DataRoot& root,
-                               const std::vector<Manner>& manners,
+                               const std::vector<RunMode>& modes,
                                const std::atomic<bool>& stop,
-                               const std::function<void(const std::string& manner)>& step) {
-  std::map<std::size_t, std::size_t> place;  // index of a cell by its position
-  for (std::size_t i = 0; i < cells.size(); ++i) place.emplace(cells[i].index, i);
-  std::vector<std::optional<Print>> first(cells.size());
+                               const std::function<void(const std::string& mode)>& step) {
+  std::map<std::size_t, std::size_t> index_of_cell;  // index of a cell by its position
+  for (std::size_t i = 0; i < cells.size(); ++i) index_of_cell.emplace(cells[i].index, i);
+  std::vector<std::optional<Digest>> first(cells.size());
   std::vector<Difference> out;
-  for (std::size_t m = 0; m < manners.size(); ++m) {
-    const Manner& manner = manners[m];
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const RunMode& mode = modes[m];
     std::vector<Cell> chosen;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool crashes = first[i] && first[i]->ended_worker;
-      if (manner.isolated || !crashes) chosen.push_back(cells[i]);
+      if (mode.isolated || !crashes) chosen.push_back(cells[i]);
     }
     if (chosen.empty()) continue;
     std::vector<Difference> found;
     const auto finished = [&](const CellResult& result) {
-      step(manner.name());
-      const std::size_t cell = place.at(result.cell.index);
-      const Print print = result_digest(result);
-      if (m == 0) first[cell] = print;
+      step(mode.name());
+      const std::size_t cell = index_of_cell.at(result.cell.index);
+      const Digest digest = result_digest(result);
+      if (m == 0) first[cell] = digest;
       if (!first[cell]) return;  // interrupted
-      const auto differ = std::ranges::mismatch(print.parts, first[cell]->parts);
-      if (differ.in1 == print.parts.end()) return;
-      found.push_back({cell,
-                       manner.name(),
-                       kParts[static_cast<std::size_t>(differ.in1 - print.parts.begin())]});
+      const auto differ = std::ranges::mismatch(digest.parts, first[cell]->parts);
+      if (differ.in1 == digest.parts.end()) return;
+      found.push_back(
+          {cell, mode.name(), kParts[static_cast<std::size_t>(differ.in1 - digest.parts.begin())]});
     };
-    if (manner.isolated) {
-      run_isolated(sweep, chosen, catalogue, root, manner.jobs, stop, finished);
+    if (mode.isolated) {
+      run_isolated(sweep, chosen, catalogue, root, mode.jobs, stop, finished);
     } else {
       Sequences sequences(sweep, catalogue, root, chosen);
-      run_sweep(sweep, chosen, catalogue, sequences, manner.jobs, stop, finished);
+      run_sweep(sweep, chosen, catalogue, sequences, mode.jobs, stop, finished);
     }
     std::ranges::sort(found, {}, &Difference::cell);
     out.insert(out.end(), found.begin(), found.end());

@@ -13,7 +13,7 @@
 namespace loopbench::harness {
 
 /// Run mode of a sweep.
-struct Manner {
+struct RunMode {
   bool isolated = true;  ///< worker processes; otherwise threads of this process
   int jobs = 1;
 
@@ -23,7 +23,7 @@ struct Manner {
 /// A cell whose result differs from that of the first run mode.
 struct Difference {
   std::size_t cell = 0;  ///< index into the list of cells
-  std::string manner;
+  std::string mode;
   std::string part;  ///< "status", "scores", "trace" or "report": the first that differs
 };
 
@@ -34,8 +34,8 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const std::vector<Cell>& cells,
                                const Catalogue& catalogue,
                                const DataRoot& root,
-                               const std::vector<Manner>& manners,
+                               const std::vector<RunMode>& modes,
                                const std::atomic<bool>& stop,
-                               const std::function<void(const std::string& manner)>& step);
+                               const std::function<void(const std::string& mode)>& step);
 
 }  // namespace loopbench::harness

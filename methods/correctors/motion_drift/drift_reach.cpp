@@ -49,15 +49,15 @@ void limit_drift(std::vector<EdgeMotion>& motions, const Problem& problem, doubl
   std::vector<std::size_t> forwards(motions.size());
   for (std::size_t i = 0; i < forwards.size(); ++i) forwards[i] = i;
   const std::vector<std::size_t> backwards(forwards.rbegin(), forwards.rend());
-  for (const Growth growth : kGrowths) {
-    const auto along = [&](std::size_t i) { return grown(growth, motions[i]); };
+  for (const Regressor regressor : kRegressors) {
+    const auto along = [&](std::size_t i) { return regressor_value(regressor, motions[i]); };
     double covered = 0.0;
     for (const std::size_t i : forwards) covered += enclosed[i] ? along(i) : 0.0;
     std::vector<double> part(motions.size(), 0.0);
     reach_along(forwards, enclosed, reach * covered, along, part);
     reach_along(backwards, enclosed, reach * covered, along, part);
     for (const std::size_t i : forwards) {
-      motions[i].drift_part[static_cast<std::size_t>(growth)] = part[i];
+      motions[i].drift_part[static_cast<std::size_t>(regressor)] = part[i];
     }
   }
 }

@@ -18,9 +18,9 @@ std::vector<Eigen::Index> rows_of(const std::vector<std::size_t>& closures, bool
   return out;
 }
 
-Matrix6 block_of(Half half, const Matrix6& matrix) {
+Matrix6 block_of(Component component, const Matrix6& matrix) {
   Matrix6 out = Matrix6::Zero();
-  const Eigen::Index at = half == Half::translation ? 0 : 3;
+  const Eigen::Index at = component == Component::translation ? 0 : 3;
   out.block<3, 3>(at, at) = matrix.block<3, 3>(at, at);
   return out;
 }
@@ -30,35 +30,37 @@ Eigen::MatrixXd share_of(const Term& term,
                          const LoopSums& sums,
                          const Problem& problem,
                          const std::vector<EdgeMotion>& motions) {
-  const Eigen::Index half = term.half == Half::translation ? 0 : 3;
-  switch (term.cause) {
-    case Cause::noise:
-      return through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                             const auto columns = jacobian.edge[i].middleCols<3>(half);
-                             return grown(term.growth, motions[i]) * columns * columns.transpose();
-                           }));
-    case Cause::stated:
-      return through_loops(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                             return jacobian.edge[i] * problem.odometry[i].information.inverse() *
-                                    jacobian.edge[i].transpose();
-                           }));
-    case Cause::drift: {
-      const Eigen::MatrixXd shape =
-          through_loops_once(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                               return drifted(term.growth, motions[i]) * jacobian.edge[i];
-                             }));
+  const Eigen::Index component = term.component == Component::translation ? 0 : 3;
+  switch (term.kind) {
+    case TermKind::noise:
+      return propagate_covariance(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                                    const auto columns = jacobian.edge[i].middleCols<3>(component);
+                                    return regressor_value(term.regressor, motions[i]) * columns *
+                                           columns.transpose();
+                                  }));
+    case TermKind::stated:
+      return propagate_covariance(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+                                    return jacobian.edge[i] *
+                                           problem.odometry[i].information.inverse() *
+                                           jacobian.edge[i].transpose();
+                                  }));
+    case TermKind::drift: {
+      const Eigen::MatrixXd shape = propagate_drift(
+          jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
+            return drift_regressor_value(term.regressor, motions[i]) * jacobian.edge[i];
+          }));
       const Eigen::MatrixXd columns =
-          shape.middleCols(half + (term.axis < 0 ? 0 : term.axis), term.axis < 0 ? 3 : 1);
+          shape.middleCols(component + (term.axis < 0 ? 0 : term.axis), term.axis < 0 ? 3 : 1);
       return columns * columns.transpose();
     }
-    case Cause::closures:
+    case TermKind::closures:
       break;
   }
   const auto size = static_cast<Eigen::Index>(6 * sums.loops());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t k = 0; k < sums.loops(); ++k) {
     const auto at = static_cast<Eigen::Index>(6 * k);
-    out.block<6, 6>(at, at) = block_of(term.half, problem.closures[k].information.inverse());
+    out.block<6, 6>(at, at) = block_of(term.component, problem.closures[k].information.inverse());
   }
   return out;
 }
@@ -70,7 +72,7 @@ Evidence evidence_of(const MotionModel& model,
                      const Problem& problem,
                      const std::vector<EdgeMotion>& motions,
                      const std::vector<std::size_t>& closures) {
-  const LoopJacobian jacobian = chain.linearised();
+  const LoopJacobian jacobian = chain.linearise();
   Evidence out;
   out.rows = rows_of(closures, problem.planar);
   out.gap = jacobian.gap(out.rows);

@@ -18,15 +18,15 @@ LoopAverages::LoopAverages(const Problem& problem,
                            const std::vector<EdgeMotion>& motions,
                            const Eigen::VectorXd& gap)
     : problem_(problem), motions_(motions) {
-  for (const Half half : {Half::translation, Half::rotation}) {
-    means_[index(half)] = means_of(half, gap);
+  for (const Component component : {Component::translation, Component::rotation}) {
+    means_[index(component)] = means_of(component, gap);
   }
 }
 
-LoopAverages::Means LoopAverages::means_of(Half half, const Eigen::VectorXd& gap) const {
+LoopAverages::Means LoopAverages::means_of(Component component, const Eigen::VectorXd& gap) const {
   // A planar gap has only x, y and yaw; the other entries are zero.
-  const double axes = !problem_.planar ? 3.0 : half == Half::translation ? 2.0 : 1.0;
-  const auto first = static_cast<Eigen::Index>(3 * index(half));
+  const double axes = !problem_.planar ? 3.0 : component == Component::translation ? 2.0 : 1.0;
+  const auto first = static_cast<Eigen::Index>(3 * index(component));
   std::vector<double> gaps, stated;
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     const Matrix6 covariance = problem_.closures[k].information.inverse();
@@ -49,7 +49,7 @@ LoopAverages::Means LoopAverages::means_of(Half half, const Eigen::VectorXd& gap
 }
 
 template <class Of>
-double LoopAverages::mean_along_loops(Half half, bool squared, Of of) const {
+double LoopAverages::mean_along_loops(Component component, bool squared, Of of) const {
   const std::size_t edges = problem_.odometry.size();
   std::vector<double> sum(edges + 1, 0.0);
   for (std::size_t i = 0; i < edges; ++i) sum[i + 1] = sum[i] + of(i);
@@ -60,18 +60,19 @@ double LoopAverages::mean_along_loops(Half half, bool squared, Of of) const {
     const Edge& loop = problem_.closures[k];
     const double seconds = keyframes[loop.to].stamp - keyframes[loop.from].stamp;
     const double along = std::max(sum[loop.to] - sum[loop.from], per_second * seconds);
-    mean += means_[index(half)].weights[k] * (squared ? along * along : along);
+    mean += means_[index(component)].weights[k] * (squared ? along * along : along);
   }
   return mean;
 }
 
-double LoopAverages::motion(Half half, Growth growth, bool squared) const {
-  return mean_along_loops(half, squared, [&](std::size_t i) { return grown(growth, motions_[i]); });
+double LoopAverages::motion(Component component, Regressor regressor, bool squared) const {
+  return mean_along_loops(
+      component, squared, [&](std::size_t i) { return regressor_value(regressor, motions_[i]); });
 }
 
-double LoopAverages::stated_odometry(Half half) const {
-  const auto first = static_cast<Eigen::Index>(3 * index(half));
-  return mean_along_loops(half, false, [&](std::size_t i) {
+double LoopAverages::stated_odometry(Component component) const {
+  const auto first = static_cast<Eigen::Index>(3 * index(component));
+  return mean_along_loops(component, false, [&](std::size_t i) {
     return problem_.odometry[i].information.inverse().diagonal().segment<3>(first).mean();
   });
 }

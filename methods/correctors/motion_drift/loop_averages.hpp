@@ -23,18 +23,18 @@ class LoopAverages {
                const Eigen::VectorXd& gap);
 
   /// Mean squared gap per axis [m^2], [rad^2].
-  double gap(Half half) const { return means_[index(half)].gap; }
+  double gap(Component component) const { return means_[index(component)].gap; }
 
   /// Mean stated variance of the closures per axis [m^2], [rad^2].
-  double stated(Half half) const { return means_[index(half)].stated; }
+  double stated(Component component) const { return means_[index(component)].stated; }
 
   /// Mean over the loops of the (optionally squared) motion accumulated along a loop. O(edges +
   /// closures).
-  double motion(Half half, Growth growth, bool squared) const;
+  double motion(Component component, Regressor regressor, bool squared) const;
 
   /// Mean over the loops of the stated odometry variance per axis accumulated along a loop [m^2],
   /// [rad^2]. O(edges + closures).
-  double stated_odometry(Half half) const;
+  double stated_odometry(Component component) const;
 
  private:
   struct Means {
@@ -42,10 +42,10 @@ class LoopAverages {
     double stated = 0.0;
     std::vector<double> weights;  ///< one per closure, normalised to a sum of 1
   };
-  static std::size_t index(Half half) { return static_cast<std::size_t>(half); }
-  Means means_of(Half half, const Eigen::VectorXd& gap) const;
+  static std::size_t index(Component component) { return static_cast<std::size_t>(component); }
+  Means means_of(Component component, const Eigen::VectorXd& gap) const;
   template <class Of>
-  double mean_along_loops(Half half, bool squared, Of of) const;
+  double mean_along_loops(Component component, bool squared, Of of) const;
 
   const Problem& problem_;
   const std::vector<EdgeMotion>& motions_;

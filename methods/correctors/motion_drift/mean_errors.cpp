@@ -51,7 +51,7 @@ std::vector<Twist> edge_forces(const Eigen::VectorXd& multipliers,
 /// Keeps the axes of the term and sets the others to 0.
 Twist on_axes_of(const Term& term, const Twist& all) {
   Twist out = Twist::Zero();
-  const Eigen::Index at = term.half == Half::translation ? 0 : 3;
+  const Eigen::Index at = term.component == Component::translation ? 0 : 3;
   if (term.axis < 0) {
     out.segment<3>(at) = all.segment<3>(at);
   } else {
@@ -70,26 +70,26 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
   std::vector<std::size_t> all(problem.closures.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Evidence evidence = evidence_of(terms, chain, problem, motions, all);
-  const LoopJacobian jacobian = chain.linearised();
+  const LoopJacobian jacobian = chain.linearise();
   const std::vector<Eigen::VectorXd> multipliers =
       mean_multipliers(models, evidence, jacobian.gap.size());
 
   std::vector<Twist> out(motions.size(), Twist::Zero());
   for (std::size_t j = 0; j < terms.size(); ++j) {
     const Term& term = terms[j];
-    if (term.cause == Cause::closures) continue;
+    if (term.kind == TermKind::closures) continue;
     const std::vector<Twist> force = edge_forces(multipliers[j], jacobian, problem.closures);
     Twist total = Twist::Zero();  // drift: one rate along the whole chain
     for (std::size_t i = 0; i < force.size(); ++i) {
-      total += drifted(term.growth, motions[i]) * force[i];
+      total += drift_regressor_value(term.regressor, motions[i]) * force[i];
     }
     for (std::size_t i = 0; i < force.size(); ++i) {
-      if (term.cause == Cause::stated) {
+      if (term.kind == TermKind::stated) {
         out[i] -= problem.odometry[i].information.inverse() * force[i];
-      } else if (term.cause == Cause::drift) {
-        out[i] -= drifted(term.growth, motions[i]) * on_axes_of(term, total);
+      } else if (term.kind == TermKind::drift) {
+        out[i] -= drift_regressor_value(term.regressor, motions[i]) * on_axes_of(term, total);
       } else {
-        out[i] -= grown(term.growth, motions[i]) * on_axes_of(term, force[i]);
+        out[i] -= regressor_value(term.regressor, motions[i]) * on_axes_of(term, force[i]);
       }
     }
   }

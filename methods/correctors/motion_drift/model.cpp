@@ -13,7 +13,7 @@ constexpr double kFloor = 1e-9;
 /// `value` on the axes of the term, 0 elsewhere.
 Twist on_axes(const Term& term, double value) {
   Twist out = Twist::Zero();
-  const Eigen::Index at = term.half == Half::translation ? 0 : 3;
+  const Eigen::Index at = term.component == Component::translation ? 0 : 3;
   if (term.axis < 0) {
     out.segment<3>(at).setConstant(value);
   } else {
@@ -22,17 +22,17 @@ Twist on_axes(const Term& term, double value) {
   return out;
 }
 
-void add_odometry(ChainBelief& noise_model,
+void add_odometry(NoiseModel& noise_model,
                   const MotionModel& model,
                   const Problem& problem,
                   const std::vector<EdgeMotion>& motions) {
   noise_model.covariance.assign(motions.size(), Matrix6::Zero());
   for (const Term& term : model) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      if (term.cause == Cause::noise) {
+      if (term.kind == TermKind::noise) {
         noise_model.covariance[i].diagonal() +=
-            on_axes(term, term.value * grown(term.growth, motions[i]));
-      } else if (term.cause == Cause::stated) {
+            on_axes(term, term.value * regressor_value(term.regressor, motions[i]));
+      } else if (term.kind == TermKind::stated) {
         noise_model.covariance[i] += term.value * problem.odometry[i].information.inverse();
       }
     }
@@ -50,24 +50,25 @@ void add_odometry(ChainBelief& noise_model,
 }  // namespace
 
 std::string name_of(const Term& term) {
-  const std::string half = term.half == Half::translation ? "t" : "r";
-  if (term.cause == Cause::closures) return "closures." + half;
-  if (term.cause == Cause::stated) return "stated";
-  const std::string cause = term.cause == Cause::noise ? "noise." : "drift.";
+  const std::string component = term.component == Component::translation ? "t" : "r";
+  if (term.kind == TermKind::closures) return "closures." + component;
+  if (term.kind == TermKind::stated) return "stated";
+  const std::string kind = term.kind == TermKind::noise ? "noise." : "drift.";
   static constexpr const char* kAxes[] = {"", ".x", ".y", ".z"};
-  return cause + half + ".per_" + name_of(term.growth) + kAxes[term.axis + 1];
+  return kind + component + ".per_" + name_of(term.regressor) + kAxes[term.axis + 1];
 }
 
-ChainBelief belief_of(const MotionModel& model,
-                      const Problem& problem,
-                      const std::vector<EdgeMotion>& motions) {
-  ChainBelief out;
+NoiseModel noise_model_of(const MotionModel& model,
+                          const Problem& problem,
+                          const std::vector<EdgeMotion>& motions) {
+  NoiseModel out;
   add_odometry(out, model, problem, motions);
   Twist scale = Twist::Ones();  // factor on the closures' standard deviations
   for (const Term& term : model) {
-    if (term.cause != Cause::closures) continue;
+    if (term.kind != TermKind::closures) continue;
     const double deviation = std::sqrt(term.value);
-    (term.half == Half::translation ? scale.head<3>() : scale.tail<3>()).setConstant(deviation);
+    (term.component == Component::translation ? scale.head<3>() : scale.tail<3>())
+        .setConstant(deviation);
   }
   for (const Edge& loop : problem.closures) {
     const Twist inverse_scale = scale.cwiseInverse();
@@ -76,16 +77,17 @@ ChainBelief belief_of(const MotionModel& model,
     out.closure_information.push_back(inverse_scale.asDiagonal() * loop.information *
                                       inverse_scale.asDiagonal());
   }
-  for (const Growth growth : kGrowths) {
+  for (const Regressor regressor : kRegressors) {
     Twist rates = Twist::Zero();
     for (const Term& term : model) {
-      if (term.cause == Cause::drift && term.growth == growth) rates += on_axes(term, term.value);
+      if (term.kind == TermKind::drift && term.regressor == regressor)
+        rates += on_axes(term, term.value);
     }
     if (rates.isZero(0.0)) continue;
-    ChainBelief::Drift drift{{}, rates};
+    NoiseModel::Drift drift{{}, rates};
     drift.shape.reserve(motions.size());
     for (const EdgeMotion& motion : motions) {
-      drift.shape.push_back(Twist::Constant(drifted(growth, motion)));
+      drift.shape.push_back(Twist::Constant(drift_regressor_value(regressor, motion)));
     }
     out.drift.push_back(std::move(drift));
   }

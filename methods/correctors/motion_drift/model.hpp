@@ -10,21 +10,21 @@
 namespace loopbench::methods {
 
 /// Component of a twist that a term describes.
-enum class Half { translation, rotation };
+enum class Component { translation, rotation };
 
 /// noise: independent in every edge, with variance value * regressor on each axis. drift: one
 /// unknown constant rate per body axis along the whole chain, rate ~ N(0, value), error = rate *
 /// regressor. stated: value is a factor on the stated covariance of the odometry edges, added to
 /// the noise. closures: value is a factor on the stated covariance of the closures.
-enum class Cause { noise, drift, stated, closures };
+enum class TermKind { noise, drift, stated, closures };
 
 struct Term {
-  Cause cause;
-  Half half;           ///< ignored for stated
-  Growth growth;       ///< for noise and drift only
-  double value = 0.0;  ///< variance or factor, >= 0
-  bool given = false;  ///< the value was set by an option
-  int axis = -1;       ///< drift only: 0, 1, 2 for one axis of the component; -1 for all three
+  TermKind kind;
+  Component component;  ///< ignored for stated
+  Regressor regressor;  ///< for noise and drift only
+  double value = 0.0;   ///< variance or factor, >= 0
+  bool given = false;   ///< the value was set by an option
+  int axis = -1;        ///< drift only: 0, 1, 2 for one axis of the component; -1 for all three
 };
 
 /// Option name of a term, for example "noise.r.per_metre". The name of a single-axis drift ends in
@@ -34,8 +34,8 @@ std::string name_of(const Term& term);
 using MotionModel = std::vector<Term>;
 
 /// Returns the noise model of every edge and closure of the problem. O((edges + closures) terms).
-ChainBelief belief_of(const MotionModel& model,
-                      const Problem& problem,
-                      const std::vector<EdgeMotion>& motions);
+NoiseModel noise_model_of(const MotionModel& model,
+                          const Problem& problem,
+                          const std::vector<EdgeMotion>& motions);
 
 }  // namespace loopbench::methods

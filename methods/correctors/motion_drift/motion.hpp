@@ -9,14 +9,14 @@
 namespace loopbench::methods {
 
 /// Regressor of an error variance or of a drift.
-enum class Growth { edge, time, distance, rotation, speed };
-inline constexpr std::array kGrowths{
-    Growth::edge, Growth::time, Growth::distance, Growth::rotation, Growth::speed};
+enum class Regressor { edge, time, distance, rotation, speed };
+inline constexpr std::array kRegressors{
+    Regressor::edge, Regressor::time, Regressor::distance, Regressor::rotation, Regressor::speed};
 
 /// "edge", "second", "metre", "radian", "speed": the suffix of the options `per_...`.
-inline const char* name_of(Growth growth) {
+inline const char* name_of(Regressor regressor) {
   static constexpr const char* kNames[] = {"edge", "second", "metre", "radian", "speed"};
-  return kNames[static_cast<std::size_t>(growth)];
+  return kNames[static_cast<std::size_t>(regressor)];
 }
 
 struct EdgeMotion {
@@ -25,7 +25,7 @@ struct EdgeMotion {
   double radians = 0.0;  ///< angle of the measured rotation
   /// Per regressor, the fraction of the edge over which steady drift is extrapolated: see
   /// drift_reach.hpp.
-  std::array<double, kGrowths.size()> drift_part{1.0, 1.0, 1.0, 1.0, 1.0};
+  std::array<double, kRegressors.size()> drift_part{1.0, 1.0, 1.0, 1.0, 1.0};
 };
 
 inline std::vector<EdgeMotion> motions(const Problem& problem) {
@@ -41,25 +41,25 @@ inline std::vector<EdgeMotion> motions(const Problem& problem) {
 }
 
 /// Value of the regressor for one edge: 1, dt, d, |dtheta| or (d / dt)^2 dt.
-inline double grown(Growth with, const EdgeMotion& motion) {
+inline double regressor_value(Regressor with, const EdgeMotion& motion) {
   switch (with) {
-    case Growth::edge:
+    case Regressor::edge:
       return 1.0;
-    case Growth::time:
+    case Regressor::time:
       return motion.seconds;
-    case Growth::distance:
+    case Regressor::distance:
       return motion.metres;
-    case Growth::rotation:
+    case Regressor::rotation:
       return motion.radians;
-    case Growth::speed:
+    case Regressor::speed:
       return motion.metres * motion.metres / motion.seconds;
   }
   return 0.0;
 }
 
 /// Value of the regressor for steady drift, limited by drift_part.
-inline double drifted(Growth with, const EdgeMotion& motion) {
-  return motion.drift_part[static_cast<std::size_t>(with)] * grown(with, motion);
+inline double drift_regressor_value(Regressor with, const EdgeMotion& motion) {
+  return motion.drift_part[static_cast<std::size_t>(with)] * regressor_value(with, motion);
 }
 
 }  // namespace loopbench::methods

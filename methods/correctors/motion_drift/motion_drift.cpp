@@ -8,52 +8,55 @@
 #include "methods/correctors/motion_drift/drift_reach.hpp"
 #include "methods/correctors/motion_drift/large_moves.hpp"
 #include "methods/correctors/motion_drift/mean_errors.hpp"
-#include "methods/correctors/unit_of_length.hpp"
+#include "methods/correctors/scale_drift.hpp"
 
 namespace loopbench::methods {
 namespace {
 
 using Model = MotionDrift::Model;
 
-bool has_noise(Model model, Growth growth) {
-  switch (growth) {
-    case Growth::edge:
+bool has_noise(Model model, Regressor regressor) {
+  switch (regressor) {
+    case Regressor::edge:
       return model == Model::constant;
-    case Growth::time:
+    case Regressor::time:
       return model >= Model::time;
-    case Growth::distance:
+    case Regressor::distance:
       return model >= Model::distance;
-    case Growth::rotation:
+    case Regressor::rotation:
       return model >= Model::rotation;
-    case Growth::speed:
+    case Regressor::speed:
       return model == Model::speed;
   }
   return false;
 }
 
-bool has_drift(Model model, Half half, Growth growth) {
-  return model == Model::drift && half == Half::rotation && growth != Growth::edge &&
-         growth != Growth::speed;
+bool has_drift(Model model, Component component, Regressor regressor) {
+  return model == Model::drift && component == Component::rotation &&
+         regressor != Regressor::edge && regressor != Regressor::speed;
 }
 
 void add_noise(MotionModel& out, const MotionDrift::Options& o) {
-  for (const Half half : {Half::translation, Half::rotation}) {
-    for (const Growth growth : kGrowths) {
-      const auto& given = o.noise[static_cast<std::size_t>(half)][static_cast<std::size_t>(growth)];
-      if (given ? *given == 0.0 : !has_noise(o.model, growth)) continue;
-      out.push_back({Cause::noise, half, growth, given.value_or(0.0), given.has_value()});
+  for (const Component component : {Component::translation, Component::rotation}) {
+    for (const Regressor regressor : kRegressors) {
+      const auto& given =
+          o.noise[static_cast<std::size_t>(component)][static_cast<std::size_t>(regressor)];
+      if (given ? *given == 0.0 : !has_noise(o.model, regressor)) continue;
+      out.push_back(
+          {TermKind::noise, component, regressor, given.value_or(0.0), given.has_value()});
     }
   }
 }
 
 void add_drift(MotionModel& out, const MotionDrift::Options& o, bool planar) {
-  for (const Half half : {Half::translation, Half::rotation}) {
-    for (const Growth growth : kGrowths) {
-      const auto& given = o.drift[static_cast<std::size_t>(half)][static_cast<std::size_t>(growth)];
-      if (given ? *given == 0.0 : !has_drift(o.model, half, growth)) continue;
-      Term term{Cause::drift, half, growth, given.value_or(0.0), given.has_value()};
+  for (const Component component : {Component::translation, Component::rotation}) {
+    for (const Regressor regressor : kRegressors) {
+      const auto& given =
+          o.drift[static_cast<std::size_t>(component)][static_cast<std::size_t>(regressor)];
+      if (given ? *given == 0.0 : !has_drift(o.model, component, regressor)) continue;
+      Term term{TermKind::drift, component, regressor, given.value_or(0.0), given.has_value()};
       term.value *= term.value;
-      if (half == Half::translation) {
+      if (component == Component::translation) {
         out.push_back(term);
         continue;
       }
@@ -69,12 +72,13 @@ MotionModel model_of(const MotionDrift::Options& o, bool planar) {
   add_noise(out, o);
   const bool calibrated = std::ranges::any_of(out, &Term::given);
   if (o.model == Model::drift && !calibrated) {
-    out.push_back({Cause::stated, Half::rotation, Growth::edge});
+    out.push_back({TermKind::stated, Component::rotation, Regressor::edge});
   }
   add_drift(out, o, planar);
-  for (const Half half : {Half::translation, Half::rotation}) {
-    const std::optional<double>& given = o.closures[static_cast<std::size_t>(half)];
-    out.push_back({Cause::closures, half, Growth::edge, given.value_or(1.0), given.has_value()});
+  for (const Component component : {Component::translation, Component::rotation}) {
+    const std::optional<double>& given = o.closures[static_cast<std::size_t>(component)];
+    out.push_back(
+        {TermKind::closures, component, Regressor::edge, given.value_or(1.0), given.has_value()});
   }
   return out;
 }
@@ -88,16 +92,17 @@ std::vector<std::size_t> evenly_spaced(std::size_t size, std::size_t most) {
 }
 
 void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, Report& report) {
-  double chances[] = {0.0, 0.0, 0.0};
+  double probabilities[] = {0.0, 0.0, 0.0};
   double steady = 0.0;
   for (std::size_t h = 0; h < prior.hypotheses.size(); ++h) {
-    chances[static_cast<std::size_t>(prior.hypotheses[h].covariance)] += posterior.chances[h];
-    if (prior.hypotheses[h].steady) steady += posterior.chances[h];
+    probabilities[static_cast<std::size_t>(prior.hypotheses[h].covariance)] +=
+        posterior.probabilities[h];
+    if (prior.hypotheses[h].steady) steady += posterior.probabilities[h];
   }
   if (prior.hypotheses.size() < 2) return;
-  report.count("chance.as_stated", chances[0]);
-  report.count("chance.scaled", chances[1]);
-  report.count("chance.free", chances[2]);
+  report.count("chance.as_stated", probabilities[0]);
+  report.count("chance.scaled", probabilities[1]);
+  report.count("chance.free", probabilities[2]);
   report.count("chance.steady", steady);
 }
 
@@ -138,39 +143,33 @@ double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>
 }  // namespace
 
 std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  if (problem.closures.size() > static_cast<std::size_t>(options_.max_closures)) {
-    return std::to_string(problem.closures.size()) +
-           " closures exceed max_closures = " + std::to_string(options_.max_closures);
-  }
-  if (const std::string fault = chain_fault(problem); !fault.empty()) return fault;
-  return std::nullopt;
+  return loops_fault(problem, options_.max_closures);
 }
 
 Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
-  if (!options_.scale || !changes_unit(problem)) return correct_rigid(problem, report);
-  return correct_rigid(in_one_unit(problem), report);
+  if (!options_.scale || !has_scale_drift(problem)) return correct_rigid(problem, report);
+  return correct_rigid(remove_scale_drift(problem), report);
 }
 
 Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
   std::vector<EdgeMotion> edge_motions = motions(problem);
   limit_drift(edge_motions, problem, options_.prior.drift_reach);
-  LoopedChain chain(problem, stated_belief(problem));
-  const Eigen::VectorXd gap = chain.linearised().gap;
+  LoopedChain chain(problem, stated_noise_model(problem));
+  const Eigen::VectorXd gap = chain.linearise().gap;
   const MotionPrior prior =
       prior_of(model_of(options_, problem.planar), options_.prior, problem, edge_motions, gap);
   MotionPosterior posterior;
   posterior.centre = prior.hypotheses.back().medians;
-  chain.believe(belief_of(posterior.centre, problem, edge_motions));
-  int iterations = most_likely(chain);
+  chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
+  int iterations = chain.minimise(options_.max_iterations, options_.tolerance);
   if (options_.fit) {
     const auto fitted =
         evenly_spaced(problem.closures.size(), static_cast<std::size_t>(options_.fit_closures));
     posterior = posterior_of(prior,
                              evidence_of(posterior.centre, chain, problem, edge_motions, fitted),
                              options_.sampling);
-    chain.believe(belief_of(posterior.centre, problem, edge_motions));
-    iterations += most_likely(chain);
+    chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
+    iterations += chain.minimise(options_.max_iterations, options_.tolerance);
     report.count("log_evidence", posterior.log_evidence);
     count_chances(prior, posterior, report);
   }
@@ -187,17 +186,6 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
   return out;
 }
 
-int MotionDrift::most_likely(LoopedChain& chain) const {
-  int iterations = 0;
-  while (iterations < options_.max_iterations) {
-    const double before = chain.cost();
-    if (!chain.step()) break;
-    ++iterations;
-    if (before - chain.cost() <= options_.tolerance * before) break;
-  }
-  return iterations;
-}
-
 int MotionDrift::average(const std::vector<MotionModel>& models,
                          LoopedChain& chain,
                          const Problem& problem,
@@ -209,7 +197,7 @@ int MotionDrift::average(const std::vector<MotionModel>& models,
     const double change = squared_change(errors, chain.errors());
     if (!(change < last)) return iterations;  // converged to rounding, or diverging
     last = change;
-    chain.correct_by(std::move(errors));
+    chain.set_errors(std::move(errors));
     if (change <= options_.tolerance * squared_change(chain.errors(), zero)) return iterations + 1;
   }
   return options_.max_iterations;

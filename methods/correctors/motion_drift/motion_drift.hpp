@@ -41,7 +41,7 @@ class MotionDrift final : public Corrector {
   /// steady drift and the stated odometry covariance; it omits speed, because for evenly spaced
   /// keyframes speed is proportional to distance.
   enum class Model { constant, time, distance, rotation, speed, drift };
-  using Values = std::array<std::optional<double>, kGrowths.size()>;  ///< indexed by Growth
+  using Values = std::array<std::optional<double>, kRegressors.size()>;  ///< indexed by Regressor
 
   struct Options {
     Model model = Model::drift;
@@ -54,9 +54,10 @@ class MotionDrift final : public Corrector {
     double tolerance = 1e-14;
     int max_closures = 300;
     bool scale = true;
-    std::array<Values, 2> noise{};                    ///< by Half; variances
-    std::array<Values, 2> drift{};                    ///< by Half; standard deviations of the rates
-    std::array<std::optional<double>, 2> closures{};  ///< by Half; factors on stated covariances
+    std::array<Values, 2> noise{};  ///< by Component; variances
+    std::array<Values, 2> drift{};  ///< by Component; standard deviations of the rates
+    std::array<std::optional<double>, 2>
+        closures{};  ///< by Component; factors on stated covariances
   };
   explicit MotionDrift(const Options& options) : options_(options) {}
 
@@ -71,8 +72,7 @@ class MotionDrift final : public Corrector {
 
  private:
   Trajectory correct_rigid(const Problem& problem, Report& report) const;
-  /// Both functions return the number of iterations.
-  int most_likely(LoopedChain& chain) const;
+  /// Returns the number of iterations.
   int average(const std::vector<MotionModel>& models,
               LoopedChain& chain,
               const Problem& problem,
@@ -108,7 +108,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
   visit("prior.noise_part",
         p.noise_part,
         "prior translation noise along a loop, as a fraction of its path length [-]",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("prior.stated_part",
         p.stated_part,
         "prior fraction of the rotation noise that is proportional to the stated covariances of "
@@ -117,30 +117,30 @@ void fields(MotionDrift::Options& o, Visit visit) {
   visit("prior.steady_after",
         p.steady_after,
         "loop duration at which drift and noise contribute equal rotation variance a priori [s]",
-        Above{0.0});
-  visit("prior.scale_spread",
-        p.scale_spread,
+        GreaterThan{0.0});
+  visit("prior.scale_dispersion",
+        p.scale_dispersion,
         "standard deviation of the log variance scale common to all translation (or rotation) "
         "errors [-]",
         deviation);
-  visit("prior.steady_spread",
-        p.steady_spread,
+  visit("prior.steady_dispersion",
+        p.steady_dispersion,
         "standard deviation of the log ratio of drift to noise variance [-]",
         deviation);
-  visit("prior.axis_spread",
-        p.axis_spread,
+  visit("prior.axis_dispersion",
+        p.axis_dispersion,
         "standard deviation of the log drift variance of one body axis [-]",
         deviation);
-  visit("prior.share_spread",
-        p.share_spread,
+  visit("prior.share_dispersion",
+        p.share_dispersion,
         "standard deviation of the log variance of one term (time, distance, rotation) [-]",
         deviation);
-  visit("prior.stated_spread",
-        p.stated_spread,
+  visit("prior.stated_dispersion",
+        p.stated_dispersion,
         "standard deviation of the log factor on the stated odometry covariances [-]",
         deviation);
-  visit("prior.closures_spread",
-        p.closures_spread,
+  visit("prior.closures_dispersion",
+        p.closures_dispersion,
         "standard deviation of the log factors on the stated closure covariances [-]",
         deviation);
   visit("prior.as_stated_chance",
@@ -189,12 +189,12 @@ void fields(MotionDrift::Options& o, Visit visit) {
         Between{1, 2000});
   visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
 
-  const auto by_growth = [&](const std::string& what,
-                             const std::string& help,
-                             MotionDrift::Values& values,
-                             auto first) {
-    for (std::size_t g = first; g < kGrowths.size(); ++g) {
-      const std::string unit = name_of(kGrowths[g]);
+  const auto by_regressor = [&](const std::string& what,
+                                const std::string& help,
+                                MotionDrift::Values& values,
+                                auto first) {
+    for (std::size_t g = first; g < kRegressors.size(); ++g) {
+      const std::string unit = name_of(kRegressors[g]);
       visit((what + ".per_" + unit).c_str(),
             values[g],
             (help + (unit == "speed" ? "speed^2 times duration" : unit) + "; none: estimated")
@@ -202,18 +202,19 @@ void fields(MotionDrift::Options& o, Visit visit) {
             Between{0.0});
     }
   };
-  by_growth("noise.t", "translation noise variance on each axis [m^2] per ", o.noise[0], 0u);
-  by_growth("noise.r", "rotation noise variance on each axis [rad^2] per ", o.noise[1], 0u);
-  by_growth("drift.t", "standard deviation of steady translation drift [m] per ", o.drift[0], 1u);
-  by_growth("drift.r", "standard deviation of steady rotation drift [rad] per ", o.drift[1], 1u);
+  by_regressor("noise.t", "translation noise variance on each axis [m^2] per ", o.noise[0], 0u);
+  by_regressor("noise.r", "rotation noise variance on each axis [rad^2] per ", o.noise[1], 0u);
+  by_regressor(
+      "drift.t", "standard deviation of steady translation drift [m] per ", o.drift[0], 1u);
+  by_regressor("drift.r", "standard deviation of steady rotation drift [rad] per ", o.drift[1], 1u);
   visit("closures.t",
         o.closures[0],
         "factor on the stated translation covariance of the closures [-]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("closures.r",
         o.closures[1],
         "factor on the stated rotation covariance of the closures [-]; none: estimated",
-        Above{0.0});
+        GreaterThan{0.0});
 }
 
 }  // namespace loopbench::methods

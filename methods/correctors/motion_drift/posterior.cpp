@@ -91,19 +91,19 @@ MotionPosterior posterior_of(const MotionPrior& prior,
   };
   move(sampling.warm_up);
   MotionPosterior out;
-  out.chances.resize(prior.hypotheses.size(), 0.0);
+  out.probabilities.resize(prior.hypotheses.size(), 0.0);
   std::vector<Eigen::VectorXd> sums(prior.hypotheses.size(), zero);
   for (int i = 0; i < sampling.draws; ++i) {
     move(sampling.steps);
     const std::size_t chosen = hypothesis_at(prior, at.unknowns);
     out.draws.push_back(model_at(prior, at.unknowns));
-    out.chances[chosen] += 1.0 / sampling.draws;
+    out.probabilities[chosen] += 1.0 / sampling.draws;
     sums[chosen] += at.unknowns / sampling.draws;
     out.log_evidence += at.log_evidence / sampling.draws;
   }
-  const auto likeliest =
-      static_cast<std::size_t>(std::ranges::max_element(out.chances) - out.chances.begin());
-  out.centre = model_at(prior, sums[likeliest] / out.chances[likeliest]);
+  const auto likeliest = static_cast<std::size_t>(std::ranges::max_element(out.probabilities) -
+                                                  out.probabilities.begin());
+  out.centre = model_at(prior, sums[likeliest] / out.probabilities[likeliest]);
   return out;
 }
 

@@ -18,9 +18,9 @@ struct Sampling {
 
 struct MotionPosterior {
   std::vector<MotionModel> draws;
-  std::vector<double> chances;  ///< of the hypotheses, given the gaps: parts of the draws
-  MotionModel centre;           ///< of the likeliest: values whose logarithms are its draws' mean
-  double log_evidence = 0.0;    ///< of the gaps, mean over the draws
+  std::vector<double> probabilities;  ///< of the hypotheses, given the gaps: parts of the draws
+  MotionModel centre;         ///< of the likeliest: values whose logarithms are its draws' mean
+  double log_evidence = 0.0;  ///< of the gaps, mean over the draws
 };
 
 /// Draws from prior times log_evidence(). Each step tries a fresh hypothesis, all else as it is

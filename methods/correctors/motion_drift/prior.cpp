@@ -18,43 +18,44 @@ constexpr double kMinFraction = 1e-12;
 
 /// Stated closure variance, bounded by the gaps: deviations stated in other units can exceed the
 /// gaps by orders of magnitude, which would inflate the odometry variances as well.
-double plausible(const LoopAverages& loops, Half half) {
-  const double stated = loops.stated(half);
-  return std::min(stated, std::max(kPlausibleRatio * loops.gap(half), kMinFraction * stated));
+double plausible(const LoopAverages& loops, Component component) {
+  const double stated = loops.stated(component);
+  return std::min(stated, std::max(kPlausibleRatio * loops.gap(component), kMinFraction * stated));
 }
 
-bool is_guessed(const Term& term, Cause cause) { return term.cause == cause && !term.given; }
+bool is_guessed(const Term& term, TermKind kind) { return term.kind == kind && !term.given; }
 
 void guess_odometry(MotionModel& model, const MotionPriorOptions& by, const LoopAverages& loops) {
-  const double squared_path = loops.motion(Half::translation, Growth::distance, true);
+  const double squared_path = loops.motion(Component::translation, Regressor::distance, true);
   const bool drifts =
-      std::ranges::any_of(model, [](const Term& t) { return is_guessed(t, Cause::drift); });
+      std::ranges::any_of(model, [](const Term& t) { return is_guessed(t, TermKind::drift); });
   const bool states =
-      std::ranges::any_of(model, [](const Term& t) { return t.cause == Cause::stated; });
+      std::ranges::any_of(model, [](const Term& t) { return t.kind == TermKind::stated; });
   // A position gap is also evidence of a rotation error, so a small rotation gap alone does not
   // imply a small rotation noise.
   const double variance_r =
-      plausible(loops, Half::rotation) + loops.gap(Half::rotation) +
-      (squared_path > 0.0 ? loops.gap(Half::translation) / squared_path : 0.0);
+      plausible(loops, Component::rotation) + loops.gap(Component::rotation) +
+      (squared_path > 0.0 ? loops.gap(Component::translation) / squared_path : 0.0);
   const double steady =
-      drifts ? loops.motion(Half::rotation, Growth::time, false) / by.steady_after : 0.0;
+      drifts ? loops.motion(Component::rotation, Regressor::time, false) / by.steady_after : 0.0;
   const double noise_r = variance_r / (1.0 + steady);
   const double noise_t =
-      by.noise_part * by.noise_part * squared_path + plausible(loops, Half::translation);
+      by.noise_part * by.noise_part * squared_path + plausible(loops, Component::translation);
 
   for (Term& term : model) {
-    if (term.given || term.cause == Cause::closures) continue;
-    double square = term.half == Half::translation ? noise_t : noise_r;
+    if (term.given || term.kind == TermKind::closures) continue;
+    double square = term.component == Component::translation ? noise_t : noise_r;
     double unit = 0.0;
-    if (term.cause == Cause::stated) {
+    if (term.kind == TermKind::stated) {
       square = noise_r * by.stated_part;
-      unit = loops.stated_odometry(Half::rotation);
+      unit = loops.stated_odometry(Component::rotation);
     } else {
-      const bool noise = term.cause == Cause::noise;
+      const bool noise = term.kind == TermKind::noise;
       square *= !noise ? steady : states ? 1.0 - by.stated_part : 1.0;
-      unit = loops.motion(term.half, term.growth, !noise);
+      unit = loops.motion(term.component, term.regressor, !noise);
       unit *= static_cast<double>(std::ranges::count_if(model, [&](const Term& other) {
-        return is_guessed(other, term.cause) && other.half == term.half && other.axis == term.axis;
+        return is_guessed(other, term.kind) && other.component == term.component &&
+               other.axis == term.axis;
       }));
     }
     term.value = unit > 0.0 ? square / unit : 0.0;
@@ -64,16 +65,17 @@ void guess_odometry(MotionModel& model, const MotionPriorOptions& by, const Loop
 void guess_closures(MotionModel& model, const LoopAverages& loops) {
   double noise[2] = {0.0, 0.0};  // modelled noise variance accumulated along a loop
   for (const Term& term : model) {
-    if (term.cause != Cause::noise) continue;
-    noise[static_cast<int>(term.half)] += term.value * loops.motion(term.half, term.growth, false);
+    if (term.kind != TermKind::noise) continue;
+    noise[static_cast<int>(term.component)] +=
+        term.value * loops.motion(term.component, term.regressor, false);
   }
   for (Term& term : model) {
-    if (!is_guessed(term, Cause::closures)) continue;
+    if (!is_guessed(term, TermKind::closures)) continue;
     term.value = 1.0;
-    const double stated = loops.stated(term.half), gap = loops.gap(term.half);
+    const double stated = loops.stated(term.component), gap = loops.gap(term.component);
     if (stated <= kPlausibleRatio * gap) continue;
     const double by_odometry =
-        noise[static_cast<int>(term.half)] / loops.stated_odometry(term.half);
+        noise[static_cast<int>(term.component)] / loops.stated_odometry(term.component);
     term.value = std::min(1.0, std::max(by_odometry, 0.01 * gap / stated));
   }
 }
@@ -85,42 +87,44 @@ enum : Eigen::Index {
   kRotation,
   kSteady,
   kAxis,
-  kGrowth = kAxis + 3,
-  kOwn = kGrowth + static_cast<Eigen::Index>(kGrowths.size())
+  kRegressor = kAxis + 3,
+  kOwn = kRegressor + static_cast<Eigen::Index>(kRegressors.size())
 };
 
-std::vector<std::vector<MotionPrior::Hang>> hangs_of(const MotionModel& medians,
-                                                     const MotionPriorOptions& options,
-                                                     bool planar) {
-  std::vector<std::vector<MotionPrior::Hang>> out;
+std::vector<std::vector<MotionPrior::Loading>> loadings_of(const MotionModel& medians,
+                                                           const MotionPriorOptions& options,
+                                                           bool planar) {
+  std::vector<std::vector<MotionPrior::Loading>> out;
   Eigen::Index own = kOwn;
   for (const Term& term : medians) {
-    std::vector<MotionPrior::Hang> hangs;
-    if (term.cause != Cause::closures) {
-      const bool is_translation = term.cause != Cause::stated && term.half == Half::translation;
-      hangs.push_back({is_translation ? kTranslation : kRotation, options.scale_spread});
+    std::vector<MotionPrior::Loading> loadings;
+    if (term.kind != TermKind::closures) {
+      const bool is_translation =
+          term.kind != TermKind::stated && term.component == Component::translation;
+      loadings.push_back({is_translation ? kTranslation : kRotation, options.scale_dispersion});
     }
-    if (term.cause == Cause::drift) {
-      hangs.push_back({kSteady, options.steady_spread});
+    if (term.kind == TermKind::drift) {
+      loadings.push_back({kSteady, options.steady_dispersion});
       if (term.axis >= 0) {
         // A planar problem has only one rotation axis.
-        if (!planar) hangs.push_back({kAxis + term.axis, options.axis_spread});
-        hangs.push_back({kGrowth + static_cast<Eigen::Index>(term.growth), options.share_spread});
+        if (!planar) loadings.push_back({kAxis + term.axis, options.axis_dispersion});
+        loadings.push_back(
+            {kRegressor + static_cast<Eigen::Index>(term.regressor), options.share_dispersion});
       }
     }
     if (term.axis < 0) {
-      hangs.push_back({own++,
-                       term.cause == Cause::stated     ? options.stated_spread
-                       : term.cause == Cause::closures ? options.closures_spread
-                                                       : options.share_spread});
+      loadings.push_back({own++,
+                          term.kind == TermKind::stated     ? options.stated_dispersion
+                          : term.kind == TermKind::closures ? options.closures_dispersion
+                                                            : options.share_dispersion});
     }
-    out.push_back(std::move(hangs));
+    out.push_back(std::move(loadings));
   }
   return out;
 }
 
-bool has_guessed(const MotionModel& model, Cause cause) {
-  return std::ranges::any_of(model, [&](const Term& term) { return is_guessed(term, cause); });
+bool has_guessed(const MotionModel& model, TermKind kind) {
+  return std::ranges::any_of(model, [&](const Term& term) { return is_guessed(term, kind); });
 }
 
 /// Converts the free hypothesis into one of the simple ones.
@@ -128,14 +132,16 @@ void simplify(MotionPrior::Hypothesis& to, Covariance covariance, const MotionPr
   to.covariance = covariance;
   double stated = 0.0;
   for (Term& term : to.medians) {
-    if (term.cause == Cause::stated) stated = term.value /= by.stated_part;  // the whole noise
-    if (is_guessed(term, Cause::noise)) term.value = 0.0;
+    if (term.kind == TermKind::stated) stated = term.value /= by.stated_part;  // the whole noise
+    if (is_guessed(term, TermKind::noise)) term.value = 0.0;
   }
   for (std::size_t j = 0; j < to.medians.size(); ++j) {
     Term& term = to.medians[j];
-    const bool follows = covariance == Covariance::as_stated && is_guessed(term, Cause::closures);
+    const bool follows =
+        covariance == Covariance::as_stated && is_guessed(term, TermKind::closures);
     if (follows) term.value = stated;
-    if (follows || term.cause == Cause::stated) to.hangs[j] = {{kRotation, by.scale_spread}};
+    if (follows || term.kind == TermKind::stated)
+      to.loadings[j] = {{kRotation, by.scale_dispersion}};
   }
 }
 
@@ -155,25 +161,26 @@ MotionPrior prior_of(const MotionModel& model,
   MotionPrior out;
   out.unknowns = kOwn + static_cast<Eigen::Index>(medians.size());
   const MotionPrior::Hypothesis all{
-      Covariance::free, true, 1.0, medians, hangs_of(medians, options, problem.planar)};
-  const bool drifts = has_guessed(medians, Cause::drift);
-  const double chances[] = {options.as_stated_chance,
-                            options.scaled_chance,
-                            std::max(0.0, 1.0 - options.as_stated_chance - options.scaled_chance)};
+      Covariance::free, true, 1.0, medians, loadings_of(medians, options, problem.planar)};
+  const bool drifts = has_guessed(medians, TermKind::drift);
+  const double probabilities[] = {
+      options.as_stated_chance,
+      options.scaled_chance,
+      std::max(0.0, 1.0 - options.as_stated_chance - options.scaled_chance)};
   for (const bool steady : {false, true}) {
     if (!steady && !drifts) continue;
     for (const Covariance covariance :
          {Covariance::as_stated, Covariance::scaled, Covariance::free}) {
       MotionPrior::Hypothesis one = all;
       if (covariance != Covariance::free) {
-        if (!has_guessed(medians, Cause::stated)) continue;
+        if (!has_guessed(medians, TermKind::stated)) continue;
         simplify(one, covariance, options);
       }
-      one.chance = chances[static_cast<std::size_t>(covariance)];
+      one.chance = probabilities[static_cast<std::size_t>(covariance)];
       if (drifts) one.chance *= steady ? options.steady_chance : 1.0 - options.steady_chance;
       one.steady = steady;
       for (Term& term : one.medians) {
-        if (is_guessed(term, Cause::drift) && !steady) term.value = 0.0;
+        if (is_guessed(term, TermKind::drift) && !steady) term.value = 0.0;
       }
       out.hypotheses.push_back(std::move(one));
     }
@@ -197,8 +204,8 @@ MotionModel model_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) 
   MotionModel out = chosen.medians;
   for (std::size_t j = 0; j < out.size(); ++j) {
     double log_factor = 0.0;
-    for (const MotionPrior::Hang& hang : chosen.hangs[j]) {
-      log_factor += hang.spread * unknowns[hang.unknown];
+    for (const MotionPrior::Loading& loading : chosen.loadings[j]) {
+      log_factor += loading.coefficient * unknowns[loading.unknown];
     }
     out[j].value *= std::exp(log_factor);
   }

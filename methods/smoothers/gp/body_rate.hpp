@@ -65,7 +65,7 @@ struct BodyRateTerms {
 };
 
 /// Derivative of J_r^-1(xi) v with respect to xi, for constant v.
-inline Matrix6 body_rate_by_step(const Twist& xi, const Twist& v) {
+inline Matrix6 body_rate_jacobian(const Twist& xi, const Twist& v) {
   const BodyRateTerms c(xi.tail<3>().squaredNorm());
   const Matrix6 ad = small_adjoint(xi);
   const Matrix6 ad2 = ad * ad;

@@ -24,7 +24,7 @@ ScalarNoise noise_from_spline(const std::vector<double>& times,
   for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
   const Reinsch reinsch(times);
   // Above this bound the normal equations lose precision.
-  const double lambda = std::min(chosen_lambda(reinsch, times, y, criterion), 1e6);
+  const double lambda = std::min(select_lambda(reinsch, times, y, criterion), 1e6);
   const double energy = reinsch.fit(y, lambda).energy.sum();
   const double freedom = 3.0 * static_cast<double>(y.size() - 2);
   const double sigma = round_to_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
@@ -36,20 +36,20 @@ ScalarNoise noise_from_spline(const std::vector<double>& times,
 
 }  // namespace
 
-GpParameters first_parameters(const Trajectory& measured,
-                              int P,
-                              Criterion criterion,
-                              const GpGiven& given) {
+GpParameters initial_parameters(const Trajectory& measured,
+                                int P,
+                                Criterion criterion,
+                                const GpFixedParameters& given) {
   std::vector<double> times = stamps(measured);
   const double first = times.front();
   const double interval = (times.back() - first) / static_cast<double>(times.size() - 1);
   for (double& time : times) time = (time - first) / interval;
   const std::vector<Rotation> rotations = attitudes(measured);
-  const Unrolled path(rotations);
+  const UnrolledRotations path(rotations);
   std::vector<Vector3> unrolled;
   for (std::size_t i = 0; i < rotations.size(); ++i)
-    unrolled.push_back(path.flattened(i, rotations[i]));
-  const ScalarNoise t = noise_from_spline(times, places(measured), P, criterion);
+    unrolled.push_back(path.unroll(i, rotations[i]));
+  const ScalarNoise t = noise_from_spline(times, positions_of(measured), P, criterion);
   const ScalarNoise r = noise_from_spline(times, unrolled, P, criterion);
   return {given.sigma_t.value_or(t.sigma),
           given.sigma_r.value_or(r.sigma),
@@ -58,13 +58,13 @@ GpParameters first_parameters(const Trajectory& measured,
 }
 
 template <int P>
-GpChosen chosen_parameters(const GpPosterior<P>& posterior,
-                           const typename GpPosterior<P>::States& states,
-                           const GpParameters& start,
-                           const GpGiven& given) {
+GpEstimate estimate_parameters(const GpPosterior<P>& posterior,
+                               const typename GpPosterior<P>::States& states,
+                               const GpParameters& start,
+                               const GpFixedParameters& given) {
   constexpr double kMinDecrease = 1e-3;  // [nats]; a smaller difference may be rounding
   constexpr int kFarthest = 32;          // lattice steps: four decades from the start
-  GpChosen out{start, 1};
+  GpEstimate out{start, 1};
   double lowest = posterior.negative_evidence(states, start);
   struct Coordinate {
     double GpParameters::*value;
@@ -101,13 +101,13 @@ GpChosen chosen_parameters(const GpPosterior<P>& posterior,
   return out;
 }
 
-template GpChosen chosen_parameters<2>(const GpPosterior<2>&,
-                                       const GpPosterior<2>::States&,
-                                       const GpParameters&,
-                                       const GpGiven&);
-template GpChosen chosen_parameters<3>(const GpPosterior<3>&,
-                                       const GpPosterior<3>::States&,
-                                       const GpParameters&,
-                                       const GpGiven&);
+template GpEstimate estimate_parameters<2>(const GpPosterior<2>&,
+                                           const GpPosterior<2>::States&,
+                                           const GpParameters&,
+                                           const GpFixedParameters&);
+template GpEstimate estimate_parameters<3>(const GpPosterior<3>&,
+                                           const GpPosterior<3>::States&,
+                                           const GpParameters&,
+                                           const GpFixedParameters&);
 
 }  // namespace loopbench::methods

@@ -39,7 +39,7 @@ LocalState<P> local_state(const GpState<P>& from, const GpState<P>& to) {
   const Matrix6 by_from_pose = -inverse_left_jacobian_se3(xi);
   const Twist& w = to.rates[0];
   const Twist rate = J * w;
-  const Matrix6 G = body_rate_by_step(xi, w);
+  const Matrix6 G = body_rate_jacobian(xi, w);
   out.value[0] = xi;
   out.value[1] = rate;
   out.by_from.template block<6, 6>(0, 0) = by_from_pose;
@@ -50,7 +50,7 @@ LocalState<P> local_state(const GpState<P>& from, const GpState<P>& to) {
   if constexpr (P == 3) {
     const Twist& a = to.rates[1];
     const Matrix6 W = small_adjoint(w);
-    const Matrix6 by_xi = body_rate_by_step(xi, a) - 0.5 * W * G;
+    const Matrix6 by_xi = body_rate_jacobian(xi, a) - 0.5 * W * G;
     out.value[2] = J * a - 0.5 * W * rate;
     out.by_from.template block<6, 6>(12, 0) = by_xi * by_from_pose;
     out.by_to.template block<6, 6>(12, 0) = by_xi * J;

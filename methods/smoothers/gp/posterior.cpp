@@ -30,7 +30,7 @@ GpPosterior<P>::GpPosterior(const Trajectory& measured)
 }
 
 template <int P>
-typename GpPosterior<P>::States GpPosterior<P>::first_guess() const {
+typename GpPosterior<P>::States GpPosterior<P>::initial_states() const {
   const std::size_t n = measured_.size();
   States out(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -31,7 +31,7 @@ class GpPosterior {
   double interval_of(std::size_t i) const { return intervals_[i]; }  ///< [mean intervals]
 
   /// Initial states: the measured poses, and rates from finite differences.
-  States first_guess() const;
+  States initial_states() const;
 
   /// Minimises the cost starting from `states`; returns the number of iterations. Deterministic.
   /// Throws std::runtime_error when the normal equations are not positive definite.

@@ -8,7 +8,7 @@
 
 namespace loopbench::methods::manifold {
 
-constexpr std::size_t kMostBand = 5;
+constexpr std::size_t kMaxBand = 5;
 
 /// Elimination without pivoting. It is stable for both uses here: the totally positive matrices of
 /// B-spline interpolation (de Boor & Pinkus 1977) and positive definite matrices.
@@ -45,7 +45,7 @@ class Banded {
 
  private:
   std::size_t band_;
-  std::vector<std::array<double, 2 * kMostBand + 1>> rows_;  ///< initially zero
+  std::vector<std::array<double, 2 * kMaxBand + 1>> rows_;  ///< initially zero
   std::vector<Value> right_;
 };
 

@@ -13,7 +13,7 @@ BSpline BSpline::through(std::span<const double> sites,
                          std::size_t order) {
   const std::size_t count = sites.size();
   BSpline out;
-  out.order_ = std::min({order, count, kMostOrder});
+  out.order_ = std::min({order, count, kMaxOrder});
   const std::size_t k = out.order_;
   out.knots_.assign(k, sites.front());
   for (std::size_t j = 1; j + k <= count; ++j) {

@@ -10,16 +10,16 @@
 
 namespace loopbench::methods::manifold {
 
-constexpr std::size_t kMostOrder = 6;
+constexpr std::size_t kMaxOrder = 6;
 
 /// Returns N_{t,k}(u) for the k basis functions t = span - k + 1 .. span that are nonzero between
 /// knots[span] and knots[span + 1], by the recursion (12) from order 1. O(k^2).
 template <class T>
-std::array<T, kMostOrder> basis(std::span<const double> knots,
-                                std::size_t k,
-                                std::size_t span,
-                                const T& u) {
-  std::array<T, kMostOrder> out{};
+std::array<T, kMaxOrder> basis(std::span<const double> knots,
+                               std::size_t k,
+                               std::size_t span,
+                               const T& u) {
+  std::array<T, kMaxOrder> out{};
   out[0] = 0.0 * u + 1.0;
   for (std::size_t order = 2; order <= k; ++order) {
     T carried = 0.0 * u;

@@ -14,28 +14,28 @@ int degree_of(const Polynomial& curve) {
   return c[3] != 0.0 ? 3 : c[2] != 0.0 ? 2 : 1;
 }
 
-std::string named(const Graph<Polynomial>& piece) {
+std::string named(const GraphPiece<Polynomial>& piece) {
   const int degree = degree_of(piece.curve);
   return degree == 3 ? "cubic" : degree == 2 ? "parabola" : "line";
 }
-std::string named(const Graph<Sine>&) { return "sin1"; }
-std::string named(const Graph<Rational>&) { return "rat02"; }
-std::string named(const Graph<Hyperbola>&) { return "hyperbola"; }
-std::string named(const AsImplicit&) { return "implicit"; }
-std::string named(const AsArc&) { return "arc"; }
-std::string named(const AsArcPolynomial&) { return "arc polynomial"; }
-std::string named(const AsRegression&) { return "regression spline"; }
-std::string named(const AsChord&) { return "chord"; }
-std::string named(const AsSpline&) { return "spline"; }
+std::string named(const GraphPiece<Sine>&) { return "sin1"; }
+std::string named(const GraphPiece<Rational>&) { return "rat02"; }
+std::string named(const GraphPiece<Hyperbola>&) { return "hyperbola"; }
+std::string named(const ImplicitPiece&) { return "implicit"; }
+std::string named(const ArcPiece&) { return "arc"; }
+std::string named(const ArcPolynomialPiece&) { return "arc polynomial"; }
+std::string named(const RegressionPiece&) { return "regression spline"; }
+std::string named(const ChordPiece&) { return "chord"; }
+std::string named(const SplinePiece&) { return "spline"; }
 
 template <class Function>
-std::string described(const Graph<Function>& piece) {
+std::string described(const GraphPiece<Function>& piece) {
   return named(piece) + ": " + text(coefficients(piece.curve));
 }
-std::string described(const Graph<Polynomial>& piece) {
+std::string described(const GraphPiece<Polynomial>& piece) {
   return "polynomial: " + text(coefficients(piece.curve, degree_of(piece.curve)));
 }
-std::string described(const AsImplicit& piece) {
+std::string described(const ImplicitPiece& piece) {
   return named(piece) + ": " + text(coefficients(piece.curve));
 }
 template <class Shape>

@@ -17,13 +17,13 @@ Continuity continuity(const ManifoldCurve& curve) {
   }
   const double slowest = min_speed_ratio * length / (stamps.back() - stamps.front());
   for (std::size_t i = 1; i + 1 < stamps.size(); ++i) {
-    const Moving a = curve.motion(i - 1, stamps[i]);
-    const Moving b = curve.motion(i, stamps[i]);
+    const MotionJet a = curve.motion(i - 1, stamps[i]);
+    const MotionJet b = curve.motion(i, stamps[i]);
     out.position = std::max(out.position, (b.value - a.value).norm());
     out.velocity = std::max(out.velocity, (b.first - a.first).norm());
     out.acceleration = std::max(out.acceleration, (b.second - a.second).norm());
     if (!(a.first.norm() > slowest) || !(b.first.norm() > slowest)) continue;
-    out.slope = std::max(out.slope, turn_between(a.first, b.first));
+    out.slope = std::max(out.slope, angle_between_directions(a.first, b.first));
     const Vector3 curvature_jump =
         curvature_vector(b.first, b.second) - curvature_vector(a.first, a.second);
     out.curvature = std::max(out.curvature, curvature_jump.norm());

@@ -14,8 +14,8 @@ ManifoldCurve::ManifoldCurve(const Trajectory& nodes, Parts parts)
   }
 }
 
-Moving ManifoldCurve::motion(std::size_t edge, double time) const {
-  return parts_.base + parts_.point(edge, moving_time(time));
+MotionJet ManifoldCurve::motion(std::size_t edge, double time) const {
+  return parts_.base + parts_.point(edge, time_jet(time));
 }
 
 Rotation ManifoldCurve::rotation(std::size_t edge, double time) const {

@@ -3,8 +3,8 @@
 
 #include "datasets/core/curve.hpp"
 #include "methods/smoothers/manifold/pieces.hpp"
+#include "methods/smoothers/manifold/piecewise_curve.hpp"
 #include "methods/smoothers/manifold/spatial.hpp"
-#include "methods/smoothers/manifold/strip.hpp"
 
 namespace loopbench::methods::manifold {
 
@@ -12,16 +12,17 @@ struct Parts {
   Vector3 base;  ///< position of the first node [m]
   Vector3 up;
   NodeSpline spline;
-  std::optional<Strip<PlanarPiece, Vector3>> planar;  ///< none: y' of the spline
-  std::optional<Strip<Height, double>> spatial;       ///< none: z' of the spline
+  std::optional<PiecewiseCurve<PlanarPiece, Vector3>> planar;  ///< none: y' of the spline
+  std::optional<PiecewiseCurve<Height, double>> spatial;       ///< none: z' of the spline
 
   /// Spline point with y' replaced by the planar piece, relative to `base`; `time` is a double or a
   /// Jet.
   template <class T>
   VectorOf<T> planar_point(std::size_t edge, const T& time) const {
-    const PlaceOf<T> place = spline.at(edge, time);
-    if (!planar) return place.point;
-    return planar->at(edge, time, [&](const PlanarPiece& piece) { return asked(piece, place); });
+    const SplinePointOf<T> position = spline.at(edge, time);
+    if (!planar) return position.point;
+    return planar->at(
+        edge, time, [&](const PlanarPiece& piece) { return value_of_piece(piece, position); });
   }
 
   /// Point with y' and z' replaced.
@@ -52,7 +53,7 @@ class ManifoldCurve final : public Curve {
 
   /// Position [m], velocity and acceleration (analytic), evaluated with the pieces of `edge` even
   /// at its end points. Evaluating both edges of a node gives the jump there.
-  Moving motion(std::size_t edge, double time) const;
+  MotionJet motion(std::size_t edge, double time) const;
 
  private:
   Rotation rotation(std::size_t edge, double time) const;

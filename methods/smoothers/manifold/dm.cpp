@@ -16,7 +16,7 @@ std::size_t min_segment_nodes(const DmOptions& o) {
   return static_cast<std::size_t>(nodes);
 }
 
-PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const PieceJudge& judge) {
+PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const PieceCost& judge) {
   return {.size = static_cast<std::size_t>(o.planar),
           .axes = o.frame,
           .guarded = o.guard,
@@ -26,7 +26,7 @@ PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const P
           .selection = o.selection,
           .judge = judge,
           .fallback = o.fallback,
-          .chords_below = o.short_policy == Short::polyline ? min_segment_nodes(o) : 0};
+          .chords_below = o.short_policy == ShortPolicy::polyline ? min_segment_nodes(o) : 0};
 }
 
 SpatialRule spatial_rule(const DmOptions& o) {
@@ -35,7 +35,7 @@ SpatialRule spatial_rule(const DmOptions& o) {
           .guarded = o.height_guard,
           .scheme = o.scheme,
           .cut = o.quadric_cut,
-          .plain_below = o.short_policy == Short::polyline ? min_segment_nodes(o) : 0};
+          .plain_below = o.short_policy == ShortPolicy::polyline ? min_segment_nodes(o) : 0};
 }
 
 NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const DmOptions& o) {
@@ -46,11 +46,13 @@ NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const 
   NodeSpline natural(nodes);
   if (o.psi == PsiUse::none) return natural;
   return NodeSpline(
-      nodes, clamps(nodes, natural, runs, static_cast<std::size_t>(o.psi_half_window), o.psi_mean));
+      nodes,
+      segment_end_velocities(
+          nodes, natural, runs, static_cast<std::size_t>(o.psi_half_window), o.psi_mean));
 }
 
 Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
-  return up_axis(nodes, o.frame == Axes::world ? Up::world_z : o.up);
+  return up_axis(nodes, o.frame == Axes::world ? UpDirection::world_z : o.up);
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ Dm::Dm(const Options& options) : options_(options), families_(read_families(opti
   const auto reject = [](const char* name, const char* why) {
     throw OptionError(name, std::string(name) + ": " + why);
   };
-  if (options.joint.meet == Meet::constrained_ls && !parametric) {
+  if (options.joint.kind == JointKind::constrained_ls && !parametric) {
     reject("joint",
            "constrained_ls requires frame = parametric, because the axes of the other frames "
            "differ between windows");
@@ -82,25 +84,25 @@ std::optional<std::string> Dm::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
-  Densified dense = with_quasi_keyframes(problem, options_.gap);
+  NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 2 || !options_.chord_above)
     return smooth(problem, std::move(dense), report);
   const double longest = *options_.chord_above * median_interval(problem.keyframes);
-  const auto separate = stretches(dense.nodes.size(), [&](std::size_t i) {
+  const auto separate = runs_without_breaks(dense.nodes.size(), [&](std::size_t i) {
     return dense.nodes[i + 1].stamp - dense.nodes[i].stamp > longest;
   });
   if (separate.size() == 1) return smooth(problem, std::move(dense), report);
-  return smoothed_apart(dense.nodes,
-                        separate,
-                        "intervals above chord_above without a tracked frame",
-                        report,
-                        [&](Trajectory part, Report& part_report) {
-                          return smooth(problem, {std::move(part)}, part_report);
-                        });
+  return smooth_segments(dense.nodes,
+                         separate,
+                         "intervals above chord_above without a tracked frame",
+                         report,
+                         [&](Trajectory part, Report& part_report) {
+                           return smooth(problem, {std::move(part)}, part_report);
+                         });
 }
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
-                                        Densified dense,
+                                        NodesWithQuasiKeyframes dense,
                                         Report& report) const {
   if (dense.nodes.size() < 3) {
     describe(dense, report);
@@ -113,25 +115,26 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
                                              Report& report,
-                                             const PieceJudge& judge) const {
-  Densified dense = with_quasi_keyframes(problem, options_.gap);
+                                             const PieceCost& judge) const {
+  NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 3) return nullptr;
   return fit(problem, std::move(dense), report, judge);
 }
 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
-                                             Densified dense,
+                                             NodesWithQuasiKeyframes dense,
                                              Report& report,
-                                             const PieceJudge& judge) const {
+                                             const PieceCost& judge) const {
   Nodes nodes(dense.nodes);
   Vector3 up = up_of(dense.nodes, options_);
   const SegmentRule& rule = options_.segment;
   std::vector<NodeRange> runs =
       segments(nodes, rule, kappas(nodes, dense.nodes, rule.kappa, rule.plane, up));
-  if (options_.short_policy == Short::merge) {
-    runs = merged(nodes, std::move(runs), min_segment_nodes(options_));
-  } else if (options_.short_policy == Short::quasi_keyframes) {
-    Filled more = filled(dense.nodes, runs, problem.frames, min_segment_nodes(options_));
+  if (options_.short_policy == ShortPolicy::merge) {
+    runs = merge_short_segments(nodes, std::move(runs), min_segment_nodes(options_));
+  } else if (options_.short_policy == ShortPolicy::quasi_keyframes) {
+    FilledSegments more =
+        fill_short_segments(dense.nodes, runs, problem.frames, min_segment_nodes(options_));
     dense.nodes = std::move(more.nodes);
     dense.inserted += more.inserted;
     runs = std::move(more.runs);
@@ -143,44 +146,44 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   describe(nodes, runs, report);
 
   Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
-  Laying laying{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
+  JoinOptions join{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
   // A single regression spline has no joints, but the heights, and a path of zero length, still
   // need them.
-  if (laying.rule.meet == Meet::constrained_ls) laying.rule.meet = Meet::overlap_blend;
+  if (join.rule.kind == JointKind::constrained_ls) join.rule.kind = JointKind::overlap_blend;
   if (options_.planar > 0) {
     std::optional<PlanarFit> fit;
-    if (options_.joint.meet == Meet::constrained_ls) {
-      fit = fit_regression(nodes, runs, parts.spline, laying.size);
+    if (options_.joint.kind == JointKind::constrained_ls) {
+      fit = fit_regression(nodes, runs, parts.spline, join.size);
     }
     if (!fit)
       fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, judge));
     describe(*fit, report);
     describe(nodes, *fit, report);
-    if (options_.report_coefficients) note_coefficients(*fit, report);
-    parts.planar =
-        laid<Vector3>(nodes,
-                      fit->windows,
-                      std::move(fit->pieces),
-                      laying,
-                      [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
-                        return asked(piece, parts.spline.at(edge, time));
-                      });
+    if (options_.report_coefficients) add_coefficient_notes(*fit, report);
+    parts.planar = join_pieces<Vector3>(
+        nodes,
+        fit->windows,
+        std::move(fit->pieces),
+        join,
+        [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
+          return value_of_piece(piece, parts.spline.at(edge, time));
+        });
   }
   if (options_.spatial > 0) {
-    laying.size = static_cast<std::size_t>(options_.spatial);
+    join.size = static_cast<std::size_t>(options_.spatial);
     SpatialFit fit = fit_spatial(nodes, runs, parts.spline, up, spatial_rule(options_));
     describe(fit, report);
     describe(nodes, fit, report);
-    if (options_.report_coefficients) note_coefficients(fit, up.dot(nodes.base), report);
+    if (options_.report_coefficients) add_coefficient_notes(fit, up.dot(nodes.base), report);
     parts.spatial =
-        laid<double>(nodes,
-                     fit.windows,
-                     std::move(fit.pieces),
-                     laying,
-                     [&](const Height& piece, std::size_t edge, const Jet<double>& time) {
-                       const Moving point = parts.planar_point(edge, time);
-                       return piece.over<Jet<double>>(point, along(up, point));
-                     });
+        join_pieces<double>(nodes,
+                            fit.windows,
+                            std::move(fit.pieces),
+                            join,
+                            [&](const Height& piece, std::size_t edge, const Jet<double>& time) {
+                              const MotionJet point = parts.planar_point(edge, time);
+                              return piece.over<Jet<double>>(point, along(up, point));
+                            });
   }
   auto curve = std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
   describe(continuity(*curve), report);

@@ -28,23 +28,23 @@ class Dm final : public Smoother {
   /// mean_window_nodes, spatial_windows, spatial_truncated, spatial_fallbacks; and the largest
   /// jumps at nodes (see Continuity). Fewer than three nodes give the polyline. Segments separated
   /// by intervals above `chord_above` are smoothed separately and joined by chords
-  /// (smoothed_apart()).
+  /// (smooth_segments()).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
   /// Returns the same curve as pieces, or null for fewer than three nodes. `judge`, if set, selects
   /// the family instead of `selection`.
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      Report& report,
-                                                     const manifold::PieceJudge& judge) const;
+                                                     const manifold::PieceCost& judge) const;
 
  private:
   std::unique_ptr<const Curve> smooth(const Problem& problem,
-                                      manifold::Densified dense,
+                                      manifold::NodesWithQuasiKeyframes dense,
                                       Report& report) const;
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
-                                                     manifold::Densified dense,
+                                                     manifold::NodesWithQuasiKeyframes dense,
                                                      Report& report,
-                                                     const manifold::PieceJudge& judge) const;
+                                                     const manifold::PieceCost& judge) const;
 
   Options options_;
   std::vector<manifold::Family> families_;

@@ -33,7 +33,7 @@ struct DmOptions {
   /// [median intervals]; above the pauses in real data: KITTI 07 is at rest for 37 keyframe
   /// intervals.
   std::optional<double> chord_above = 50.0;
-  manifold::Up up = manifold::Up::pca;
+  manifold::UpDirection up = manifold::UpDirection::pca;
   manifold::Fallback fallback = manifold::Fallback::arc;
   bool height_guard = true;  ///< reject surfaces that leave the spline between nodes
 
@@ -47,7 +47,7 @@ struct DmOptions {
   manifold::Abscissa abscissa = manifold::Abscissa::spline;
   int spline_order = 4;
   manifold::JointRule joint = {};
-  manifold::Short short_policy = manifold::Short::borrow_neighbours;
+  manifold::ShortPolicy short_policy = manifold::ShortPolicy::borrow_neighbours;
   int min_nodes = 0;
   manifold::PsiUse psi = manifold::PsiUse::none;
   manifold::PsiMean psi_mean = manifold::PsiMean::discrete;
@@ -70,35 +70,37 @@ void fields(DmOptions& o, Visit visit) {
         o.gap.time_max,
         "maximum time between keyframes without inserting tracked frames as nodes [s]; none: no "
         "limit",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("gap_rotation_max",
         o.gap.rotation_max,
         "maximum rotation between keyframes without inserting tracked frames as nodes [rad]; none: "
         "no limit",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("gap_common_min",
         o.gap.common_min,
         "minimum number of common landmarks of two keyframes without inserting tracked frames as "
         "nodes, if known; none: no limit",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("chord_above",
         o.chord_above,
         "maximum interval between nodes, above which a straight chord bridges it [median keyframe "
         "intervals]; none: no limit",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("speed_rule", o.segment.speed, "criterion for a node's speed to belong to a segment");
   visit("speed_band",
         o.segment.speed_band,
         "speed threshold of speed_rule [m/s]; none: the mean speed",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("kappa",
         o.segment.kappa,
         "measure of turning: per keyframe [rad], curvature [1/m] or rate [rad/s]");
   visit("kappa_plane",
         o.segment.plane,
         "path used for kappa: in space (3d) or projected along the up axis (xy)");
-  visit(
-      "turn_max", o.segment.turn_max, "maximum kappa within a segment [unit of kappa]", Above{0.0});
+  visit("turn_max",
+        o.segment.turn_max,
+        "maximum kappa within a segment [unit of kappa]",
+        GreaterThan{0.0});
   visit("short_policy", o.short_policy, "treatment of segments with fewer than min_nodes nodes");
   visit("min_nodes",
         o.min_nodes,
@@ -146,11 +148,11 @@ void fields(DmOptions& o, Visit visit) {
         o.quadric_cut,
         "relative singular value below which directions of a quadric are dropped [-]",
         Between{0.0, 1.0});
-  visit("joint", o.joint.meet, "joint between neighbouring pieces");
+  visit("joint", o.joint.kind, "joint between neighbouring pieces");
   visit("low_speed_c0_below",
         o.joint.c0_below,
         "speed below which pieces are joined in position only [m/s]; none: never",
-        Above{0.0});
+        GreaterThan{0.0});
   visit("report_coefficients",
         o.report_coefficients,
         "add a note with the coefficients of every window");

@@ -28,7 +28,7 @@ void count(Report& report, const char* name, std::size_t value) {
   report.count(name, static_cast<double>(value));
 }
 
-void describe(const Densified& dense, Report& report) {
+void describe(const NodesWithQuasiKeyframes& dense, Report& report) {
   count(report, "nodes", dense.nodes.size());
   count(report, "quasi_keyframes", dense.inserted);
   count(report, "gaps_left", dense.gaps_left);
@@ -82,20 +82,20 @@ void describe(const Continuity& jumps, Report& report) {
   report.count("jump_curvature", jumps.curvature);
 }
 
-void describe(const MovingFrames& frames, Report& report) {
+void describe(const CurveFrames& frames, Report& report) {
   report.count("curvature_max",
                *std::max_element(frames.curvature.begin(), frames.curvature.end()));
   report.count("torsion_max", frames.torsion_max);
   count(report, "frenet_undefined", frames.carried);
 }
 
-void note_coefficients(const PlanarFit& fit, Report& report) {
+void add_coefficient_notes(const PlanarFit& fit, Report& report) {
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
     report.notes.push_back(nodes_of(fit.windows[k]) + description(fit.pieces[k]));
   }
 }
 
-void note_coefficients(const SpatialFit& fit, double base_height, Report& report) {
+void add_coefficient_notes(const SpatialFit& fit, double base_height, Report& report) {
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
     const auto& surface = fit.pieces[k].surface;
     if (!surface) continue;

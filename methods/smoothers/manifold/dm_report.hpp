@@ -11,7 +11,7 @@ namespace loopbench::methods::manifold {
 
 void count(Report& report, const char* name, std::size_t value);
 
-void describe(const Densified& dense, Report& report);
+void describe(const NodesWithQuasiKeyframes& dense, Report& report);
 void describe(const PlanarFit& fit, Report& report);
 void describe(const SpatialFit& fit, Report& report);
 /// Adds sections: the segments, the planar windows with their families, the spatial windows.
@@ -20,10 +20,10 @@ void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
 
 void describe(const Continuity& jumps, Report& report);
-void describe(const MovingFrames& frames, Report& report);
+void describe(const CurveFrames& frames, Report& report);
 
 /// Adds one note per window with its nodes, its family and its coefficients.
-void note_coefficients(const PlanarFit& fit, Report& report);
-void note_coefficients(const SpatialFit& fit, double base_height, Report& report);
+void add_coefficient_notes(const PlanarFit& fit, Report& report);
+void add_coefficient_notes(const SpatialFit& fit, double base_height, Report& report);
 
 }  // namespace loopbench::methods::manifold

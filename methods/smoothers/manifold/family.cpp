@@ -22,7 +22,7 @@ bool is_valid(const Polynomial& curve) {
 template <class Function>
 std::optional<PlanarPiece> graph(const Frame& frame, const std::optional<Function>& curve) {
   if (!curve) return std::nullopt;
-  return Graph<Function>{frame, *curve};
+  return GraphPiece<Function>{frame, *curve};
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ std::optional<PlanarPiece> fit_family(Family family,
       return graph(frame, fit_hyperbola(points));
     case Family::implicit: {
       const auto curve = fit_implicit(points, rule.implicit_order);
-      return curve ? std::optional<PlanarPiece>(AsImplicit{frame, *curve}) : std::nullopt;
+      return curve ? std::optional<PlanarPiece>(ImplicitPiece{frame, *curve}) : std::nullopt;
     }
     default: {
       const Polynomial curve = fit_polynomial(points, degree(family, points.size()));
@@ -86,7 +86,7 @@ std::optional<PlanarPiece> fit_along(Family family,
                                      std::span<const Vector3> points,
                                      std::span<const double> arc_lengths) {
   const auto curve = fit_arc_polynomial(points, arc_lengths, degree(family, points.size()));
-  return curve ? std::optional<PlanarPiece>(AsArcPolynomial{*curve}) : std::nullopt;
+  return curve ? std::optional<PlanarPiece>(ArcPolynomialPiece{*curve}) : std::nullopt;
 }
 
 }  // namespace loopbench::methods::manifold

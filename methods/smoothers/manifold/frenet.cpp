@@ -47,11 +47,11 @@ std::optional<double> discrete_torsion(const Vector3& a,
   const auto after = frenet(c - b, d - c);
   if (!before || !after) return std::nullopt;
   const Vector3 edge = c - b;
-  const double turn = turn_between(before->B, after->B);
-  return std::copysign(turn, before->B.cross(after->B).dot(edge)) / edge.norm();
+  const double angle = angle_between_directions(before->B, after->B);
+  return std::copysign(angle, before->B.cross(after->B).dot(edge)) / edge.norm();
 }
 
-Triad any_triad(const Vector3& tangent) {
+Triad arbitrary_triad(const Vector3& tangent) {
   Vector3 least = Vector3::Unit(0);
   for (const int axis : {1, 2}) {
     if (std::abs(tangent[axis]) < std::abs(tangent.dot(least))) least = Vector3::Unit(axis);

@@ -52,6 +52,6 @@ std::vector<Triad> rotation_minimising(std::span<const Vector3> points,
                                        const Triad& start);
 
 /// Returns an arbitrary triad with the given unit tangent, as a start where Frenet is undefined.
-Triad any_triad(const Vector3& tangent);
+Triad arbitrary_triad(const Vector3& tangent);
 
 }  // namespace loopbench::methods::manifold

@@ -16,14 +16,14 @@ struct Jet {
   T second;  ///< [per second squared]
 };
 
-using Moving = Jet<Vector3>;  ///< position, velocity, acceleration
+using MotionJet = Jet<Vector3>;  ///< position, velocity, acceleration
 
 /// Result type of a point at a time of type T: Vector3 for a double, Moving for a Jet.
 template <class T>
-using VectorOf = std::conditional_t<std::is_same_v<T, double>, Vector3, Moving>;
+using VectorOf = std::conditional_t<std::is_same_v<T, double>, Vector3, MotionJet>;
 
 /// The time as a Jet.
-inline Jet<double> moving_time(double time) { return {time, 1.0, 0.0}; }
+inline Jet<double> time_jet(double time) { return {time, 1.0, 0.0}; }
 
 inline double value_of(double x) { return x; }
 inline double value_of(const Jet<double>& x) { return x.value; }
@@ -90,7 +90,7 @@ inline Jet<double> cos(const Jet<double>& x) {
 
 /// Component along a fixed direction.
 inline double along(const Vector3& direction, const Vector3& v) { return direction.dot(v); }
-inline Jet<double> along(const Vector3& direction, const Moving& v) {
+inline Jet<double> along(const Vector3& direction, const MotionJet& v) {
   return {direction.dot(v.value), direction.dot(v.first), direction.dot(v.second)};
 }
 

@@ -4,11 +4,11 @@
 
 namespace loopbench::methods::manifold {
 
-Meet JointRule::at(const Nodes& nodes, std::size_t node) const {
-  if (!c0_below) return meet;
+JointKind JointRule::at(const Nodes& nodes, std::size_t node) const {
+  if (!c0_below) return kind;
   const double length = nodes.step(node - 1).norm() + nodes.step(node).norm();
   const double duration = nodes.stamps[node + 1] - nodes.stamps[node - 1];
-  return length / duration < *c0_below ? Meet::c0 : meet;
+  return length / duration < *c0_below ? JointKind::c0 : kind;
 }
 
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after) {

@@ -14,21 +14,21 @@ namespace loopbench::methods::manifold {
 /// each side of the joint is replaced by a quintic, C2. constrained_ls: all pieces are one cubic
 /// regression spline, C2 (regression.hpp). c0: both pieces are shifted by half of their gap. none:
 /// pieces are not joined.
-enum class Meet { overlap_blend, quintic_bridge, constrained_ls, c0, none };
-inline auto choices(Meet) {
-  return std::array{std::pair{"overlap_blend", Meet::overlap_blend},
-                    std::pair{"quintic_bridge", Meet::quintic_bridge},
-                    std::pair{"constrained_ls", Meet::constrained_ls},
-                    std::pair{"c0", Meet::c0},
-                    std::pair{"none", Meet::none}};
+enum class JointKind { overlap_blend, quintic_bridge, constrained_ls, c0, none };
+inline auto choices(JointKind) {
+  return std::array{std::pair{"overlap_blend", JointKind::overlap_blend},
+                    std::pair{"quintic_bridge", JointKind::quintic_bridge},
+                    std::pair{"constrained_ls", JointKind::constrained_ls},
+                    std::pair{"c0", JointKind::c0},
+                    std::pair{"none", JointKind::none}};
 }
 
 struct JointRule {
-  Meet meet = Meet::overlap_blend;
+  JointKind kind = JointKind::overlap_blend;
   std::optional<double> c0_below = std::nullopt;  ///< speed below which joints are C0 [m/s]
 
   /// Joint type at `node`, depending on the mean speed over its two steps.
-  Meet at(const Nodes& nodes, std::size_t node) const;
+  JointKind at(const Nodes& nodes, std::size_t node) const;
 };
 
 /// Transition from one piece to the next around their shared node, within its two edges.

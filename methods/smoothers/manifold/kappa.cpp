@@ -17,16 +17,19 @@ double rotation(const Trajectory& poses, std::size_t i) {
 
 }  // namespace
 
-std::vector<double> kappas(
-    const Nodes& given, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up) {
-  const Nodes nodes = plane == Plane::plane ? projected(given, up) : given;
+std::vector<double> kappas(const Nodes& given,
+                           const Trajectory& poses,
+                           Kappa definition,
+                           CurveSpace plane,
+                           const Vector3& up) {
+  const Nodes nodes = plane == CurveSpace::plane ? projected(given, up) : given;
   std::vector<double> out(nodes.size(), 0.0);
   std::optional<NodeSpline> spline;
   if (definition == Kappa::analytic_spline) spline.emplace(nodes);
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     const Vector3 before = nodes.step(i - 1);
     const Vector3 after = nodes.step(i);
-    const double angle = turn_between(before, after);
+    const double angle = angle_between_directions(before, after);
     switch (definition) {
       case Kappa::turn_per_kf:
         out[i] = angle;
@@ -43,7 +46,7 @@ std::vector<double> kappas(
         out[i] = 2.0 * angle / (nodes.stamps[i + 1] - nodes.stamps[i - 1]);
         break;
       case Kappa::analytic_spline: {
-        const Moving motion = spline->at(i, moving_time(nodes.stamps[i])).point;
+        const MotionJet motion = spline->at(i, time_jet(nodes.stamps[i])).point;
         out[i] = curvature(motion.first, motion.second);
         break;
       }

@@ -24,14 +24,17 @@ inline auto choices(Kappa) {
 }
 
 /// space: the path in space. plane: the path projected along the up axis, the article's xoy plane.
-enum class Plane { space, plane };
-inline auto choices(Plane) {
-  return std::array{std::pair{"3d", Plane::space}, std::pair{"xy", Plane::plane}};
+enum class CurveSpace { space, plane };
+inline auto choices(CurveSpace) {
+  return std::array{std::pair{"3d", CurveSpace::space}, std::pair{"xy", CurveSpace::plane}};
 }
 
 /// Returns kappa at every node, 0 at the first and last. `poses` are the nodes with their rotation,
 /// used by rotation_per_kf only, which ignores `plane`. O(n).
-std::vector<double> kappas(
-    const Nodes& nodes, const Trajectory& poses, Kappa definition, Plane plane, const Vector3& up);
+std::vector<double> kappas(const Nodes& nodes,
+                           const Trajectory& poses,
+                           Kappa definition,
+                           CurveSpace plane,
+                           const Vector3& up);
 
 }  // namespace loopbench::methods::manifold

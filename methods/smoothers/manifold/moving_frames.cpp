@@ -2,13 +2,13 @@
 
 namespace loopbench::methods::manifold {
 
-MovingFrames moving_frames(const ManifoldCurve& curve) {
+CurveFrames moving_frames(const ManifoldCurve& curve) {
   const std::vector<double>& stamps = curve.stamps();
-  MovingFrames out;
+  CurveFrames out;
   std::vector<Vector3> points;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const std::size_t edge = i + 1 < stamps.size() ? i : i - 1;
-    const Moving motion = curve.motion(edge, stamps[i]);
+    const MotionJet motion = curve.motion(edge, stamps[i]);
     points.push_back(motion.value);
     out.curvature.push_back(curvature(motion.first, motion.second));
     if (const auto triad = frenet(motion.first, motion.second)) {
@@ -18,7 +18,8 @@ MovingFrames moving_frames(const ManifoldCurve& curve) {
     ++out.carried;
     const bool is_at_rest = !(motion.first.norm() > 0.0);
     if (i == 0) {
-      out.triads.push_back(any_triad(is_at_rest ? Vector3::UnitX() : motion.first.normalized()));
+      out.triads.push_back(
+          arbitrary_triad(is_at_rest ? Vector3::UnitX() : motion.first.normalized()));
       continue;
     }
     const Triad& before = out.triads.back();

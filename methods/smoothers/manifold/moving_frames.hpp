@@ -6,7 +6,7 @@
 
 namespace loopbench::methods::manifold {
 
-struct MovingFrames {
+struct CurveFrames {
   std::vector<Triad> triads;      ///< at every node
   std::vector<double> curvature;  ///< analytic [1/m]
   std::size_t carried = 0;        ///< number of nodes where the Frenet frame is undefined
@@ -16,6 +16,6 @@ struct MovingFrames {
 /// Where the Frenet frame is undefined, the previous frame is propagated by double reflection
 /// (parallel transport). Before the first defined frame an arbitrary triad around the tangent is
 /// used. At rest the tangent is kept. O(nodes).
-MovingFrames moving_frames(const ManifoldCurve& curve);
+CurveFrames moving_frames(const ManifoldCurve& curve);
 
 }  // namespace loopbench::methods::manifold

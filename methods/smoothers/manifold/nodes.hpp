@@ -39,7 +39,7 @@ struct Nodes {
 
 /// Angle between two directions, 0..pi [rad]; 0 when either is zero. Uses atan2, because acos loses
 /// half the digits for nearly parallel directions.
-inline double turn_between(const Vector3& a, const Vector3& b) {
+inline double angle_between_directions(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 

@@ -12,19 +12,20 @@ PlanarPiece fallback_piece(const Nodes& nodes,
                            NodeRange range,
                            const NodeSpline& spline,
                            Fallback fallback) {
-  if (fallback == Fallback::spline || range.nodes() != 3) return AsSpline{};
+  if (fallback == Fallback::spline || range.nodes() != 3) return SplinePiece{};
   const std::size_t i = range.first;
   const std::array points{nodes.points[i], nodes.points[i + 1], nodes.points[i + 2]};
-  const std::array arc_lengths{spline.way(i), spline.way(i + 1), spline.way(i + 2)};
+  const std::array arc_lengths{spline.distance(i), spline.distance(i + 1), spline.distance(i + 2)};
   const auto arc = fit_arc(points, arc_lengths);
-  return arc ? PlanarPiece(AsArc{*arc}) : PlanarPiece(AsSpline{});
+  return arc ? PlanarPiece(ArcPiece{*arc}) : PlanarPiece(SplinePiece{});
 }
 
 void keep_chords(const Nodes& nodes, NodeRange segment, PlanarFit& out) {
   for (std::size_t i = segment.first; i < segment.last; ++i) {
     ++out.chords;
-    out.keep({{i, i + 1}, {i, i + 1}},
-             AsChord{nodes.stamps[i], nodes.stamps[i + 1], nodes.points[i], nodes.points[i + 1]});
+    out.keep(
+        {{i, i + 1}, {i, i + 1}},
+        ChordPiece{nodes.stamps[i], nodes.stamps[i + 1], nodes.points[i], nodes.points[i + 1]});
   }
 }
 

@@ -16,7 +16,7 @@ inline auto choices(Fallback) {
 }
 
 /// Cost of a piece for a window, evaluated at the points of `spline`; lower is better.
-using PieceJudge = std::function<double(
+using PieceCost = std::function<double(
     const PlanarPiece& piece, const Window& window, const Nodes& nodes, const NodeSpline& spline)>;
 
 struct PlanarRule {
@@ -27,7 +27,7 @@ struct PlanarRule {
   std::vector<Family> families{Family::by_n};
   FamilyRule family = {};
   Selection selection = Selection::fixed;
-  PieceJudge judge = {};  ///< selects the family instead of `selection`; used by an oracle only
+  PieceCost judge = {};  ///< selects the family instead of `selection`; used by an oracle only
   Fallback fallback = Fallback::arc;
   std::size_t chords_below = 0;  ///< segments with fewer nodes become straight lines
 };

@@ -33,10 +33,10 @@ Vector3 principal_axis(const Nodes& nodes, NodeRange range) {
 
 }  // namespace
 
-double spread(const Vector3& psi, std::span<const WeightedDirection> chords) {
+double dispersion(const Vector3& psi, std::span<const WeightedDirection> chords) {
   double sum = 0.0;
   for (const auto& [direction, weight] : chords) {
-    const double angle = turn_between(psi, direction);
+    const double angle = angle_between_directions(psi, direction);
     sum += weight * angle * angle;
   }
   return sum;
@@ -56,7 +56,7 @@ Vector3 frechet_mean(std::span<const WeightedDirection> directions) {
     for (const auto& [direction, weight] : directions) {
       const Vector3 perpendicular = direction - mean.dot(direction) * mean;
       if (perpendicular.norm() > 0.0)
-        update += weight * turn_between(mean, direction) * perpendicular.normalized();
+        update += weight * angle_between_directions(mean, direction) * perpendicular.normalized();
     }
     update /= weights;
     const double angle = update.norm();
@@ -94,7 +94,7 @@ std::vector<Vector3> candidates(const Nodes& nodes,
   add(out, nodes.points[near.last] - nodes.points[near.first], displacement);
   add(out, principal_axis(nodes, wide), displacement);
   const std::size_t edge = std::min(node, nodes.size() - 2);
-  add(out, spline.at(edge, moving_time(nodes.stamps[node])).point.first, displacement);
+  add(out, spline.at(edge, time_jet(nodes.stamps[node])).point.first, displacement);
   return out;
 }
 
@@ -109,15 +109,15 @@ Vector3 optimal_tangent(const Nodes& nodes,
   const auto all = candidates(nodes, spline, node, half);
   if (all.empty()) return Vector3::Zero();
   return *std::min_element(all.begin(), all.end(), [&](const Vector3& a, const Vector3& b) {
-    return spread(a, chords) < spread(b, chords);
+    return dispersion(a, chords) < dispersion(b, chords);
   });
 }
 
-std::vector<Clamp> clamps(const Nodes& nodes,
-                          const NodeSpline& spline,
-                          std::span<const NodeRange> segments,
-                          std::size_t half,
-                          PsiMean mean) {
+std::vector<Clamp> segment_end_velocities(const Nodes& nodes,
+                                          const NodeSpline& spline,
+                                          std::span<const NodeRange> segments,
+                                          std::size_t half,
+                                          PsiMean mean) {
   std::vector<Clamp> out;
   const auto clamp = [&](std::size_t node) {
     const NodeRange near = neighbourhood(nodes, node, 1);

@@ -32,7 +32,7 @@ struct WeightedDirection {
 };
 
 /// Weighted sum of squared angles to the directions [rad^2].
-double spread(const Vector3& psi, std::span<const WeightedDirection> chords);
+double dispersion(const Vector3& psi, std::span<const WeightedDirection> chords);
 
 /// Returns the unit vector that minimises `spread`: five steps of gradient descent on the sphere
 /// (Karcher, step size 1) from the weighted sum. It is unique for directions within an open
@@ -59,10 +59,10 @@ Vector3 optimal_tangent(
 
 /// Velocities at the ends of segments: psi times the mean speed over the two adjacent steps.
 /// O(nodes).
-std::vector<Clamp> clamps(const Nodes& nodes,
-                          const NodeSpline& spline,
-                          std::span<const NodeRange> segments,
-                          std::size_t half,
-                          PsiMean mean);
+std::vector<Clamp> segment_end_velocities(const Nodes& nodes,
+                                          const NodeSpline& spline,
+                                          std::span<const NodeRange> segments,
+                                          std::size_t half,
+                                          PsiMean mean);
 
 }  // namespace loopbench::methods::manifold

@@ -18,8 +18,8 @@ double required_parts(const StampedPose& a, const StampedPose& b, const GapRule&
 }
 
 bool shares_too_little(const Problem& problem, std::size_t i, const GapRule& rule) {
-  if (problem.common_view.empty() || !rule.common_min) return false;
-  return static_cast<double>(problem.common_view[i]) < *rule.common_min;
+  if (problem.shared_landmarks.empty() || !rule.common_min) return false;
+  return static_cast<double>(problem.shared_landmarks[i]) < *rule.common_min;
 }
 
 // Returns the frame nearest to `time` in the nonempty range begin..end.
@@ -54,8 +54,8 @@ std::size_t insert_frames(const StampedPose& current,
   return inserted;
 }
 
-Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
-  Densified out;
+NodesWithQuasiKeyframes with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
+  NodesWithQuasiKeyframes out;
   out.nodes.reserve(problem.keyframes.size());
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
     const StampedPose& current = problem.keyframes[i];

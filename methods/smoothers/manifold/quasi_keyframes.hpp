@@ -13,7 +13,7 @@ struct GapRule {
   std::optional<double> common_min = 1.0;     ///< minimum common landmarks without insertion
 };
 
-struct Densified {
+struct NodesWithQuasiKeyframes {
   Trajectory nodes;           ///< keyframes and the quasi-keyframes between them
   std::size_t inserted = 0;   ///< number of quasi-keyframes
   std::size_t gaps_left = 0;  ///< gaps above the limits without any tracked frame
@@ -32,6 +32,6 @@ std::size_t insert_frames(const StampedPose& current,
 /// frame nearest to each division; poses are never interpolated. Gaps between keyframes with too
 /// few common landmarks (problem.common_view, if known) are divided into at least two parts.
 /// Source: article section 3.3, where frames are chosen manually. O(keyframes log frames).
-Densified with_quasi_keyframes(const Problem& problem, const GapRule& rule);
+NodesWithQuasiKeyframes with_quasi_keyframes(const Problem& problem, const GapRule& rule);
 
 }  // namespace loopbench::methods::manifold

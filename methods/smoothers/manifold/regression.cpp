@@ -9,7 +9,7 @@ std::optional<PlanarFit> fit_regression(const Nodes& nodes,
   std::vector<double> arc_lengths;
   std::vector<BSpline::Value> values;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    arc_lengths.push_back(spline.way(i));
+    arc_lengths.push_back(spline.distance(i));
     values.emplace_back();
     values.back() << nodes.points[i], 0.0;
   }
@@ -24,9 +24,9 @@ std::optional<PlanarFit> fit_regression(const Nodes& nodes,
   }
   PlanarFit out;
   const NodeRange all{0, nodes.size() - 1};
-  out.keep(
-      {all, all},
-      AsRegression{std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots, 4))});
+  out.keep({all, all},
+           RegressionPiece{
+               std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots, 4))});
   return out;
 }
 

@@ -67,7 +67,7 @@ std::vector<NodeRange> segments(const Nodes& nodes,
 
 std::vector<NodeRange> segments(const Nodes& nodes, const SegmentRule& rule) {
   return segments(
-      nodes, rule, kappas(nodes, {}, Kappa::turn_per_kf, Plane::space, Vector3::UnitZ()));
+      nodes, rule, kappas(nodes, {}, Kappa::turn_per_kf, CurveSpace::space, Vector3::UnitZ()));
 }
 
 }  // namespace loopbench::methods::manifold

@@ -27,7 +27,7 @@ struct SegmentRule {
   double turn_max = 0.75;  ///< maximum kappa at an inner node [rad, or unit of kappa]
   SpeedRule speed = SpeedRule::range;
   Kappa kappa = Kappa::turn_per_kf;
-  Plane plane = Plane::space;
+  CurveSpace plane = CurveSpace::space;
 };
 
 /// Splits at least two nodes into consecutive segments. A segment grows while its speeds satisfy

@@ -6,9 +6,9 @@
 
 namespace loopbench::methods::manifold {
 
-std::vector<NodeRange> merged(const Nodes& nodes,
-                              std::vector<NodeRange> runs,
-                              std::size_t min_nodes) {
+std::vector<NodeRange> merge_short_segments(const Nodes& nodes,
+                                            std::vector<NodeRange> runs,
+                                            std::size_t min_nodes) {
   std::vector<double> path_length(nodes.size(), 0.0);
   for (std::size_t i = 1; i < nodes.size(); ++i)
     path_length[i] = path_length[i - 1] + nodes.step(i - 1).norm();
@@ -36,11 +36,11 @@ std::vector<NodeRange> merged(const Nodes& nodes,
   return out;
 }
 
-Filled filled(const Trajectory& nodes,
-              const std::vector<NodeRange>& runs,
-              const Trajectory& frames,
-              std::size_t min_nodes) {
-  Filled out;
+FilledSegments fill_short_segments(const Trajectory& nodes,
+                                   const std::vector<NodeRange>& runs,
+                                   const Trajectory& frames,
+                                   std::size_t min_nodes) {
+  FilledSegments out;
   out.nodes.push_back(nodes.front());
   for (const NodeRange& run : runs) {
     const std::size_t first = out.nodes.size() - 1;

@@ -7,11 +7,11 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // fraction of the window size, for level motion
 
-bool is_tame(const Height::Surface& surface,
-             const Nodes& nodes,
-             const Window& window,
-             const NodeSpline& spline,
-             const Vector3& up) {
+bool stays_near_spline(const Height::Surface& surface,
+                       const Nodes& nodes,
+                       const Window& window,
+                       const NodeSpline& spline,
+                       const Vector3& up) {
   double low = up.dot(nodes.points[window.fitted.first]);
   double high = low;
   for (std::size_t i = window.fitted.first; i <= window.fitted.last; ++i) {
@@ -67,7 +67,8 @@ SpatialFit fit_spatial(const Nodes& nodes,
     }
     for (const Window& window : windows(segment, rule.size, nodes.size(), rule.scheme)) {
       auto surface = fit_surface(nodes, window, up, rule);
-      if (surface && rule.guarded && !is_tame(*surface, nodes, window, spline, up)) surface.reset();
+      if (surface && rule.guarded && !stays_near_spline(*surface, nodes, window, spline, up))
+        surface.reset();
       if (!surface) ++out.fallbacks;
       if (surface && surface->quadric.rank < 6) ++out.truncated;
       out.windows.push_back(window);

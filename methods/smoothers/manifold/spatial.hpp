@@ -17,8 +17,8 @@ struct Height {
     Quadric quadric;
 
     double height(const Vector3& point) const { return quadric(frame.local(point)); }
-    Jet<double> height(const Moving& point) const {
-      const Moving from_origin = point - frame.origin;
+    Jet<double> height(const MotionJet& point) const {
+      const MotionJet from_origin = point - frame.origin;
       return quadric(along(frame.x, from_origin), along(frame.y, from_origin));
     }
   };

@@ -79,7 +79,7 @@ void NodeSpline::solve_second_derivatives(std::size_t first,
   }
 }
 
-Place NodeSpline::at(std::size_t edge, double time) const {
+SplinePoint NodeSpline::at(std::size_t edge, double time) const {
   if (b_spline_) {
     const Value value = b_spline_->at(time);
     return {value.head<3>(), value[3], time};
@@ -95,7 +95,7 @@ Place NodeSpline::at(std::size_t edge, double time) const {
   return {value.head<3>(), value[3], time};
 }
 
-MovingPlace NodeSpline::at(std::size_t edge, const Jet<double>& time) const {
+SplinePointJet NodeSpline::at(std::size_t edge, const Jet<double>& time) const {
   Jet<Value> out;
   if (b_spline_) {
     out = b_spline_->at(time);

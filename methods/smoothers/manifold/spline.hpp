@@ -12,13 +12,13 @@ namespace loopbench::methods::manifold {
 
 /// Point of the spline: position [m], arc length along the nodes [m] and time [s].
 template <class T>
-struct PlaceOf {
+struct SplinePointOf {
   VectorOf<T> point;
-  T way;
+  T distance;
   T time;
 };
-using Place = PlaceOf<double>;
-using MovingPlace = PlaceOf<Jet<double>>;
+using SplinePoint = SplinePointOf<double>;
+using SplinePointJet = SplinePointOf<Jet<double>>;
 
 /// Curve that provides the x' at which y' is evaluated.
 enum class Abscissa { spline, polyline };
@@ -52,10 +52,10 @@ class NodeSpline {
   static NodeSpline of_order(const Nodes& nodes, std::size_t order);
 
   /// Point at `time` in stamps[edge]..stamps[edge + 1]. O(1), or O(log n) for another order.
-  Place at(std::size_t edge, double time) const;
-  MovingPlace at(std::size_t edge, const Jet<double>& time) const;
+  SplinePoint at(std::size_t edge, double time) const;
+  SplinePointJet at(std::size_t edge, const Jet<double>& time) const;
 
-  double way(std::size_t node) const { return knots_[node].value[3]; }
+  double distance(std::size_t node) const { return knots_[node].value[3]; }
 
  private:
   using Value = Eigen::Vector4d;  ///< x, y, z and arc length

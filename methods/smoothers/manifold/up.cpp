@@ -22,8 +22,8 @@ Vector3 body_axis_in(const Matrix3& projector, const Rotation& world_from_body) 
 
 }  // namespace
 
-Vector3 up_axis(const Trajectory& nodes, Up choice) {
-  if (choice == Up::world_z || nodes.empty()) return Vector3::UnitZ();
+Vector3 up_axis(const Trajectory& nodes, UpDirection choice) {
+  if (choice == UpDirection::world_z || nodes.empty()) return Vector3::UnitZ();
   const Vector3 base = nodes.front().world_from_body.translation;
   Vector3 mean = Vector3::Zero();
   for (const StampedPose& node : nodes) mean += node.world_from_body.translation - base;

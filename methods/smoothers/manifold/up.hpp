@@ -7,9 +7,9 @@
 
 namespace loopbench::methods::manifold {
 
-enum class Up { pca, world_z };
-inline auto choices(Up) {
-  return std::array{std::pair{"pca", Up::pca}, std::pair{"world_z", Up::world_z}};
+enum class UpDirection { pca, world_z };
+inline auto choices(UpDirection) {
+  return std::array{std::pair{"pca", UpDirection::pca}, std::pair{"world_z", UpDirection::world_z}};
 }
 
 /// Unit vector in the world. `pca` is the axis of least variance of the positions, so the result
@@ -17,6 +17,6 @@ inline auto choices(Up) {
 /// body axis of the first pose is used, which rotates with the data as well. The sign follows the
 /// direction of travel; the fits do not depend on it, because mirrored z' and y' give mirrored
 /// curves. O(n).
-Vector3 up_axis(const Trajectory& nodes, Up choice);
+Vector3 up_axis(const Trajectory& nodes, UpDirection choice);
 
 }  // namespace loopbench::methods::manifold

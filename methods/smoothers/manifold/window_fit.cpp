@@ -36,7 +36,7 @@ std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
   for (const Family family : families) {
     auto piece = fit(family, frame, node_indices);
     if (!piece) continue;
-    if (rule.guarded && !is_polynomial(family) && !is_tame(*piece, window)) continue;
+    if (rule.guarded && !is_polynomial(family) && !stays_near_spline(*piece, window)) continue;
     if (rule.selection == Selection::fixed && !rule.judge) return piece;
     const double cost = rule.judge ? rule.judge(*piece, window, nodes, spline)
                                    : score(family, *piece, frame, node_indices);
@@ -55,7 +55,7 @@ std::optional<PlanarPiece> WindowFitter::fit(Family family,
     std::vector<double> arc_lengths;
     for (const std::size_t i : node_indices) {
       points.push_back(nodes.points[i]);
-      arc_lengths.push_back(spline.way(i));
+      arc_lengths.push_back(spline.distance(i));
     }
     return fit_along(family, points, arc_lengths);
   }
@@ -89,19 +89,20 @@ double WindowFitter::score(Family family,
 }
 
 double WindowFitter::squared_error(const PlanarPiece& piece, std::size_t node) const {
-  const Place place{nodes.points[node], spline.way(node), nodes.stamps[node]};
-  return (asked(piece, place) - nodes.points[node]).squaredNorm();
+  const SplinePoint position{nodes.points[node], spline.distance(node), nodes.stamps[node]};
+  return (value_of_piece(piece, position) - nodes.points[node]).squaredNorm();
 }
 
-bool WindowFitter::is_tame(const PlanarPiece& piece, const Window& window) const {
+bool WindowFitter::stays_near_spline(const PlanarPiece& piece, const Window& window) const {
   const Vector3 chord = nodes.points[window.fitted.last] - nodes.points[window.fitted.first];
   const double max_deviation = kMaxDeviation * chord.norm();
   const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
   const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
   for (std::size_t edge = begin; edge < end; ++edge) {
     for (const double u : {0.25, 0.5, 0.75}) {
-      const Place place = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge));
-      if (!((asked(piece, place) - place.point).norm() <= max_deviation)) return false;
+      const SplinePoint position = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge));
+      if (!((value_of_piece(piece, position) - position.point).norm() <= max_deviation))
+        return false;
     }
   }
   return true;

@@ -28,7 +28,7 @@ struct WindowFitter {
                const std::optional<Frame>& frame,
                std::span<const std::size_t> picked) const;
   double squared_error(const PlanarPiece& piece, std::size_t node) const;
-  bool is_tame(const PlanarPiece& piece, const Window& window) const;
+  bool stays_near_spline(const PlanarPiece& piece, const Window& window) const;
 };
 
 }  // namespace loopbench::methods::manifold

@@ -9,7 +9,7 @@ namespace loopbench::methods {
 /// them. Returns the minimiser if the function has a single minimum at least `coarse` wide. A later
 /// value must be lower by a relative 1e-9 to win, so that rounding does not change the choice.
 template <class Score>
-int least_on_lattice(int low, int high, int coarse, Score score) {
+int minimise_on_lattice(int low, int high, int coarse, Score score) {
   int best = low;
   double lowest = score(low);
   const auto evaluate = [&](int k) {

@@ -52,13 +52,13 @@ double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
   return (size - 2.0) * std::log(fit.energy.sum() + kTiny) - fit.log_determinant;
 }
 
-double chosen_lambda(const Reinsch& reinsch,
+double select_lambda(const Reinsch& reinsch,
                      const std::vector<double>& stamps,
                      const std::vector<Vector3>& y,
                      Criterion criterion) {
   const double interval = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
   const auto lambda = [&](int k) { return std::pow(interval, 3) * std::pow(10.0, k / 8.0); };
-  return lambda(least_on_lattice(
+  return lambda(minimise_on_lattice(
       -48, 96, 8, [&](int k) { return score(criterion, reinsch.fit(y, lambda(k)), y.size()); }));
 }
 

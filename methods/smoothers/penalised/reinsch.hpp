@@ -51,7 +51,7 @@ double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n);
 
 /// Returns the best lambda [s^3] on the lattice (mean interval)^3 * 10^(k / 8), 1e-6 to 1e12. A
 /// lattice makes the choice independent of rounding. About 35 fits.
-double chosen_lambda(const Reinsch& reinsch,
+double select_lambda(const Reinsch& reinsch,
                      const std::vector<double>& stamps,
                      const std::vector<Vector3>& y,
                      Criterion criterion);

@@ -21,7 +21,7 @@ Trend::Trend(const std::vector<double>& stamps)
   slope_change_ = SlopeChange(times_);
 }
 
-double Trend::straight_from(const std::vector<Vector3>& y) const {
+double Trend::min_lambda_of_line(const std::vector<Vector3>& y) const {
   std::vector<Vector3> dual = slope_change_.of(y);
   PentadiagonalFactor(slope_change_.outer()).solve(dual);
   double out = 0.0;

@@ -31,7 +31,7 @@ class Trend {
   double interval() const { return interval_; }  ///< mean interval [s]
 
   /// Returns max |(D D')^-1 D y|, the smallest lambda for which the fit is the regression line.
-  double straight_from(const std::vector<Vector3>& y) const;
+  double min_lambda_of_line(const std::vector<Vector3>& y) const;
 
   Fit fit(const std::vector<Vector3>& y, double lambda, const Settings& settings) const;
 

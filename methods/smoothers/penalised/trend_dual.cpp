@@ -26,7 +26,7 @@ class TrendBarrier {
  public:
   TrendBarrier(const Pentadiagonal& outer, const Forces& bends, double lambda)
       : outer_(outer),
-        bends_(bends),
+        kinks_(bends),
         square_(lambda * lambda),
         v_(bends.size(), Vector3::Zero()),
         gram_v_(v_) {}
@@ -37,7 +37,7 @@ class TrendBarrier {
     for (std::size_t j = 0; j < v.size(); ++j) {
       const double slack = 1.0 - v[j].squaredNorm() / square_;
       if (!(slack > 0.0)) return std::numeric_limits<double>::infinity();
-      quadratic += v[j].dot(0.5 * gram_v[j] - bends_[j]);
+      quadratic += v[j].dot(0.5 * gram_v[j] - kinks_[j]);
       barrier += std::log(slack);
     }
     return t * quadratic - barrier;
@@ -52,7 +52,7 @@ class TrendBarrier {
     for (std::size_t j = 0; j < n; ++j) {
       const double slack = square_ - v_[j].squaredNorm();
       const double weight = 2.0 / (t * slack);
-      gradient[j] = gram_v_[j] - bends_[j] + weight * v_[j];
+      gradient[j] = gram_v_[j] - kinks_[j] + weight * v_[j];
       blocks[j] = weight * Matrix3::Identity() + (2.0 * weight / slack) * v_[j] * v_[j].transpose();
       direction[j] = -gradient[j];
     }
@@ -110,7 +110,7 @@ class TrendBarrier {
   }
 
   const Pentadiagonal& outer_;
-  const Forces& bends_;
+  const Forces& kinks_;
   double square_;
   Forces v_;
   Forces gram_v_;  ///< D D' v

@@ -16,19 +16,19 @@ namespace loopbench::methods {
 /// rotation). A constant angular velocity becomes a straight line for any number of revolutions,
 /// and the result does not depend on the world axes. Sources: Jupp & Kent 1987 (sphere); Kim,
 /// Dryden & Le 2021 (manifolds).
-class Unrolled {
+class UnrolledRotations {
  public:
-  explicit Unrolled(std::vector<Rotation> base);  ///< requires at least one rotation; O(n)
+  explicit UnrolledRotations(std::vector<Rotation> base);  ///< requires at least one rotation; O(n)
 
   const std::vector<Rotation>& base() const { return base_; }
 
-  /// Unrolled point of rotation i, which is near base i: flat_i + Q_i Log(B_i' R).
-  Vector3 flattened(std::size_t i, const Rotation& rotation) const {
+  /// UnrolledRotations point of rotation i, which is near base i: flat_i + Q_i Log(B_i' R).
+  Vector3 unroll(std::size_t i, const Rotation& rotation) const {
     return flat_[i] + flat_from_body_[i] * log_so3(base_[i].conjugate() * rotation);
   }
 
   /// Rotation of an unrolled point near the base, at fraction u of interval i (0: at base i).
-  Rotation rolled(std::size_t i, double u, const Vector3& point) const {
+  Rotation roll(std::size_t i, double u, const Vector3& point) const {
     if (u == 0.0) return rotated(base_[i], flat_from_body_[i], point - flat_[i]);
     const Vector3& step = steps_[i];
     return rotated(base_[i] * exp_so3(u * step),
@@ -49,7 +49,7 @@ class Unrolled {
   std::vector<Vector3> flat_;  ///< [rad]
 };
 
-inline Unrolled::Unrolled(std::vector<Rotation> base) : base_(std::move(base)) {
+inline UnrolledRotations::UnrolledRotations(std::vector<Rotation> base) : base_(std::move(base)) {
   flat_.push_back(Vector3::Zero());
   flat_from_body_.push_back(Rotation::Identity());
   for (std::size_t i = 0; i + 1 < base_.size(); ++i) {
@@ -62,10 +62,10 @@ inline Unrolled::Unrolled(std::vector<Rotation> base) : base_(std::move(base)) {
 /// Result of smoothed_rotations(): `fit` is relative to `path`.
 template <class Fit>
 struct SmoothedRotations {
-  Unrolled path;
+  UnrolledRotations path;
   Fit fit;
   int iterations;
-  bool settled;
+  bool converged;
 };
 
 /// Unrolls the rotations about a base, smooths the points with `fit_points` (which returns a struct
@@ -79,24 +79,25 @@ auto smoothed_rotations(const std::vector<Rotation>& rotations,
                         double tolerance = 1e-11)
     -> SmoothedRotations<decltype(fit_points(std::vector<Vector3>{}))> {
   constexpr int kMaxRounds = 30;
-  Unrolled path(rotations);
+  UnrolledRotations path(rotations);
   for (int round = 1;; ++round) {
     std::vector<Vector3> points;
     points.reserve(rotations.size());
     for (std::size_t i = 0; i < rotations.size(); ++i) {
-      points.push_back(path.flattened(i, rotations[i]));
+      points.push_back(path.unroll(i, rotations[i]));
     }
     auto fit = fit_points(points);
     std::vector<Rotation> next;
     next.reserve(rotations.size());
     double change = 0.0;
     for (std::size_t i = 0; i < rotations.size(); ++i) {
-      next.push_back(path.rolled(i, 0.0, fit.values[i]));
+      next.push_back(path.roll(i, 0.0, fit.values[i]));
       change = std::max(change, angle_between(path.base()[i], next[i]));
     }
-    const bool settled = change <= tolerance;
-    if (settled || round == kMaxRounds) return {std::move(path), std::move(fit), round, settled};
-    path = Unrolled(std::move(next));
+    const bool converged = change <= tolerance;
+    if (converged || round == kMaxRounds)
+      return {std::move(path), std::move(fit), round, converged};
+    path = UnrolledRotations(std::move(next));
   }
 }
 

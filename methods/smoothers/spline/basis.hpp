@@ -15,8 +15,8 @@ namespace loopbench::methods {
 /// N_p..N_{p+k-1} are nonzero. Order k is degree k - 1.
 class SplineBasis {
  public:
-  static constexpr std::size_t kMostOrder = manifold::kMostOrder;
-  using Values = std::array<double, kMostOrder>;
+  static constexpr std::size_t kMaxOrder = manifold::kMaxOrder;
+  using Values = std::array<double, kMaxOrder>;
 
   /// Requires at least two strictly increasing breaks and an order in 2..6.
   SplineBasis(std::size_t order, std::vector<double> breaks)

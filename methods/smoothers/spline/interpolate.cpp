@@ -5,7 +5,7 @@
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
 #include "methods/smoothers/spline/block_banded.hpp"
-#include "methods/smoothers/spline/turning.hpp"
+#include "methods/smoothers/spline/rotation_derivative.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -25,16 +25,17 @@ struct Linearised {
   double residual = 0.0;
 };
 
-Linearised linearised(const SplineBasis& basis,
-                      const std::vector<double>& sites,
-                      const std::vector<Rotation>& controls,
-                      const std::vector<Rotation>& rotations) {
+Linearised linearise(const SplineBasis& basis,
+                     const std::vector<double>& sites,
+                     const std::vector<Rotation>& controls,
+                     const std::vector<Rotation>& rotations) {
   const std::size_t k = basis.order();
   Linearised out{System(sites.size(), k - 1, Matrix3::Zero(), Vector3::Zero())};
   KnotSpan span(basis.breaks());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const std::size_t piece = span.find(sites[i]);
-    const Turning evaluated = turning(&controls[piece], k, basis.cumulative(piece, sites[i]));
+    const RotationDerivative evaluated =
+        rotation_derivative(&controls[piece], k, basis.cumulative(piece, sites[i]));
     for (std::size_t j = 0; j < k; ++j) {
       // At a site on a knot one function is zero, and its column may lie outside the band.
       const std::size_t column = piece + j;
@@ -66,9 +67,9 @@ std::vector<Rotation> initial_controls(const SplineBasis& basis,
 
 }  // namespace
 
-std::vector<Vector3> points_through(const SplineBasis& basis,
-                                    const std::vector<double>& sites,
-                                    const std::vector<Vector3>& points) {
+std::vector<Vector3> interpolating_controls(const SplineBasis& basis,
+                                            const std::vector<double>& sites,
+                                            const std::vector<Vector3>& points) {
   const std::size_t k = basis.order();
   BlockBanded<double, Vector3> system(sites.size(), k - 1, 0.0, Vector3::Zero());
   KnotSpan span(basis.breaks());
@@ -86,11 +87,12 @@ std::vector<Vector3> points_through(const SplineBasis& basis,
   return out;
 }
 
-std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
-                                                  const std::vector<double>& sites,
-                                                  const std::vector<Rotation>& rotations) {
-  RotationsThrough out{initial_controls(basis, sites, rotations), 0};
-  Linearised current = linearised(basis, sites, out.controls, rotations);
+std::optional<RotationControls> interpolating_rotation_controls(
+    const SplineBasis& basis,
+    const std::vector<double>& sites,
+    const std::vector<Rotation>& rotations) {
+  RotationControls out{initial_controls(basis, sites, rotations), 0};
+  Linearised current = linearise(basis, sites, out.controls, rotations);
   for (; current.residual > kTolerance && out.iterations < kMostSteps; ++out.iterations) {
     const std::vector<Vector3> step = current.system.solve();
     bool better = false;
@@ -100,7 +102,7 @@ std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
       for (std::size_t j = 0; j < step.size(); ++j) {
         trial[j] = (exp_so3(share * step[j]) * trial[j]).normalized();
       }
-      Linearised next = linearised(basis, sites, trial, rotations);
+      Linearised next = linearise(basis, sites, trial, rotations);
       better = next.residual < current.residual;  // false for NaN as well
       if (!better) continue;
       current = std::move(next);

@@ -10,11 +10,11 @@
 namespace loopbench::methods {
 
 /// Solves sum_j N_j(sites[i]) c_j = points[i]; `basis` is SplineBasis::for_sites. O(n k^2).
-std::vector<Vector3> points_through(const SplineBasis& basis,
-                                    const std::vector<double>& sites,
-                                    const std::vector<Vector3>& points);
+std::vector<Vector3> interpolating_controls(const SplineBasis& basis,
+                                            const std::vector<double>& sites,
+                                            const std::vector<Vector3>& points);
 
-struct RotationsThrough {
+struct RotationControls {
   std::vector<Rotation> controls;
   int iterations = 0;  ///< number of Newton steps
 };
@@ -23,8 +23,9 @@ struct RotationsThrough {
 /// world-frame rotation vectors: 3 x 3 blocks, k - 1 diagonals on each side, O(n k^2) per step,
 /// quadratic convergence. A step that does not reduce the largest residual is halved. Returns
 /// nullopt when no such spline is found: consecutive controls must be less than pi apart.
-std::optional<RotationsThrough> rotations_through(const SplineBasis& basis,
-                                                  const std::vector<double>& sites,
-                                                  const std::vector<Rotation>& rotations);
+std::optional<RotationControls> interpolating_rotation_controls(
+    const SplineBasis& basis,
+    const std::vector<double>& sites,
+    const std::vector<Rotation>& rotations);
 
 }  // namespace loopbench::methods

@@ -11,7 +11,9 @@ namespace loopbench::methods {
 /// Returns a basis with `share` functions per keyframe, at least k and at most n. Its sites are
 /// evenly spaced by keyframe index, so knots are dense where keyframes are dense. Requires n >= k.
 /// share = 1 equals for_sites.
-inline SplineBasis basis_among(std::size_t order, const std::vector<double>& stamps, double share) {
+inline SplineBasis basis_with_fewer_knots(std::size_t order,
+                                          const std::vector<double>& stamps,
+                                          double share) {
   const std::size_t n = stamps.size();
   const auto requested = static_cast<std::size_t>(std::lround(share * static_cast<double>(n)));
   const std::size_t count = std::clamp(requested, order, n);
@@ -29,7 +31,8 @@ inline SplineBasis basis_among(std::size_t order, const std::vector<double>& sta
 
 /// Initial controls: the keyframes' polyline at the Greville abscissae, which is exact for uniform
 /// motion.
-inline std::vector<Pose> controls_along(const SplineBasis& basis, const Trajectory& keyframes) {
+inline std::vector<Pose> initial_controls_for(const SplineBasis& basis,
+                                              const Trajectory& keyframes) {
   std::vector<double> times;
   for (std::size_t j = 0; j < basis.size(); ++j) times.push_back(basis.greville(j));
   times.front() = keyframes.front().stamp;

@@ -1,7 +1,7 @@
 /// Hand-eye calibration: extrinsic offset between two bodies from their motions.
 #pragma once
 
-#include "metrics/alignment/hand_eye/turning_stretches.hpp"
+#include "metrics/alignment/hand_eye/rotating_intervals.hpp"
 
 namespace loopbench::metrics {
 
@@ -11,9 +11,11 @@ struct HandEye {
   /// directions that are not significant.
   Pose body_from_reference;
   Vector3 deviation =
-      Vector3::Zero();           ///< std of the translation [m]; 0: direction not significant
-  double turn_explained = 0.0;   ///< share of the squared differences explained by C's rotation [-]
-  double lever_explained = 0.0;  ///< share of the remaining ones explained by its translation [-]
+      Vector3::Zero();  ///< std of the translation [m]; 0: direction not significant
+  double rotation_explained =
+      0.0;  ///< share of the squared differences explained by C's rotation [-]
+  double lever_arm_explained =
+      0.0;  ///< share of the remaining ones explained by its translation [-]
 };
 
 /// The rotation maps the reference's motions to the estimate's in least squares (Kabsch, of
@@ -31,6 +33,6 @@ struct HandEye {
 /// of the reference can be explained by scale. Needs more pairs than unknowns. O(pairs). Source:
 /// F. Park, B. Martin, Robot sensor calibration: solving AX = XB on the Euclidean group, IEEE T-RO
 /// 1994.
-HandEye hand_eye(const std::vector<MotionPair>& pairs);
+HandEye hand_eye(const std::vector<RelativePosePair>& pairs);
 
 }  // namespace loopbench::metrics

@@ -65,8 +65,8 @@ class Attitudes {
       return;
     }
     for (std::size_t j = std::max(begin, wanted.i + 1); j < end; ++j) {
-      const double turned = angle_between(attitude(wanted.i), attitude(j));
-      if (wanted.low <= turned && turned <= wanted.high) visit(j);
+      const double rotated = angle_between(attitude(wanted.i), attitude(j));
+      if (wanted.low <= rotated && rotated <= wanted.high) visit(j);
     }
   }
 

@@ -8,9 +8,9 @@ std::vector<FromTo> consecutive_frames(std::size_t size, std::size_t delta) {
   return out;
 }
 
-std::vector<FromTo> consecutive_stretches(const std::vector<double>& steps,
-                                          double delta,
-                                          FirstPose first) {
+std::vector<FromTo> consecutive_by_measure(const std::vector<double>& steps,
+                                           double delta,
+                                           FirstPose first) {
   std::vector<FromTo> out;
   bool has_start = first == FirstPose::starts;
   std::size_t start = 0;

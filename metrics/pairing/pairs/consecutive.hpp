@@ -13,9 +13,9 @@ enum class FirstPose { starts, left_out };
 
 /// Accumulates `steps` (steps[i] leads to pose i, steps[0] = 0), cuts where the sum reaches delta,
 /// and pairs consecutive cuts. evo core/filters.py, by path length and by angle. O(n).
-std::vector<FromTo> consecutive_stretches(const std::vector<double>& steps,
-                                          double delta,
-                                          FirstPose first);
+std::vector<FromTo> consecutive_by_measure(const std::vector<double>& steps,
+                                           double delta,
+                                           FirstPose first);
 
 /// From each end to the later stamp nearest to `delta` ahead (the first of equals), if it differs
 /// from delta by at most `tolerance`; otherwise the next stamp is tried as a start. Ascending

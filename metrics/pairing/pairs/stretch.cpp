@@ -11,12 +11,12 @@ namespace loopbench::metrics {
 namespace {
 
 /// A whole number of frames; nullopt if no list can be that long.
-std::size_t frames(const Stretch& stretch, std::size_t size) {
+std::size_t frames(const PairDelta& stretch, std::size_t size) {
   check(stretch);
   return static_cast<std::size_t>(std::min(stretch.delta, static_cast<double>(size)));
 }
 
-double radians(const Stretch& stretch) {
+double radians(const PairDelta& stretch) {
   check(stretch);
   return stretch.unit == DeltaUnit::deg ? stretch.delta / kDegrees : stretch.delta;
 }
@@ -32,7 +32,7 @@ std::vector<double> step_lengths(const Trajectory& poses) {
 
 }  // namespace
 
-void check(const Stretch& stretch) {
+void check(const PairDelta& stretch) {
   const double delta = stretch.delta;
   const auto refuse = [&](const std::string& why) {
     return OptionError("delta", "delta = " + to_text(delta) + ": " + why);
@@ -45,7 +45,7 @@ void check(const Stretch& stretch) {
   if (is_angle && angle > std::numbers::pi) throw refuse("expected at most 180 degrees");
 }
 
-std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula) {
+std::vector<double> rotation_angles(const Trajectory& trajectory, AngleFormula formula) {
   std::vector<double> out(trajectory.size());
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     out[i] = rotation_angle(formula,
@@ -55,10 +55,10 @@ std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula) {
   return out;
 }
 
-std::vector<FromTo> stretch_pairs(const Trajectory& reference,
-                                  const Trajectory& measured,
-                                  PairRule rule,
-                                  const Stretch& stretch) {
+std::vector<FromTo> select_pairs(const Trajectory& reference,
+                                 const Trajectory& measured,
+                                 PairRule rule,
+                                 const PairDelta& stretch) {
   const bool is_all = rule == PairRule::all;
   const double delta = stretch.delta;
   switch (stretch.unit) {
@@ -74,15 +74,15 @@ std::vector<FromTo> stretch_pairs(const Trajectory& reference,
       if (is_all) {
         return pairs_by_measure(accumulated_distances(measured), delta, stretch.tolerance * delta);
       }
-      return consecutive_stretches(step_lengths(measured), delta, FirstPose::left_out);
+      return consecutive_by_measure(step_lengths(measured), delta, FirstPose::left_out);
     case DeltaUnit::deg:
     case DeltaUnit::rad:
       break;
   }
   const double angle = radians(stretch);
   if (is_all) return angle_pairs(measured, angle, stretch.tolerance * angle);
-  return consecutive_stretches(
-      turns(measured, AngleFormula::rotation_vector), angle, FirstPose::starts);
+  return consecutive_by_measure(
+      rotation_angles(measured, AngleFormula::rotation_vector), angle, FirstPose::starts);
 }
 
 }  // namespace loopbench::metrics

@@ -15,25 +15,25 @@ inline auto choices(DeltaUnit) {
                     std::pair{"rad", DeltaUnit::rad}};
 }
 
-struct Stretch {
+struct PairDelta {
   double delta = 1.0;
   DeltaUnit unit = DeltaUnit::frames;
   double tolerance = 0.1;  ///< relative to delta [-]
 };
 
 /// Throws OptionError for a fractional number of frames or an angle beyond 180 degrees.
-void check(const Stretch& stretch);
+void check(const PairDelta& stretch);
 
 /// Rule `all`: every i with one j by frames, seconds or metres (pair_search.hpp), or every j
 /// rotated by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule `consecutive`: see
 /// consecutive.hpp; only seconds have a tolerance there. Seconds use reference stamps; metres and
 /// angles are measured on `measured`. Throws as check does.
-std::vector<FromTo> stretch_pairs(const Trajectory& reference,
-                                  const Trajectory& measured,
-                                  PairRule rule,
-                                  const Stretch& stretch);
+std::vector<FromTo> select_pairs(const Trajectory& reference,
+                                 const Trajectory& measured,
+                                 PairRule rule,
+                                 const PairDelta& stretch);
 
 /// Rotation from each pose to the one before it [rad]; 0 for the first.
-std::vector<double> turns(const Trajectory& trajectory, AngleFormula formula);
+std::vector<double> rotation_angles(const Trajectory& trajectory, AngleFormula formula);
 
 }  // namespace loopbench::metrics

@@ -34,7 +34,7 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
     case DeltaUnit::deg:
       break;
   }
-  out = turns(estimate, AngleFormula::trace);
+  out = rotation_angles(estimate, AngleFormula::trace);
   const double factor = unit == DeltaUnit::deg ? kDegrees : 1.0;
   double sum = 0.0;
   for (double& angle : out) angle = sum += factor * angle;
@@ -42,19 +42,19 @@ std::vector<double> measure(const Trajectory& estimate, DeltaUnit unit) {
 }
 
 /// The pairs of estimate poses without a reference gap, and the poses they use.
-TumMotions paired_motions(const Paired& whole,
+TumMotions paired_motions(const Paired& complete,
                           double offset,
                           const Alignment& alignment,
                           const std::vector<FromTo>& pairs) {
   constexpr std::size_t kUnmatched = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t kUnused = kUnmatched - 1;
-  const auto& reference = whole.reference;
-  const auto& estimate = whole.estimate;
+  const auto& reference = complete.reference;
+  const auto& estimate = complete.estimate;
   const std::vector<double> reference_stamps = stamps(reference);
   const double limit = 2.0 * median_step(reference_stamps);
   std::vector<std::size_t> nearest(estimate.size(), kUnused);
   for (const auto& [i, j] : pairs) nearest[i] = nearest[j] = kUnmatched;
-  in_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(estimate.size(), [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       if (nearest[i] == kUnused) continue;
       const double stamp = estimate[i].stamp + offset;
@@ -63,14 +63,14 @@ TumMotions paired_motions(const Paired& whole,
     }
   });
   TumMotions out;
-  std::vector<std::size_t> place(estimate.size(), kUnmatched);  // index into `out`
+  std::vector<std::size_t> judged_index(estimate.size(), kUnmatched);  // index into `out`
   const auto taken = [&](std::size_t i) {
-    if (place[i] == kUnmatched) {
-      place[i] = out.poses.estimate.size();
+    if (judged_index[i] == kUnmatched) {
+      judged_index[i] = out.poses.estimate.size();
       out.poses.estimate.push_back(estimate[i]);
       out.poses.reference.push_back(reference[nearest[i]]);
     }
-    return place[i];
+    return judged_index[i];
   };
   for (const auto& [i, j] : pairs) {
     if (nearest[i] == kUnmatched || nearest[j] == kUnmatched) continue;
@@ -105,14 +105,14 @@ std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted) 
   return best;
 }
 
-TumMotions tum_motions(const Paired& whole,
+TumMotions tum_motions(const Paired& complete,
                        double offset,
                        const Alignment& alignment,
-                       const Stretch& stretch,
+                       const PairDelta& stretch,
                        std::size_t max_pairs) {
-  const std::vector<double> index = measure(whole.estimate, stretch.unit);
+  const std::vector<double> index = measure(complete.estimate, stretch.unit);
   std::vector<std::size_t> ends(index.size());
-  in_blocks(ends.size(), [&](std::size_t i, std::size_t end) {
+  parallel_for_blocks(ends.size(), [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) ends[i] = tum_closest_index(index, index[i] + stretch.delta);
   });
   std::vector<FromTo> pairs;
@@ -127,14 +127,14 @@ TumMotions tum_motions(const Paired& whole,
     }
     pairs = std::move(drawn);
   }
-  return paired_motions(whole, offset, alignment, pairs);
+  return paired_motions(complete, offset, alignment, pairs);
 }
 
-TumMotions tum_random_motions(const Paired& whole,
+TumMotions tum_random_motions(const Paired& complete,
                               double offset,
                               const Alignment& alignment,
                               std::size_t max_pairs) {
-  const std::size_t n = whole.estimate.size();
+  const std::size_t n = complete.estimate.size();
   const bool takes_all = n * n < max_pairs;
   std::vector<FromTo> pairs;
   PythonRandom random;
@@ -143,7 +143,7 @@ TumMotions tum_random_motions(const Paired& whole,
     const std::size_t j = takes_all ? k % n : random.below(n);
     pairs.emplace_back(i, j);
   }
-  return paired_motions(whole, offset, alignment, pairs);
+  return paired_motions(complete, offset, alignment, pairs);
 }
 
 }  // namespace loopbench::metrics

@@ -22,16 +22,16 @@ struct TumMotions {
 /// estimate. j = i occurs, as in the tool, if the steps are longer than 2 delta. m, rad and deg
 /// follow its source, which crashes there under Python 3. Source: evo's test/tum_benchmark_tools
 /// (26d0953). O(n log n), and O(log m) for each pose of a pair.
-TumMotions tum_motions(const Paired& whole,
+TumMotions tum_motions(const Paired& complete,
                        double offset,
                        const Alignment& alignment,
-                       const Stretch& stretch,
+                       const PairDelta& stretch,
                        std::size_t max_pairs);
 
 /// The tool's mode without --fixed_delta: `max_pairs` pairs (i, j) drawn from all poses of the
 /// estimate as Python 3 draws them from seed 0, where i = j and either order can occur, or all n^2
 /// pairs if there are fewer. Pairs at a reference gap are removed as above. O(max_pairs log m).
-TumMotions tum_random_motions(const Paired& whole,
+TumMotions tum_random_motions(const Paired& complete,
                               double offset,
                               const Alignment& alignment,
                               std::size_t max_pairs);

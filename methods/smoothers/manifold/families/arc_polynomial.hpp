@@ -40,7 +40,7 @@ inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> 
   out.scale = 0.5 * (arc_lengths.back() - arc_lengths.front());
   if (count < 2) return std::nullopt;
   Slopes powers(count, terms);
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostNodes, 3> right(count, 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxNodes, 3> right(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     right.row(i) = points[k].transpose();
@@ -49,7 +49,7 @@ inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> 
       powers(i, j) = powers(i, j - 1) * (arc_lengths[k] - out.centre) / out.scale;
     }
   }
-  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostParameters, 3> solved =
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxParameters, 3> solved =
       powers.householderQr().solve(right);
   for (Eigen::Index j = 0; j < terms; ++j) {
     out.coefficients[static_cast<std::size_t>(j)] = solved.row(j).transpose();

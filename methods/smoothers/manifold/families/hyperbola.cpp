@@ -16,13 +16,13 @@ constexpr int kHyperbolaStarts = 8;
 
 std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < 4 || count > kMostNodes) return std::nullopt;
+  if (count < 4 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
   const double centre = extent.centre().x();
   const double scale = 0.5 * extent.size().x();
   if (!(scale > 0.0)) return std::nullopt;
   // The parameters are the pole in half ranges from the middle, c0 and c1.
-  const auto evaluate = [&](const Parameters& q, Residuals& r, Slopes& J) {
+  const auto evaluate = [&](const Parameters& q, FamilyResiduals& r, Slopes& J) {
     for (Eigen::Index i = 0; i < count; ++i) {
       const Vector2& point = points[static_cast<std::size_t>(i)];
       const double inverse = 1.0 / ((point.x() - centre) / scale - q[0]);
@@ -36,7 +36,7 @@ std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points) {
     Parameters q = Parameters::Zero(3);
     q[0] = kFirst * std::pow(kLast / kFirst, (start / 2) / (kHyperbolaStarts - 1.0));
     if (start % 2 == 1) q[0] = -q[0];
-    Residuals r(count);
+    FamilyResiduals r(count);
     Slopes J(count, 3);
     evaluate(q, r, J);
     const Slopes linear = J.rightCols(2);

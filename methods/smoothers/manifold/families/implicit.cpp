@@ -28,7 +28,7 @@ Monomials monomials(int order, const Vector2& u) {
 }
 
 using Square =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostParameters, kMostParameters>;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxParameters, kMaxParameters>;
 
 Parameters taubin(const Square& values, Square gradients) {
   // Largest eigenvalue of gradients relative to values: in this order the zero row of the constant
@@ -39,7 +39,8 @@ Parameters taubin(const Square& values, Square gradients) {
   return solver.eigenvectors().col(terms - 1).normalized();
 }
 
-void sampson(std::span<const Vector2> us, int order, const Parameters& a, Residuals& r, Slopes& J) {
+void sampson(
+    std::span<const Vector2> us, int order, const Parameters& a, FamilyResiduals& r, Slopes& J) {
   for (std::size_t k = 0; k < us.size(); ++k) {
     const Monomials m = monomials(order, us[k]);
     const double f = a.dot(m.value);
@@ -65,7 +66,7 @@ std::pair<int, int> implicit_powers(int order, Eigen::Index k) {
 std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order) {
   const Eigen::Index terms = implicit_terms(order);
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < terms - 1 || count > kMostNodes) return std::nullopt;
+  if (count < terms - 1 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
   Implicit out{order, extent.centre(), 0.5 * extent.size().maxCoeff(), {}};
   if (!(out.scale > 0.0)) return std::nullopt;

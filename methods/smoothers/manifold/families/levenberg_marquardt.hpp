@@ -9,13 +9,12 @@
 
 namespace loopbench::methods::manifold {
 
-constexpr int kMostNodes = 12;  ///< per window
-constexpr int kMostParameters = 10;
+constexpr int kMaxNodes = 12;  ///< per window
+constexpr int kMaxParameters = 10;
 
-using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostParameters, 1>;
-using Residuals = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1>;
-using Slopes =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNodes, kMostParameters>;
+using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxParameters, 1>;
+using FamilyResiduals = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxNodes, 1>;
+using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxNodes, kMaxParameters>;
 
 /// Minimises the sum of squares. `evaluate(parameters, residuals, slopes)` sets both outputs, with
 /// slopes = d residual / d parameter. Marquardt scaling of the damping; a step is accepted only if
@@ -26,13 +25,13 @@ Parameters levenberg_marquardt(Parameters start,
                                Eigen::Index count,
                                Evaluate evaluate,
                                int iterations = 50) {
-  Residuals r(count), trial_residuals(count);
+  FamilyResiduals r(count), trial_residuals(count);
   Slopes J(count, start.size()), slopes(count, start.size());
   evaluate(start, r, J);
   double cost = r.squaredNorm();
   double damping = 1e-3;
   for (int i = 0; i < iterations && damping < 1e12 && cost > 0.0; ++i) {
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostParameters, kMostParameters> H =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxParameters, kMaxParameters> H =
         J.transpose() * J;
     const double floor = 1e-15 * std::max(H.diagonal().maxCoeff(), 1e-300);
     H.diagonal().array() += damping * H.diagonal().array().max(floor);

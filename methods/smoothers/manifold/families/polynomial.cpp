@@ -16,8 +16,8 @@ Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
   out.scale = 0.5 * (right->x() - left->x());
 
   const Eigen::Index terms = std::min<Eigen::Index>(degree + 1, count);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNodes, 4> powers(count, terms);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1> y(count);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxNodes, 4> powers(count, terms);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxNodes, 1> y(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Vector2& point = points[static_cast<std::size_t>(i)];
     y[i] = point.y();

@@ -31,8 +31,8 @@ std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
   out.level = sum / static_cast<double>(count);
   if (!(out.scale > 0.0)) return std::nullopt;
 
-  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMostNodes, 6> design(count, 6);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1> height(count);
+  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMaxNodes, 6> design(count, 6);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxNodes, 1> height(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     design.row(i) = Quadric::monomials((points[k] - out.centre) / out.scale).transpose();

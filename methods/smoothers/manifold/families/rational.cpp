@@ -20,7 +20,7 @@ bool has_pole(double q1, double q2) {
 std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level) {
   const Eigen::Index unknowns = with_level ? 4 : 3;
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < unknowns + 1 || count > kMostNodes) return std::nullopt;
+  if (count < unknowns + 1 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
   Rational out;
   out.centre = extent.centre().x();
@@ -33,7 +33,7 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
 
   // y (u^2 + q1 u + q2) = p + d (...): linear in q1, q2 and p if d = 0.
   Slopes design(count, 3);
-  Residuals right(count);
+  FamilyResiduals right(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     design.row(i) << u(i) * y(i), y(i), -1.0;
     right[i] = -y(i) * u(i) * u(i);

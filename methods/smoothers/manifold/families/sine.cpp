@@ -14,8 +14,11 @@ constexpr double kShortest = 4.0;  // shortest wavelength, in point spacings; be
 constexpr double kTallest = 2.0;   // largest amplitude, in ranges of y
 
 // The parameters are b, a cos c, a sin c [, d]; all but the first are linear.
-void evaluate(
-    std::span<const Vector2> points, double centre, const Parameters& q, Residuals& r, Slopes& J) {
+void evaluate(std::span<const Vector2> points,
+              double centre,
+              const Parameters& q,
+              FamilyResiduals& r,
+              Slopes& J) {
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     const double x = points[static_cast<std::size_t>(i)].x() - centre;
     const double s = std::sin(q[0] * x);
@@ -35,7 +38,7 @@ void evaluate(
 std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
   const Eigen::Index unknowns = with_level ? 4 : 3;
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < unknowns + 1 || count > kMostNodes) return std::nullopt;
+  if (count < unknowns + 1 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
   const Vector2 size = extent.size();
   if (!(size.x() > 0.0)) return std::nullopt;
@@ -45,7 +48,7 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
   const double fastest = 2.0 * std::numbers::pi / (kShortest * spacing);
 
   const auto cost = [&](const Parameters& q) {
-    Residuals r(count);
+    FamilyResiduals r(count);
     Slopes J(count, unknowns);
     evaluate(points, centre, q, r, J);
     return r.squaredNorm();
@@ -54,7 +57,7 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
   for (int start = 0; start < kSineStarts; ++start) {
     Parameters q = Parameters::Zero(unknowns);
     q[0] = slowest * std::pow(fastest / slowest, start / (kSineStarts - 1.0));
-    Residuals r(count);
+    FamilyResiduals r(count);
     Slopes J(count, unknowns);
     evaluate(points, centre, q, r, J);  // the linear parameters are zero, so r = -y
     const Slopes linear = J.rightCols(unknowns - 1);

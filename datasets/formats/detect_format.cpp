@@ -1,0 +1,95 @@
+#include "datasets/formats/detect_format.hpp"
+
+#include <algorithm>
+
+#include "datasets/formats/columns.hpp"
+
+namespace loopbench {
+namespace {
+
+bool is_tag(std::string_view word) {
+  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
+}
+
+/// EuRoC stamps are nanoseconds since 1970: at least 16 digits and no decimal point.
+bool is_nanoseconds(std::string_view word) {
+  constexpr std::size_t kMinDigits = 16;
+  return word.size() >= kMinDigits &&
+         std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+/// Parses a whole number, also with zero decimals as printed by ORB-SLAM3: `50000000.000000`.
+std::optional<std::int64_t> integer_stamp(std::string_view word) {
+  std::int64_t out = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), out);
+  const std::string_view tail(rest, static_cast<std::size_t>(word.data() + word.size() - rest));
+  const bool is_integer = error == std::errc{} && tail.find_first_not_of(".0") == tail.npos;
+  return is_integer ? std::optional(out) : std::nullopt;
+}
+
+}  // namespace
+
+bool has_small_nanoseconds(const TextFile& file) {
+  constexpr std::int64_t kMinStep = 100'000;  // [ns]
+  TextFile reopened(file.name());
+  std::optional<std::int64_t> previous;
+  for (int i = 0; i < 2; ++i) {
+    Line line;
+    if (!reopened.next(line)) return false;
+    const auto stamp = integer_stamp(Columns(reopened, line).word());
+    if (!stamp || *stamp < 0) return false;
+    if (previous) return *stamp - *previous >= kMinStep;
+    previous = stamp;
+  }
+  return false;
+}
+
+std::optional<Format> guess(const TextFile& file, const Line& line) {
+  const std::string_view first = Columns(file, line).word();
+  if (is_tag(first)) return Format::g2o;
+  const std::size_t count = count_columns(file, line);
+  if (is_nanoseconds(first) && count >= 8) return Format::euroc;
+  if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
+  if (count == 12) return Format::kitti;
+  if (count == 8) return Format::tum;
+  return std::nullopt;
+}
+
+Line first_line(TextFile& file) {
+  Line line;
+  if (!file.next(line)) throw file.error(0, "contains no data, only comments and blank lines");
+  file.put_back(line);
+  return line;
+}
+
+Format detect_format(TextFile& file) {
+  const Line line = first_line(file);
+  const std::string_view stamp = Columns(file, line).word();
+  const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
+  const bool is_small = is_integer && has_small_nanoseconds(file);
+  if ((is_small || is_nanoseconds(stamp)) && count_columns(file, line) == 8 &&
+      line.text.find(',') == std::string_view::npos) {
+    throw file.error(
+        line.number,
+        "has whole nanoseconds and columns separated by blanks, so that quaternions may be "
+        "qx qy qz qw (ORB-SLAM3) or qw qx qy qz (EuRoC); set the format to tum or euroc");
+  }
+  if (is_small && count_columns(file, line) >= 8) return Format::euroc;
+  if (const auto format = guess(file, line)) return *format;
+  constexpr std::size_t kShownText = 40;
+  const std::size_t count = count_columns(file, line);
+  std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
+                     " and starts '" + std::string(line.text.substr(0, kShownText)) + "'";
+  if (count == 4) what += " (stamp x y z? positions without rotation are not supported)";
+  throw file.error(line.number,
+                   what +
+                       ", expected tum (8 columns), kitti (12 columns), euroc (whole nanoseconds "
+                       "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
+}
+
+Format detect_format(const std::filesystem::path& file) {
+  TextFile text(file);
+  return detect_format(text);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,27 @@
+/// Detection of trajectory formats.
+#pragma once
+
+#include <optional>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
+
+namespace loopbench {
+
+/// Guesses the format from the number of columns and the first word: g2o tags, nanoseconds and at
+/// least 8 columns, 12 numbers, 8 numbers.
+std::optional<Format> guess(const TextFile& file, const Line& line);
+
+/// Detects the format from the first line of data, without consuming it. Throws InputError with the
+/// line and the known formats if none matches.
+Format detect_format(TextFile& file);
+
+/// Whether the first two stamps are whole numbers at least 1e5 apart: nanoseconds of a clock that
+/// starts near 0, as in simulators, at 10 kHz or less. In seconds this would be more than a day.
+bool has_small_nanoseconds(const TextFile& file);
+
+/// Returns the first line of data without consuming it. Throws InputError if there is none.
+Line first_line(TextFile& file);
+
+}  // namespace loopbench

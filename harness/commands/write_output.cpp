@@ -1,0 +1,46 @@
+#include "harness/commands/write_output.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "harness/provenance/build_summary.hpp"
+#include "harness/store/open.hpp"
+#include "harness/tables/store_provenance.hpp"
+#include "harness/text/write_file.hpp"
+
+namespace loopbench::harness {
+
+void write_output(const std::string& text,
+                  ExportFormat format,
+                  const std::string& key,
+                  const std::filesystem::path& store,
+                  const std::string& file) {
+  const bool is_printed = file.empty() || is_dash(file);
+  const bool is_read_by_a_person = is_printed && isatty(STDOUT_FILENO) == 1;
+  std::string out = text;
+  const StoreProvenance provenance = read_store_provenance(store);
+  if (format == ExportFormat::json) {
+    out = with_provenance(provenance, key, text);
+  } else if (format == ExportFormat::terminal) {
+    out += "\n" + build_summary(provenance.provenance) + "\n";
+  } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
+    out += "\n" + provenance_comment(provenance);
+  } else if (format == ExportFormat::latex && !is_read_by_a_person) {
+    out += provenance_lines(provenance, "% ");
+  }
+  if (is_printed) {
+    fmt::print("{}", out);
+  } else {
+    reject_overwriting({store_file(store)}, file);
+    write_file(file, out);
+  }
+  if (format != ExportFormat::csv) return;
+  // Standard output has no file beside it.
+  if (!is_printed && std::filesystem::is_regular_file(file))
+    return write_file(provenance_file(file), json(provenance));
+  fmt::print(stderr,
+             "loopbench: {}\nloopbench: with -o FILE, the provenance is written beside the file\n",
+             build_summary(provenance.provenance));
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,22 @@
+/// Output of results to a file or to standard output, with their provenance.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace loopbench::harness {
+
+enum class ExportFormat { markdown, terminal, latex, csv, json };
+
+/// Writes `text` to `file`, or prints it if `file` is empty or "-". The provenance of the store is
+/// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
+/// KEY: text} in JSON. CSV has no comments: the provenance of `x.csv` is written to
+/// `x.provenance.json` beside it; for a printed CSV, one line goes to standard error. Throws
+/// InputError.
+void write_output(const std::string& text,
+                  ExportFormat format,
+                  const std::string& key,
+                  const std::filesystem::path& store,
+                  const std::string& file);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,121 @@
+#include "harness/eval/evaluation_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "harness/execution/run/evaluation_notes.hpp"
+#include "harness/execution/run/incomplete.hpp"
+#include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
+
+namespace loopbench::harness {
+
+std::vector<MetricQuestion> default_metrics(const metrics::Protocol& protocol) {
+  std::vector<MetricQuestion> out;
+  for (const metrics::MetricEntry& entry : metrics::metrics()) {
+    if (entry.name == "rpe" && protocol.pairs == metrics::PairRule::tum_random) {
+      out.push_back({entry.name, {}});
+    } else if (entry.name == "rpe") {
+      for (const char* unit : {"frames", "s", "m"}) {
+        out.push_back({entry.name, {{"delta", 1.0}, {"unit", std::string(unit)}}});
+      }
+    } else if (entry.name == "segments" && protocol.segments == metrics::SegmentErrorRule{}) {
+      out.push_back({entry.name, {{"each", false}}});
+    } else if (entry.name == "ate" || entry.name == "axis_error" || entry.name == "segments") {
+      out.push_back({entry.name, {}});
+    }
+  }
+  return out;
+}
+
+bool has_no_number(const EvaluationResult& j) {
+  return std::ranges::none_of(j.metrics, [](const EvaluatedMetric& metric) {
+    return std::ranges::any_of(
+        metric.scores, [](const metrics::Score& score) { return score.why_undefined.empty(); });
+  });
+}
+
+std::string status(const EvaluationResult& j) {
+  if (!j.why_failed.empty()) return "failed";
+  if (has_no_number(j)) return "undefined";
+  return j.incomplete_reason.empty() ? "ok" : "incomplete";
+}
+
+void compare_coverage(std::vector<EvaluationResult>& results) {
+  constexpr double kMuchLess = 0.5;
+  const auto key = [](const EvaluationResult& j) {
+    return j.reference + "\n" + j.protocol.label();
+  };
+  std::map<std::string, double> most;
+  for (const EvaluationResult& j : results) {
+    double& best = most[key(j)];
+    best = std::max(best, j.coverage.least());
+  }
+  for (EvaluationResult& j : results) {
+    const double best = most.at(key(j));
+    if (!j.why_failed.empty() || !j.incomplete_reason.empty()) continue;
+    if (j.coverage.least() >= kMuchLess * best) continue;
+    j.incomplete_reason = fmt::format(
+        "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
+        "{:.1f} % of another estimate",
+        j.coverage.pairs,
+        j.coverage.possible,
+        100.0 * j.coverage.span,
+        100.0 * best);
+  }
+}
+
+std::string why_not_ok(const EvaluationResult& j) {
+  if (!j.why_failed.empty()) return j.why_failed;
+  return has_no_number(j) ? "none of the requested metrics is defined" : j.incomplete_reason;
+}
+
+EvaluationResult judge(const Trajectory& reference,
+                       const Trajectory& estimate,
+                       const metrics::NamedProtocol& protocol,
+                       const EvaluationOptions& options) {
+  metrics::Evaluation evaluation = metrics::evaluate(reference, estimate, protocol.rules);
+  evaluation.context = {.reference = &reference,
+                        .estimate = &estimate,
+                        .protocol = protocol.rules,
+                        .printed = options.printed};
+  EvaluationResult out;
+  out.reference_poses = reference.size();
+  out.estimate_poses = estimate.size();
+  out.protocol = protocol;
+  out.coverage = evaluation.coverage;
+  out.incomplete_reason = incomplete_reason(evaluation.coverage, options.min_coverage);
+  out.alignment = evaluation.alignment;
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference, evaluation);
+  for (metrics::Score& score :
+       out.diagnosis) {  // readers normalise, so use the value from the files
+    if (score.relation == "off_unit")
+      score = metrics::single("off_unit", "", "1", options.repaired.off_unit);
+  }
+  out.diagnosis.push_back(
+      metrics::single("left_out", "", "1", static_cast<double>(options.repaired.repeated)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, options.body_from_reference);
+  }
+  if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
+  const std::vector<metrics::MetricEntry> known = metrics::metrics();
+  for (const MetricQuestion& request : options.requested_metrics) {
+    for (const metrics::MetricEntry& entry : known) {
+      if (entry.name != request.metric) continue;
+      EvaluatedMetric& judged =
+          out.metrics.emplace_back(EvaluatedMetric{request.metric, request.options, {}, {}});
+      try {
+        judged.scores = entry.score(evaluation, request.options);
+      } catch (const std::runtime_error& error) {
+        judged.why_undefined = error.what();
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "harness/eval/evaluation_result.hpp"
+#include "harness/tables/notes.hpp"
+#include "harness/tables/text.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// A cell with the value of one record.
+TableCell number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
+
+std::string options_text(const Params& options) {
+  std::string out;
+  for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
+  return out;
+}
+
+double quoted_statistic(const metrics::Protocol& protocol, const metrics::Statistics& s) {
+  if (protocol.statistic == metrics::Statistic::mean) return s.mean;
+  return protocol.statistic == metrics::Statistic::median ? s.median : s.rmse;
+}
+
+std::string body_text(const EvaluationResult& j) {
+  return j.reference_body.empty() ? "" : ", body offset " + j.reference_body;
+}
+
+std::string protocol_text(const metrics::NamedProtocol& protocol) {
+  return fmt::format("{} [{}]", protocol.label(), protocol.version);
+}
+
+/// "largest_gap 0.25 s, repeated 0, ...", wrapped.
+std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis) {
+  std::string out;
+  int count = 0;
+  for (const metrics::Score& score : diagnosis) {
+    const bool is_new_line = count++ % 4 == 0;
+    out += is_new_line ? (out.empty() ? "diagnosis  " : ",\n           ") : ", ";
+    out += fmt::format("{} {:.4g}", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
+  }
+  return out + "\n";
+}
+
+/// Columns as wide as their content.
+struct Widths {
+  std::size_t metric = 13;
+  std::size_t relation = 11;
+  std::size_t axis = 4;
+  std::size_t unit = 4;
+
+  explicit Widths(const EvaluationResult& j) {
+    for (const EvaluatedMetric& judged : j.metrics) {
+      metric = std::max(metric, label(judged).size());
+      for (const metrics::Score& score : judged.scores) {
+        relation = std::max(relation, score.relation.size());
+        axis = std::max(axis, score.axis.size());
+        unit = std::max(unit, score.unit.size());
+      }
+    }
+  }
+
+  std::string line(const std::string& m,
+                   const std::string& r,
+                   const std::string& a,
+                   const std::string& u) const {
+    return fmt::format("{:<{}} {:<{}} {:<{}} {:<{}}", m, metric, r, relation, a, axis, u, unit);
+  }
+};
+
+/// Undefined scores, as notes of `row`.
+std::vector<Missing> undefined(const EvaluationResult& j, const std::string& row) {
+  std::vector<Missing> out;
+  for (const EvaluatedMetric& metric : j.metrics) {
+    if (!metric.why_undefined.empty()) {
+      out.push_back({row, label(metric), "undefined", metric.why_undefined});
+    }
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+      if (why.empty()) continue;
+      const bool is_whole = axis == "3d" || axis == "all";
+      const std::string what = label(metric) + " " + relation + (is_whole ? "" : " " + axis);
+      out.push_back({row, what, "undefined", why});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string label(const EvaluatedMetric& metric) {
+  Params rest = metric.options;
+  for (const char* in_heading : {"relation", "each"}) rest.erase(in_heading);
+  const auto delta = rest.find("delta");
+  const auto unit = rest.find("unit");
+  if (delta == rest.end() || unit == rest.end()) return metric.name + options_text(rest);
+  std::string out =
+      fmt::format("{} {} {}", metric.name, std::get<double>(delta->second), to_text(unit->second));
+  rest.erase("delta");
+  rest.erase("unit");
+  return out + options_text(rest);
+}
+
+std::string text(const EvaluationResult& j) {
+  std::string out =
+      fmt::format("reference  {} ({} poses){}\n", j.reference, j.reference_poses, body_text(j)) +
+      fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
+      fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
+      fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
+                  j.coverage.pairs,
+                  j.coverage.possible,
+                  100.0 * j.coverage.share(),
+                  100.0 * j.coverage.span) +
+      (j.incomplete_reason.empty() ? "" : "incomplete " + j.incomplete_reason + "\n") +
+      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
+      diagnosis_text(j.diagnosis) +
+      (j.other_body.empty() ? "" : "other body " + j.other_body + "; see --ref-body\n");
+  for (const std::string& note : j.notes) out += "note       " + note + "\n";
+  out += "\n";
+  const Widths widths(j);
+  out += widths.line("metric", "relation", "axis", "unit");
+  for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
+    out += fmt::format(" {:>12}", name);
+  }
+  out += fmt::format(" {:>9}\n", "count");
+  for (const EvaluatedMetric& metric : j.metrics) {
+    for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+      if (!why.empty()) continue;
+      out += widths.line(label(metric), relation, axis, unit);
+      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+        out += fmt::format(" {:>12.6f}", value);
+      }
+      out += fmt::format(" {:>9}\n", s.count);
+    }
+  }
+  for (const std::string& note : grouped(undefined(j, ""))) out += note + "\n";
+  return out;
+}
+
+std::string comparison(const std::vector<EvaluationResult>& results) {
+  std::vector<Table> tables;
+  std::vector<std::map<std::string, std::size_t>> columns;  // per table
+  std::vector<std::vector<Missing>> missing;                // per table
+  for (const EvaluationResult& j : results) {
+    const metrics::Protocol& rules = j.protocol.rules;
+    const std::string title = fmt::format("{}, {} against {}{}",
+                                          protocol_text(j.protocol),
+                                          to_text(rules.statistic),
+                                          j.reference,
+                                          body_text(j));
+    auto table = std::ranges::find(tables, title, &Table::title);
+    if (table == tables.end()) {
+      table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});
+      columns.emplace_back();
+      missing.emplace_back();
+    }
+    auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
+    std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
+    table->rows.push_back(j.estimate);
+    const auto put = [&](const std::string& column, TableCell cell) {
+      const auto [entry, is_new] = known.emplace(column, table->columns.size());
+      if (is_new) table->columns.push_back(column);
+      row.resize(table->columns.size());
+      row[entry->second] = std::move(cell);
+    };
+    const bool is_failed = !j.why_failed.empty();
+    const auto percent = [&](double share) {
+      return is_failed ? TableCell{.status = "failed"} : number(100.0 * share);
+    };
+    put("poses [%]", percent(j.coverage.share()));
+    put("time [%]", percent(j.coverage.span));
+    std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
+    if (!j.incomplete_reason.empty()) {
+      notes.push_back({j.estimate, "", "incomplete", j.incomplete_reason});
+    }
+    if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
+    if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
+    for (const std::string& note : j.notes) notes.push_back({j.estimate, "", "note", note});
+    for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
+    for (const EvaluatedMetric& metric : j.metrics) {
+      for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
+        if (axis != "3d" && axis != "all") continue;
+        if (!why.empty()) continue;
+        const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
+        if (j.incomplete_reason.empty()) {
+          put(column, number(quoted_statistic(rules, s)));
+          if (metric.name == "rpe" && axis == "3d") {
+            put(label(metric) + " pairs", number(static_cast<double>(s.count)));
+          }
+        } else {
+          put(column, {.status = "incomplete"});
+        }
+      }
+    }
+  }
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    tables[t].notes = grouped(missing[t]);
+    for (std::vector<TableCell>& row : tables[t].cells) {
+      row.resize(tables[t].columns.size());
+      if (row.front().status == "failed") std::ranges::fill(row, row.front());
+    }
+  }
+  return markdown(tables);
+}
+
+}  // namespace loopbench::harness

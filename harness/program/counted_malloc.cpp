@@ -1,0 +1,104 @@
+#include "harness/program/counted_malloc.hpp"
+
+#include <cstdlib>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(memory_sanitizer)
+#define LOOPBENCH_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LOOPBENCH_SANITIZED
+#endif
+
+#if defined(__GLIBC__) && !defined(LOOPBENCH_SANITIZED)
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+
+namespace {
+
+/// A thread-local counter avoids an atomic addition, which would cost as much as malloc itself.
+struct alignas(64) AllocationCount {
+  std::atomic<std::int64_t> value{0};
+};
+constexpr int kAllocationCounts = 64;  // the last is shared by all further threads
+constinit AllocationCount allocation_counts[kAllocationCounts];
+constinit std::atomic<int> allocating_threads{0};
+constinit thread_local int allocation_slot = -1;
+
+void count_allocation() {
+  if (allocation_slot < 0) {
+    const int slot = allocating_threads.fetch_add(1, std::memory_order_relaxed);
+    allocation_slot = slot < kAllocationCounts ? slot : kAllocationCounts - 1;
+  }
+  std::atomic<std::int64_t>& count = allocation_counts[allocation_slot].value;
+  if (allocation_slot == kAllocationCounts - 1) {
+    count.fetch_add(1, std::memory_order_relaxed);
+  } else {
+    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace
+
+// NOLINTBEGIN: glibc provides these names for replacement
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) noexcept {
+  count_allocation();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  count_allocation();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) noexcept {
+  count_allocation();
+  return __libc_realloc(block, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  count_allocation();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
+  const bool is_power = alignment != 0 && (alignment & (alignment - 1)) == 0;
+  if (!is_power || alignment % sizeof(void*) != 0) return EINVAL;
+  count_allocation();
+  void* found = __libc_memalign(alignment, size);
+  if (found == nullptr) return ENOMEM;
+  *block = found;
+  return 0;
+}
+}
+// NOLINTEND
+
+namespace loopbench::harness {
+
+AllocationCounter counted_malloc() {
+  return [] {
+    std::int64_t out = 0;
+    for (const AllocationCount& count : allocation_counts) {
+      out += count.value.load(std::memory_order_relaxed);
+    }
+    return out;
+  };
+}
+
+}  // namespace loopbench::harness
+
+#else
+
+namespace loopbench::harness {
+
+AllocationCounter counted_malloc() { return nullptr; }
+
+}  // namespace loopbench::harness
+
+#endif

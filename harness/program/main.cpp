@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/params.hpp"
+#include "harness/commands/command_line.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/program/counted_malloc.hpp"
+#include "harness/provenance/source_commit.hpp"
+#include "harness/provenance/version.hpp"
+#include "harness/text/printable.hpp"
+
+using namespace loopbench;
+using namespace loopbench::harness;
+
+namespace {
+
+/// Messages can contain names and contents of files.
+int fail(const std::string& why, int exit_code) {
+  fmt::print(stderr, "{}\n", printable("loopbench: " + why));
+  return exit_code;
+}
+
+/// A closed pipe is no error, as with SIGPIPE.
+int fail_to_print(int reason) {
+  if (reason == EPIPE) return 128 + SIGPIPE;
+  const std::string why = reason == 0 ? "" : std::string(": ") + std::strerror(reason);
+  return fail("cannot write to standard output" + why, kExitBadInput);
+}
+
+/// `print_error` is the errno of a failed print, if known.
+int run(CLI::App& app,
+        const std::vector<std::string>& words,
+        const int& exit_code,
+        int& print_error) {
+  try {
+    std::vector<std::string> last_first = normalised_options(app, words);
+    std::ranges::reverse(last_first);  // CLI11 expects this order
+    app.parse(std::move(last_first));
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream parser_output;
+    if (app.exit(error, parser_output, parser_output) == 0) {
+      const std::string text = parser_output.str();
+      if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_error = errno;
+      return kExitOk;
+    }
+    const std::string unknown = unknown_word(app, error);
+    fmt::print(stderr, "{}", printable(unknown.empty() ? parser_output.str() : unknown));
+    return kExitBadInput;
+  } catch (const InputError& error) {
+    return fail(error.what(), kExitBadInput);
+  } catch (const OptionError& error) {
+    return fail(error.what(), kExitBadInput);
+  } catch (const MissingPart& error) {
+    return fail(error.what(), kExitMissingPart);
+  } catch (const std::system_error& error) {
+    // fmt throws these if standard output cannot be written.
+    if (std::ferror(stdout) != 0) {
+      print_error = error.code().value();
+      return kExitBadInput;
+    }
+    return fail(std::string("internal error: ") + error.what(), kExitInternal);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error: ") + error.what(), kExitInternal);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  set_allocation_counter(counted_malloc());
+  CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
+  app.set_version_flag("--version", std::string("loopbench ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
+      "3 internal error, 4 the build lacks a required part, 130 interrupted.");
+  int exit_code = kExitOk;
+  add_run(app, exit_code, {source_commit, source_state, code_hash});
+  add_list(app, exit_code);
+  add_table(app, exit_code);
+  add_compare(app, exit_code);
+  add_check(app, exit_code);
+  add_eval(app, exit_code);
+  add_reproduce(app, exit_code);
+  add_calibrate(app, exit_code);
+  add_merge(app, exit_code);
+  add_plot(app, exit_code);
+  add_profile(app, exit_code);
+  add_report(app, exit_code);
+  add_verify(app, exit_code);
+  int print_error = 0;
+  const int out = run(app, {argv + 1, argv + argc}, exit_code, print_error);
+  // Output counts as written only after the buffer is flushed.
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return out;
+  return fail_to_print(print_error != 0 ? print_error : errno);
+}

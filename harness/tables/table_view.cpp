@@ -1,0 +1,85 @@
+#include "harness/tables/table_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace loopbench::harness {
+namespace {
+
+std::string shown(const TableCell& cell, int digits) {
+  const std::string over =
+      cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
+  if (cell.value) return fixed(*cell.value, digits) + over;
+  if (cell.status == kNoCommonRun) return "-" + over;
+  return cell.status.empty() ? "-" : cell.status;
+}
+
+int digits_of(const Table& table, std::size_t column) {
+  double largest = 0.0;
+  bool all_integers = true;
+  for (const auto& row : table.cells) {
+    const double value = row[column].value.value_or(0.0);
+    largest = std::max(largest, std::abs(value));
+    all_integers = all_integers && value == std::round(value);
+  }
+  return all_integers && largest > 0.0 ? 0 : decimals(largest);
+}
+
+}  // namespace
+
+int decimals(double largest) {
+  if (!(largest > 0.0) || !std::isfinite(largest)) return 4;
+  const int whole_digits = static_cast<int>(std::floor(std::log10(largest))) + 1;
+  return std::clamp(4 - whole_digits, 1, 4);
+}
+
+std::string fixed(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+TableView table_view(const Table& table) {
+  TableView out{table.title, {table.corner}, {}, table.notes};
+  for (const std::string& column : table.columns) out.headings.push_back(column);
+  for (const std::string& row : table.rows) out.lines.push_back({{row, Mark::none}});
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const int digits = digits_of(table, c);
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      const TableCell& cell = table.cells[r][c];
+      out.lines[r].push_back({shown(cell, digits), cell.mark});
+    }
+  }
+  return out;
+}
+
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, std::size_t columns, bool left) {
+  const std::string gap(columns - std::min(columns, width(text)), ' ');
+  return left ? text + gap : gap + text;
+}
+
+std::string one_line(const std::string& text) {
+  std::string out = text;
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return out;
+}
+
+std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> out;
+  for (const auto& line : lines) {
+    out.resize(std::max(out.size(), line.size()), 3);
+    for (std::size_t c = 0; c < line.size(); ++c) out[c] = std::max(out[c], width(line[c]));
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,116 @@
+/// Piecewise curve in time with joints between neighbouring pieces.
+#pragma once
+
+#include <vector>
+
+#include "methods/smoothers/manifold/bridge.hpp"
+#include "methods/smoothers/manifold/joints.hpp"
+
+namespace loopbench::methods::manifold {
+
+template <class Piece, class Value>
+struct PiecewiseCurve {
+  std::vector<Piece> pieces;
+  std::vector<Joint> joints;  ///< joints[k] is between pieces k and k + 1
+  std::vector<std::uint32_t> piece_of_edge;
+  std::vector<Ramp<Value>> ramps;      ///< one per piece, or empty
+  std::vector<Bridge<Value>> bridges;  ///< one per joint, or empty
+
+  /// Value of piece k plus its ramp.
+  template <class T, class Ask>
+  Asked<T, Value> alone(std::size_t k, const T& time, Ask ask) const {
+    if (ramps.empty()) return ask(pieces[k]);
+    return ask(pieces[k]) + ramps[k](time);
+  }
+
+  /// Value of the curve: `ask(piece)`, blended or bridged at joints. Blending keeps a node that
+  /// both pieces interpolate. O(1), at most three pieces.
+  template <class T, class Ask>
+  Asked<T, Value> at(std::size_t edge, const T& time, Ask ask) const {
+    const std::size_t k = piece_of_edge[edge];
+    const double now = value_of(time);
+    if (!bridges.empty()) {
+      if (k > 0 && bridges[k - 1].spans(now)) return bridges[k - 1](time);
+      if (k < bridges.size() && bridges[k].spans(now)) return bridges[k](time);
+    }
+    Asked<T, Value> out = alone(k, time, ask);
+    if (k > 0 && now < joints[k - 1].end) {
+      const T w = joints[k - 1].weight(time);
+      out = (1.0 - w) * alone(k - 1, time, ask) + w * out;
+    }
+    if (k < joints.size() && now > joints[k].begin) {
+      const T w = joints[k].weight(time);
+      out = (1.0 - w) * out + w * alone(k + 1, time, ask);
+    }
+    return out;
+  }
+};
+
+/// Placement and joints of windows.
+struct JoinOptions {
+  JointRule rule;
+  Scheme scheme = Scheme::consecutive;
+  std::size_t size = 4;  ///< number of nodes of a window
+};
+
+/// Joins pieces that were fitted to windows, in time order and covering every edge. `ask(piece,
+/// edge, time)` evaluates a piece at a Jet of time, from which ramps and bridges are computed.
+template <class Value, class Piece, class Ask>
+PiecewiseCurve<Piece, Value> join_pieces(const Nodes& nodes,
+                                         const std::vector<Window>& windows,
+                                         std::vector<Piece> pieces,
+                                         const JoinOptions& join,
+                                         Ask ask) {
+  PiecewiseCurve<Piece, Value> out;
+  out.pieces = std::move(pieces);
+  out.piece_of_edge.reserve(nodes.size());
+  const bool ramped = join.rule.kind == JointKind::c0 || join.rule.c0_below;
+  if (ramped) out.ramps.resize(windows.size());
+  if (join.rule.kind == JointKind::quintic_bridge) out.bridges.resize(windows.size() - 1);
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const NodeRange& owned = windows[k].owned;
+    out.piece_of_edge.resize(owned.last, static_cast<std::uint32_t>(k));
+    if (ramped) {
+      out.ramps[k].from = nodes.stamps[owned.first];
+      out.ramps[k].to = nodes.stamps[owned.last];
+      if constexpr (!std::is_same_v<Value, double>) {
+        out.ramps[k].begin.setZero();
+        out.ramps[k].end.setZero();
+      }
+    }
+    if (k == 0) continue;
+    const double now = nodes.stamps[owned.first];
+    const JointKind kind = join.rule.at(nodes, owned.first);
+    if (kind == JointKind::c0) {
+      const auto before = ask(out.pieces[k - 1], owned.first - 1, time_jet(now));
+      const auto after = ask(out.pieces[k], owned.first, time_jet(now));
+      const Value half = 0.5 * (after.value - before.value);
+      out.ramps[k - 1].end = half;
+      out.ramps[k].begin = -half;
+    }
+    if (kind != JointKind::overlap_blend) {
+      out.joints.push_back({now, now});
+    } else if (join.scheme == Scheme::sliding_blend) {
+      out.joints.push_back(sliding_joint(nodes, windows[k - 1], windows[k], join.size));
+    } else {
+      out.joints.push_back(joint_between(nodes, windows[k - 1], windows[k]));
+    }
+  }
+  for (std::size_t k = 0; k < out.bridges.size(); ++k) {
+    const std::size_t node = windows[k + 1].owned.first;
+    if (join.rule.at(nodes, node) != JointKind::quintic_bridge) continue;
+    const double half = 0.5 * std::min(nodes.duration(node - 1), nodes.duration(node));
+    const auto begin = time_jet(nodes.stamps[node] - half);
+    const auto end = time_jet(nodes.stamps[node] + half);
+    const auto value_of_piece = [&](std::size_t piece, std::size_t edge, const Jet<double>& time) {
+      return out.alone(piece, time, [&](const Piece& p) { return ask(p, edge, time); });
+    };
+    out.bridges[k] = {begin.value,
+                      end.value,
+                      value_of_piece(k, node - 1, begin),
+                      value_of_piece(k + 1, node, end)};
+  }
+  return out;
+}
+
+}  // namespace loopbench::methods::manifold

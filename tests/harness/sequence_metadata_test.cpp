@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "datasets/core/se3.hpp"
+#include "harness/provenance/summarise_sequence.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench::sequence_metadata_test {
+
+using namespace harness;
+
+namespace {
+
+TEST(HashedInputs, OneThatASequenceDidWithoutIsKnownWhenItComes) {
+  const TemporaryFolder folder;
+  const auto image = folder.path() / "depth/0002.png";
+  const InputFile missing = hashed_inputs({{image}}).front();
+  EXPECT_EQ(missing.path, image.string());
+  EXPECT_EQ(missing.bytes, 0u);
+  EXPECT_EQ(missing.hash, "missing");
+  std::filesystem::create_directories(image.parent_path());
+  { std::ofstream empty(image); }
+  EXPECT_NE(hashed_inputs({{image}}).front().hash, missing.hash);
+  std::ofstream(image) << "pixels";
+  const InputFile come = hashed_inputs({{image}}).front();
+  EXPECT_EQ(come.bytes, 6u);
+  EXPECT_NE(come.hash, missing.hash);
+}
+
+TEST(SequenceMetadata, TellOfAReferenceThatFollowsAnotherBody) {
+  Sequence sequence;
+  Pose pose;
+  for (int i = 0; i < 100; ++i) {
+    sequence.problem.keyframes.push_back({0.5 * i, pose});
+    sequence.reference.push_back({0.5 * i, pose * Pose{Rotation::Identity(), {0.0, 0.5, 0.0}}});
+    pose = normalized(
+        pose * exp_se3(twist({1.0, 0.3 * (i % 5), 0.0}, {0.1 * (i % 2), 0.1 * (i % 3), 0.2})));
+  }
+  const std::string found =
+      "the reference seems to track another body, with the offset 0.0,0.5,0.0 in the estimate's "
+      "body frame (+- "
+      "0.0,0.0,0.0 "
+      "m): over rotations, the lever arm explains 100 % of the squared differences";
+  const auto notes = [&] { return sequence_metadata(sequence, false).notes; };
+  EXPECT_EQ(notes(), std::vector{found});
+  sequence.provenance.body_from_reference = Pose{};  // the dataset supports the option
+  EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
+  sequence.reference = sequence.problem.keyframes;
+  EXPECT_TRUE(notes().empty());
+}
+
+}  // namespace
+}  // namespace loopbench::sequence_metadata_test

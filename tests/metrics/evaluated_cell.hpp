@@ -1,0 +1,42 @@
+/// Evaluation of one method on one sequence, as the harness passes it to a metric.
+#pragma once
+
+#include <memory>
+
+#include "datasets/core/polyline.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
+
+namespace loopbench::test {
+
+using namespace metrics;
+
+/// Owns everything its evaluation points to; do not copy or move.
+struct JudgedCell {
+  JudgedCell(Trajectory truth,
+             Problem given,
+             std::unique_ptr<const Curve> made,
+             Times times,
+             Protocol protocol = {})
+      : reference(std::move(truth)),
+        problem(std::move(given)),
+        curve(std::move(made)),
+        at_keyframes(curve->sample(stamps(problem.keyframes))),
+        evaluation(evaluate(reference,
+                            *curve,
+                            stamps(problem.keyframes),
+                            times,
+                            protocol,
+                            tracked_stamps(problem))) {
+    evaluation.context = {&reference, &at_keyframes, &problem, curve.get(), times, protocol};
+  }
+  JudgedCell(const JudgedCell&) = delete;
+
+  Trajectory reference;
+  Problem problem;
+  std::unique_ptr<const Curve> curve;
+  Trajectory at_keyframes;
+  Evaluation evaluation;
+};
+
+}  // namespace loopbench::test
