@@ -3,7 +3,7 @@
 namespace loopbench {
 
 std::filesystem::path DataRoot::find(const std::string& path) const {
-  const std::filesystem::path file(path);
+  std::filesystem::path file(path);
   if (path.empty()) throw InputError("found an empty file name, expected the path of a file");
   if (file.is_absolute()) {
     if (std::filesystem::exists(file)) return file;

@@ -1,151 +1,99 @@
 #include "datasets/rgbd/pack_stages.hpp"
 
-#include "datasets/rgbd/cache.hpp"
+#include "datasets/core/pack.hpp"
+
+// Members of the types, each list used for both writing and reading. In the namespace of the
+// serialiser, which finds them there.
+namespace loopbench {
+
+template <class Archive, Either<Pose> T>
+void walk(Archive& a, T& pose) {
+  for (int i = 0; i < 4; ++i) a(pose.rotation.coeffs()[i]);
+  for (int i = 0; i < 3; ++i) a(pose.translation[i]);
+}
+
+template <class Archive, Either<Edge> T>
+void walk(Archive& a, T& edge) {
+  a(edge.from)(edge.to)(edge.from_from_to)(edge.scale);
+  for (int i = 0; i < 36; ++i) a(edge.information.data()[i]);
+}
+
+template <class Archive, Either<StampedPose> T>
+void walk(Archive& a, T& p) {
+  a(p.stamp)(p.world_from_body);
+}
+
+template <class Archive, Either<rgbd::Features> T>
+void walk(Archive& a, T& f) {
+  a(f.points)(f.descriptors)(f.bytes)(f.binary);
+}
+
+template <class Archive, Either<rgbd::Keyframe> T>
+void walk(Archive& a, T& k) {
+  a(k.frame)(k.stamp)(k.world_from_camera)(k.features);
+}
+
+template <class Archive, Either<rgbd::TrackingResult> T>
+void walk(Archive& a, T& t) {
+  a(t.keyframes)(t.odometry)(t.shared_landmarks)(t.frames)(t.lost)(t.skipped)(t.notes);
+}
+
+template <class Archive, Either<rgbd::DetectedLoops> T>
+void walk(Archive& a, T& loops) {
+  a(loops.closures)(loops.candidates);
+}
+
+template <class Archive, Either<rgbd::RefinedEdges> T>
+void walk(Archive& a, T& e) {
+  a(e.odometry)(e.closures)(e.odometry_refined)(e.closures_refined);
+}
+
+}  // namespace loopbench
 
 namespace loopbench::rgbd {
 namespace {
 
-// Lists of members, used for both writing and reading: io(member) does either.
-template <class Io, class T>
-void each(Io&& io, T& pose, const Pose*) {
-  for (int i = 0; i < 4; ++i) io(pose.rotation.coeffs()[i]);
-  for (int i = 0; i < 3; ++i) io(pose.translation[i]);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& edge, const Edge*) {
-  io(edge.from), io(edge.to), io(edge.from_from_to), io(edge.scale);
-  for (int i = 0; i < 36; ++i) io(edge.information.data()[i]);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& f, const Features*) {
-  io(f.points), io(f.descriptors), io(f.bytes), io(f.binary);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& k, const Keyframe*) {
-  io(k.frame), io(k.stamp), io(k.world_from_camera), io(k.features);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& p, const StampedPose*) {
-  io(p.stamp), io(p.world_from_body);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& t, const TrackingResult*) {
-  io(t.keyframes), io(t.odometry), io(t.shared_landmarks), io(t.frames), io(t.lost), io(t.skipped),
-      io(t.notes);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& c, const LoopCandidate*) {
-  io(c.from), io(c.to), io(c.score), io(c.accepted);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& loops, const DetectedLoops*) {
-  io(loops.closures), io(loops.candidates);
-}
-
-template <class Io, class T>
-void each(Io&& io, T& e, const RefinedEdges*) {
-  io(e.odometry), io(e.closures), io(e.odometry_refined), io(e.closures_refined);
-}
-
-template <class T>
-concept Plain = std::is_arithmetic_v<T> || std::is_same_v<T, Feature>;
-
-struct Write {
-  Pack pack = {};
-  template <class T>
-  void operator()(const T& value) {
-    if constexpr (Plain<T>) {
-      pack.put(value);
-    } else {
-      each(*this, value, static_cast<const T*>(nullptr));
-    }
-  }
-  void operator()(const std::string& text) { pack.put(text); }
-  template <class T>
-  void operator()(const std::vector<T>& list) {
-    if constexpr (Plain<T>) {
-      pack.put(list);
-    } else {
-      pack.put(list.size());
-      for (const T& item : list) (*this)(item);
-    }
-  }
-};
-
-struct Read {
-  Unpack pack;
-  template <class T>
-  void operator()(T& value) {
-    if constexpr (Plain<T>) {
-      pack.get(value);
-    } else {
-      each(*this, value, static_cast<const T*>(nullptr));
-    }
-  }
-  void operator()(std::string& text) { pack.get(text); }
-  template <class T>
-  void operator()(std::vector<T>& list) {
-    if constexpr (Plain<T>) {
-      pack.get(list);
-    } else {
-      std::size_t count = 0;
-      pack.get(count);
-      for (std::size_t i = 0; i < count;
-           ++i) {  // grown step by step: a wrong count throws at the end
-        list.emplace_back();
-        (*this)(list.back());
-      }
-    }
-  }
-};
-
 template <class T>
 std::string serialised(const T& value) {
-  Write write;
-  write(value);
-  return write.pack.bytes();
+  return Packer{}(value).bytes();
 }
 
 template <class T>
-T read(const std::string& bytes) {
+T deserialised(const std::string& bytes) {
   T out;
-  Read from{Unpack(bytes)};
-  from(out);
+  Unpacker{bytes}(out);
   return out;
 }
 
 }  // namespace
 
 std::string packed(const FrameFeatures& frame) {
-  Write write;
-  write(frame.why);
-  write(frame.features.has_value());
-  if (frame.features) write(*frame.features);
-  return write.pack.bytes();
+  Packer pack;
+  pack(frame.why)(frame.features.has_value());
+  if (frame.features) pack(*frame.features);
+  return pack.bytes();
 }
 
 FrameFeatures deserialise_frame(const std::string& bytes) {
   FrameFeatures out;
-  Read from{Unpack(bytes)};
+  Unpacker unpack(bytes);
   bool any = false;
-  from(out.why);
-  from(any);
-  if (any) from(out.features.emplace());
+  unpack(out.why)(any);
+  if (any) unpack(out.features.emplace());
   return out;
 }
 
 std::string packed(const TrackingResult& tracked) { return serialised(tracked); }
-TrackingResult deserialise_tracked(const std::string& bytes) { return read<TrackingResult>(bytes); }
+TrackingResult deserialise_tracked(const std::string& bytes) {
+  return deserialised<TrackingResult>(bytes);
+}
 std::string packed(const DetectedLoops& loops) { return serialised(loops); }
-DetectedLoops deserialise_loops(const std::string& bytes) { return read<DetectedLoops>(bytes); }
+DetectedLoops deserialise_loops(const std::string& bytes) {
+  return deserialised<DetectedLoops>(bytes);
+}
 std::string packed(const RefinedEdges& edges) { return serialised(edges); }
-RefinedEdges deserialise_edges(const std::string& bytes) { return read<RefinedEdges>(bytes); }
+RefinedEdges deserialise_edges(const std::string& bytes) {
+  return deserialised<RefinedEdges>(bytes);
+}
 
 }  // namespace loopbench::rgbd

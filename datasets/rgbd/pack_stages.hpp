@@ -16,7 +16,7 @@ struct FrameFeatures {
   std::string why = {};
 };
 
-/// The unpacked_* functions throw std::runtime_error for bytes in another layout.
+/// The deserialise_* functions throw std::runtime_error for bytes in another layout.
 std::string packed(const FrameFeatures& frame);
 FrameFeatures deserialise_frame(const std::string& bytes);
 std::string packed(const TrackingResult& tracked);

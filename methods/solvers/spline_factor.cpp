@@ -40,13 +40,12 @@ SplineFactor::SplineFactor(const SplineBasis& basis, const EdgeBetween& measured
   to_ = {at(to), basis.values(to, measured.to), basis.cumulative(to, measured.to)};
 }
 
-void SplineFactor::collect_controls(std::vector<std::size_t> firsts) {
+void SplineFactor::collect_controls(const std::vector<std::size_t>& firsts) {
   for (const std::size_t first : firsts) {
     for (std::size_t j = 0; j < order_; ++j) controls_.push_back(first + j);
   }
   std::ranges::sort(controls_);
-  const auto repeated = std::ranges::unique(controls_);
-  controls_.erase(repeated.begin(), repeated.end());
+  controls_.erase(std::unique(controls_.begin(), controls_.end()), controls_.end());
 }
 
 SplineFactor::PoseDerivative SplineFactor::pose_at(const Time& time,

@@ -45,7 +45,7 @@ class SplineFactor {
   };
   struct PoseDerivative;
   PoseDerivative pose_at(const Time& time, const std::vector<Pose>& controls) const;
-  void collect_controls(std::vector<std::size_t> firsts);
+  void collect_controls(const std::vector<std::size_t>& firsts);
 
   std::size_t order_;
   std::vector<std::size_t> controls_;

@@ -38,7 +38,7 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
     throw degenerate(type, m.count, "coincide in one point");
   }
   const Eigen::JacobiSVD<Matrix3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector3 d = svd.singularValues();
+  const Vector3& d = svd.singularValues();
   const double mirror =
       svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
   const double flat = kFlat * d[0];

@@ -60,7 +60,8 @@ struct Scores {
     out.push_back(std::move(score));
   }
 
-  void add_rates(const std::string& axis, SegmentErrors&& errors) {
+  /// Moves the two rates out of `errors`.
+  void add_rates(const std::string& axis, SegmentErrors& errors) {
     add("translation", axis, "%", 100.0, std::move(errors.translation_share));
     add("rotation", axis, "deg/m", kDegrees, std::move(errors.rotation_rate));
   }
@@ -122,7 +123,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
     if (errors.rotation_rate.size() < static_cast<std::size_t>(rule.fewest)) continue;
     all.add(errors);
     if (!options.each) continue;
-    each.add_rates(length.text, std::move(errors));
+    each.add_rates(length.text, errors);
     if (rule.precision == Precision::float32) continue;
     each.add("translation", length.text, "m", 1.0, std::move(errors.translation));
     each.add("rotation", length.text, "deg", kDegrees, std::move(errors.rotation));
@@ -136,7 +137,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   }
   Scores out{evaluation.protocol, {}};
   if (rule.precision == Precision::float32) all.sort();
-  out.add_rates("all", std::move(all.errors));
+  out.add_rates("all", all.errors);
   out.out.insert(out.out.end(), each.out.begin(), each.out.end());
   return out.out;
 }

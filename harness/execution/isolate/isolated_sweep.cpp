@@ -142,10 +142,7 @@ class IsolatedSweep {
     const SharedStatus& shared_status = slot.process->shared_status();
     const std::uint64_t job = shared_status.job;
     if (slot.verdict || job == SharedStatus::kIdle) return;
-    if (job >= context_.cells.size()) {  // the worker has corrupted its memory
-      slot.process->kill();
-      return;
-    }
+    if (job >= context_.cells.size()) return slot.process->kill();  // the worker wrote over it
     const char* doing = shared_status.loading ? "loading its sequence" : "the cell";
     const Limits& limits = context_.sweep.limits;
     CellResult verdict;

@@ -1,6 +1,7 @@
-/// Binary serialisation for messages between two processes of the same program.
+/// Binary serialisation, for readers that are the same program: messages and caches.
 #pragma once
 
+#include <concepts>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -9,7 +10,11 @@
 #include <type_traits>
 #include <vector>
 
-namespace loopbench::harness {
+namespace loopbench {
+
+/// T is Of, for reading or const for writing.
+template <class T, class Of>
+concept Either = std::same_as<std::remove_const_t<T>, Of>;
 
 /// Appends its arguments: plain data, strings, vectors, optionals, and types with a
 /// `walk(archive, value)`.
@@ -46,8 +51,8 @@ class Packer {
   std::string bytes_;
 };
 
-/// Reads in the same order. Throws std::runtime_error if the bytes end too early, because a worker
-/// with corrupted memory can send anything.
+/// Reads in the same order. The bytes may be anything: throws std::runtime_error if they end too
+/// early, and allocates no more than they justify.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
@@ -73,15 +78,15 @@ class Unpacker {
       if (items.empty()) return *this;
       std::memcpy(items.data(), take(items.size() * sizeof(T)), items.size() * sizeof(T));
     } else {
-      items.resize(count(1));
-      for (T& item : items) (*this)(item);
+      items.clear();
+      for (std::size_t left = count(1); left > 0; --left) (*this)(items.emplace_back());
     }
     return *this;
   }
 
  private:
   const char* take(std::size_t size) {
-    if (size > bytes_.size()) throw std::runtime_error("a message of a worker is truncated");
+    if (size > bytes_.size()) throw std::runtime_error("serialised data are truncated");
     const char* out = bytes_.data();
     bytes_.remove_prefix(size);
     return out;
@@ -89,12 +94,11 @@ class Unpacker {
   std::size_t count(std::size_t item_size) {
     std::size_t out = 0;
     std::memcpy(&out, take(sizeof out), sizeof out);
-    if (out > bytes_.size() / item_size)
-      throw std::runtime_error("a message of a worker is truncated");
+    if (out > bytes_.size() / item_size) throw std::runtime_error("serialised data are truncated");
     return out;
   }
 
   std::string_view bytes_;
 };
 
-}  // namespace loopbench::harness
+}  // namespace loopbench
