@@ -27,7 +27,7 @@ class Judge {
     return find_cell(cells_, like, reading_, variant);
   }
 
-  /// -1 for a smaller, 0 tied, 1 for a larger.
+  /// -1 if a is smaller, 0 if they are tied, 1 if a is larger.
   int compare(double a, double b) const {
     if (std::abs(a - b) <= tie_ * std::max(std::abs(a), std::abs(b))) return 0;
     return a < b ? -1 : 1;

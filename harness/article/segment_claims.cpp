@@ -35,7 +35,7 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-/// Values printed beside the article's figures.
+/// Values printed next to the article's figures.
 struct Quoted {
   const char* where;
   const char* sequence;

@@ -49,9 +49,9 @@ std::string calibration_yaml(const Calibration& c) {
       c.every);
 
   out +=
-      "# Root mean square errors over groups of this many edges, and the power of the group length "
-      "they\n"
-      "# with which they grow since the row before: 0.5 is noise, 1 is steady drift.\n";
+      "# Root mean square errors over groups of this many edges, and the powers of the group "
+      "length\n"
+      "# with which they grow from the row above: 0.5 is noise, 1 is steady drift.\n";
   for (std::size_t i = 0; i < c.group_errors.size(); ++i) {
     const Calibration::GroupErrors& s = c.group_errors[i];
     out += fmt::format("# {:4} edges {:.3g} m {:.3g} rad", s.edges, s.rms[0], s.rms[1]);

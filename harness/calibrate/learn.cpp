@@ -8,8 +8,8 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kStretches[] = {1, 5, 20, 50};
-constexpr std::size_t kSegment = 10;  // of the bootstrap, in stretches
+constexpr std::size_t kGroupLengths[] = {1, 5, 20, 50};
+constexpr std::size_t kSegment = 10;  // block length of the bootstrap [groups of edges]
 constexpr std::uint64_t kSeed = 1;
 
 std::vector<CalibrationResiduals> residuals_of(
@@ -58,10 +58,10 @@ Calibration learn(const Sweep& sweep,
   }
   out.sequences = residuals_of(loaded, labels, out.every);
   if (out.sequences.empty()) {
-    throw InputError(sweep.config.string() + ": no dataset has two stretches of " +
-                     std::to_string(out.every) + " edges; make --every smaller");
+    throw InputError(sweep.config.string() + ": no dataset has two groups of " +
+                     std::to_string(out.every) + " edges; reduce --every");
   }
-  for (const std::size_t edges : kStretches) {
+  for (const std::size_t edges : kGroupLengths) {
     const std::vector<CalibrationResiduals> at = residuals_of(loaded, labels, edges);
     if (at.size() < out.sequences.size()) break;
     out.group_errors.push_back({edges,

@@ -1,4 +1,4 @@
-/// A calibration from the sequences of a sweep.
+/// Calibration of noise models on the sequences of a sweep.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace loopbench::harness {
 
 struct LearnOptions {
   std::string train;       ///< a Pattern: only datasets whose label contains a match
-  std::size_t every = 10;  ///< edges taken as one
-  int draws = 50;          ///< of the bootstrap
+  std::size_t every = 10;  ///< consecutive edges combined into one
+  int draws = 50;          ///< bootstrap samples
 };
 
-/// Throws InputError when no dataset matches, none is long enough, or a file is missing or broken.
+/// Throws InputError if no dataset matches, none is long enough, or a file is missing or invalid.
 Calibration learn(const Sweep& sweep,
                   const Catalogue& catalogue,
                   const DataRoot& root,

@@ -81,7 +81,7 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-/// Writes the tables beside the store; returns the table to print.
+/// Writes the tables next to the store; returns the table to print.
 std::string write_tables(const std::filesystem::path& store,
                          const Sweep& sweep,
                          const std::filesystem::path& out) {

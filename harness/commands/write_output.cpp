@@ -35,11 +35,11 @@ void write_output(const std::string& text,
     write_file(file, out);
   }
   if (format != ExportFormat::csv) return;
-  // Standard output has no file beside it.
+  // Standard output has no folder for a second file.
   if (!is_printed && std::filesystem::is_regular_file(file))
     return write_file(provenance_file(file), json(provenance));
   fmt::print(stderr,
-             "loopbench: {}\nloopbench: with -o FILE, the provenance is written beside the file\n",
+             "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",
              build_summary(provenance.provenance));
 }
 

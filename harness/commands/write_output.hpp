@@ -11,7 +11,7 @@ enum class ExportFormat { markdown, terminal, latex, csv, json };
 /// Writes `text` to `file`, or prints it if `file` is empty or "-". The provenance of the store is
 /// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
 /// KEY: text} in JSON. CSV has no comments: the provenance of `x.csv` is written to
-/// `x.provenance.json` beside it; for a printed CSV, one line goes to standard error. Throws
+/// `x.provenance.json` next to it; for a printed CSV, one line goes to standard error. Throws
 /// InputError.
 void write_output(const std::string& text,
                   ExportFormat format,

@@ -64,13 +64,14 @@ struct Reader {
   }
 };
 
-/// Numbered poses beside stamped ones would be paired by chance. `one`, `other`: Loaded::unstamped.
+/// Returns an error if only one file has stamps, since numbers and stamps would be paired by
+/// chance. `one`, `other`: Loaded::unstamped.
 std::string why_two_clocks(const EvalArguments& a,
                            const metrics::Protocol& protocol,
                            const std::string& one,
                            const std::string& other) {
-  const bool looks_at_stamps = protocol.association != metrics::Association::index;
-  if (a.period || !looks_at_stamps || one.empty() == other.empty()) return "";
+  const bool uses_stamps = protocol.association != metrics::Association::index;
+  if (a.period || !uses_stamps || one.empty() == other.empty()) return "";
   return one + other +
          ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
          "--period S or --association index";
@@ -88,7 +89,7 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 std::vector<EvaluationResult> judge_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
-    requested_metrics(a, protocol.rules);  // refuses slips early
+    requested_metrics(a, protocol.rules);  // rejects invalid options before reading files
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
       !has_offset(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
@@ -102,7 +103,7 @@ std::vector<EvaluationResult> judge_files(const EvalArguments& a) {
   std::vector<EvaluationResult> out;
   std::string read_last;
   Trajectory reference;
-  ReadFindings repaired;  // these two of the reference
+  ReadFindings repaired;  // this and `unstamped`: of the reference
   std::string unstamped;
   metrics::PrintedPoses printed;
   for (const FilePair& pair : files) {

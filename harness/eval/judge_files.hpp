@@ -1,4 +1,4 @@
-/// Reads the files that `eval` names and judges every estimate under every protocol.
+/// Reads the trajectory files of `eval` and evaluates every estimate under every protocol.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace loopbench::harness {
 
-/// One for each estimate and protocol, in that order. Where there are several, what cannot be read
-/// or judged is a EvaluationResult with `why_failed`. Throws InputError, OptionError.
+/// Returns one result for each estimate and protocol, in that order. If there are several, an
+/// estimate that cannot be read or evaluated has a result with `why_failed`. Throws InputError,
+/// OptionError.
 std::vector<EvaluationResult> judge_files(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

@@ -16,7 +16,7 @@
 namespace loopbench::harness {
 namespace {
 
-/// Severity of what is missing: nothing, coverage, a number, a result.
+/// Severity of a status: complete, low coverage, no number, no result.
 int severity(const std::string& status) {
   if (status == "ok") return 0;
   if (status == "incomplete") return 1;
@@ -60,7 +60,7 @@ class Checker {
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
     if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
-      throw InputError("the baseline belongs to another sweep: the results contain no cell of '" +
+      throw InputError("the baseline is from another sweep: the results contain no cell of '" +
                        baseline.snapshot.sweep + "'");
     }
     for (const GateCell& cell : baseline.snapshot.cells) add(cell);
@@ -120,7 +120,7 @@ class Checker {
     report_.names.push_back(name(before));
     seen_.emplace(key(before), true);
     if (found == now_.end()) {
-      find(Finding::Kind::regression, name(before), "", "vanished");
+      find(Finding::Kind::regression, name(before), "", "missing");
       return;
     }
     const GateCell& now = *found->second;
@@ -131,7 +131,7 @@ class Checker {
     for (const GateScore& score : before.scores) {
       const auto same = scores.find(name(score));
       if (same == scores.end()) {
-        find(Finding::Kind::regression, name(before), name(score), "vanished");
+        find(Finding::Kind::regression, name(before), name(score), "missing");
       } else if (status(score.status, same->second->status, name(before), name(score))) {
         compare(now, score, *same->second);
       }

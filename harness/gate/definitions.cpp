@@ -42,7 +42,7 @@ void require_same(const Definitions& baseline,
       throw InputError("the baseline has the " + what + " '" + label + "', but the results do not");
     }
     if (found->second == text) continue;
-    throw InputError("the baseline has another " + what + " '" + label + "': it has '" +
+    throw InputError("the baseline defines the " + what + " '" + label + "' differently: it has '" +
                      only_in(text, found->second) + "', these results have '" +
                      only_in(found->second, text) + "'");
   }
@@ -63,7 +63,7 @@ void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
   for (const auto& [label, content] : baseline.contents) {
     const auto found = now.contents.find(label);
     if (found == now.contents.end() || found->second == content) continue;
-    throw InputError("the baseline has other content of the sequence '" + label +
+    throw InputError("the baseline has different data for the sequence '" + label +
                      "' with the same options and files: its poses, edges or reference differ "
                      "(hash " +
                      content + ", these results " + found->second + ")");

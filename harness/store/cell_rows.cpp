@@ -100,7 +100,7 @@ void read_details(Database& database,
 
 void throw_damaged(const std::filesystem::path& file, const std::string& what) {
   throw InputError(file.string() + ": is damaged: " + what +
-                   " not as written; run 'loopbench run' with its config and '--retry damaged' "
+                   " corrupted; run 'loopbench run' with its config and '--retry damaged' "
                    "to recompute it");
 }
 

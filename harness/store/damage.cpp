@@ -116,7 +116,7 @@ void require_intact_texts(Database& database,
                           const std::filesystem::path& file) {
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
   throw InputError(file.string() + ": is damaged: its table " + table +
-                   " is not as written; run 'loopbench run' with its config and '--fresh', which "
+                   " is corrupted; run 'loopbench run' with its config and '--fresh', which "
                    "keeps this store as previous.sqlite");
 }
 

@@ -122,8 +122,9 @@ class Merge {
       cell.method += " (build " + cell.build.substr(0, 8) + ")";
       if (cell.build == build_ ||
           !labels_.emplace(cell.sequence, cell.repeat, cell.method).second) {
-        throw InputError(store_ + ": " + cell.sequence + " / " + method +
-                         " is also in an earlier store, with other options, inputs or protocols");
+        throw InputError(
+            store_ + ": " + cell.sequence + " / " + method +
+            " is also in an earlier store, with different options, inputs or protocols");
       }
     }
     if (!positions_.insert(cell.position).second) {
@@ -168,7 +169,7 @@ class Merge {
         "AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN (SELECT sequence_key "
         "FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
     if (other.step()) {
-      throw InputError(store_ + ": was computed from another " + other.text() +
+      throw InputError(store_ + ": was computed from a different " + other.text() +
                        " than the earlier stores");
     }
     other.reset();
@@ -221,7 +222,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     bool mixed_builds) {
   if (std::filesystem::exists(out)) {
-    throw InputError(out.string() + ": exists already; merge writes a new store");
+    throw InputError(out.string() + ": already exists; merge writes a new store");
   }
   const std::filesystem::path partial = out.string() + ".partial";
   std::error_code none;

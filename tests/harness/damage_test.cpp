@@ -131,8 +131,7 @@ TEST_F(Damage, NamesTheCellAndWhatToDo) {
   change(
       "UPDATE score SET rmse = rmse * 0.999 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
   const std::string said = refusal(file_);
-  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is not as written"),
-            std::string::npos)
+  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is corrupted"), std::string::npos)
       << said;
   EXPECT_NE(said.find("to recompute it"), std::string::npos) << said;
   const Ran again = run(kUsual);

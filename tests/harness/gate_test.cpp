@@ -175,17 +175,20 @@ TEST(Gate, TellsTheOptionsThatDiffer) {
       check(old, now);
     });
   };
-  EXPECT_EQ(with("simulated: laps=2, path=room; a.txt 3 beef"),
-            "the baseline has another sequence 'room': it has 'simulated: laps=1', these "
-            "results have 'simulated: laps=2'");
-  EXPECT_EQ(with("simulated: laps=1, path=room; a.txt 3 cafe"),
-            "the baseline has another sequence 'room': it has 'a.txt 3 beef', these results "
-            "have 'a.txt 3 cafe'");
+  EXPECT_EQ(
+      with("simulated: laps=2, path=room; a.txt 3 beef"),
+      "the baseline defines the sequence 'room' differently: it has 'simulated: laps=1', these "
+      "results have 'simulated: laps=2'");
+  EXPECT_EQ(
+      with("simulated: laps=1, path=room; a.txt 3 cafe"),
+      "the baseline defines the sequence 'room' differently: it has 'a.txt 3 beef', these results "
+      "have 'a.txt 3 cafe'");
 }
 
 TEST(Gate, RefusesOtherInputsAndProtocols) {
   EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences["room"] = "path=city"; }); }),
-            "the baseline has another sequence 'room': it has 'path=room', these results have "
+            "the baseline defines the sequence 'room' differently: it has 'path=room', these "
+            "results have "
             "'path=city'");
   EXPECT_NE(refusal_of([] { after([](Snapshot& now) { now.protocols.clear(); }); }), "");
   EXPECT_NE(refusal_of([] { after([](Snapshot& n) { n.protocols["loopbench [1]"] = ""; }); }), "");
@@ -198,7 +201,7 @@ TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
   for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
   for (const GateExtent extent : {GateExtent::complete, GateExtent::part}) {
     EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
-              "the baseline belongs to another sweep: the results contain no cell of 'outliers'");
+              "the baseline is from another sweep: the results contain no cell of 'outliers'");
   }
 }
 

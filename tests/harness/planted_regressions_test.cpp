@@ -129,16 +129,16 @@ TEST(PlantedRegression, AWorseMaximumWithEqualRmse) {
 TEST(PlantedRegression, AMethodOrASequenceThatVanished) {
   std::vector<Record> now = records();
   std::erase_if(now, [](const Record& r) { return r.method == "uniform"; });
-  expect_named(caught(snapshot_of(now)), {"room (repeat 7) / uniform", "vanished"});
+  expect_named(caught(snapshot_of(now)), {"room (repeat 7) / uniform", "missing"});
   now = records();
   std::erase_if(now, [](const Record& r) { return r.repeat == 3; });
-  expect_named(caught(snapshot_of(now)), {"room (repeat 3) / raw", "vanished"});
+  expect_named(caught(snapshot_of(now)), {"room (repeat 3) / raw", "missing"});
 }
 
 TEST(PlantedRegression, AScoreThatVanished) {
   std::vector<Record> now = records();
   std::erase_if(now, [](const Record& r) { return r.metric == "rpe"; });
-  expect_named(caught(snapshot_of(now)), {"rpe translation 3d, dense, loopbench", "vanished"});
+  expect_named(caught(snapshot_of(now)), {"rpe translation 3d, dense, loopbench", "missing"});
 }
 
 TEST(PlantedRegression, ACellThatFailsNow) {
@@ -176,7 +176,7 @@ TEST(PlantedRegression, OtherContentOfTheDataset) {
   hashed.snapshot.contents = {{"room", "beef"}};
   Snapshot other = snapshot_of(now);
   other.contents = {{"room", "cafe"}};
-  expect_named(caught(other, hashed), {"other content of the sequence 'room'", "beef", "cafe"});
+  expect_named(caught(other, hashed), {"different data for the sequence 'room'", "beef", "cafe"});
   other.machine = "another CPU";  // last digits can differ
   EXPECT_EQ(caught(other, hashed), "");
   expect_named(markdown(check(hashed, other), "quick"), {"contents of sequences are not compared"});

@@ -208,7 +208,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
                 "datasets: [{dataset: simulated, path: room, keyframes: 50, label: room}]\n"
                 "methods: [raw]\nmetrics: [ate]\ntimes: keyframes\n");
   EXPECT_EQ(run("run other.yaml --out o").exit_code, 0);
-  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline has another sequence"));
+  EXPECT_TRUE(has(refusal("o --baseline b.json"), "b.json: the baseline defines the sequence"));
   folder_->file("evo.yaml", std::string(kConfig) + "protocol: evo\n");
   EXPECT_EQ(run("run evo.yaml --out e --only 'room / raw'").exit_code, 0);
   EXPECT_TRUE(has(refusal("e --baseline b.json"), "has the protocol 'loopbench ["));

@@ -20,12 +20,13 @@
 namespace loopbench::harness {
 namespace {
 
-std::runtime_error refused(const std::string& what) {
-  return std::runtime_error("a worker process: " + what + ": " + std::strerror(errno));
+std::runtime_error creation_error(const std::string& what) {
+  return std::runtime_error("cannot create a worker process: " + what + ": " +
+                            std::strerror(errno));
 }
 
 /// If the system runs out of memory, it should kill the worker, not the sweep.
-void offer_to_be_ended_first() {
+void raise_oom_score() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
   [[maybe_unused]] const ssize_t written = write(file, "500", 3);
@@ -37,12 +38,12 @@ void offer_to_be_ended_first() {
 WorkerProcess::WorkerProcess(const WorkerContext& context, int pinned) {
   void* shared = mmap(
       nullptr, sizeof(SharedStatus), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (shared == MAP_FAILED) throw refused("shared memory");
+  if (shared == MAP_FAILED) throw creation_error("shared memory");
   shared_status_ = new (shared) SharedStatus;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     munmap(shared_status_, sizeof(SharedStatus));
-    throw refused("socket pair");
+    throw creation_error("socket pair");
   }
   std::fflush(nullptr);  // otherwise the worker would print buffered output again
   const pid_t parent = getpid();
@@ -53,7 +54,7 @@ WorkerProcess::WorkerProcess(const WorkerContext& context, int pinned) {
   if (process_ > 0) return;
   close(socket_);
   munmap(shared_status_, sizeof(SharedStatus));
-  throw refused("fork");
+  throw creation_error("fork");
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -76,7 +77,7 @@ void WorkerProcess::run_child(const WorkerContext& context, int pinned, int sock
   close_range(kSocket + 1, ~0u, 0);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  offer_to_be_ended_first();
+  raise_oom_score();
   run_worker(context, kSocket, *shared_status_, pinned);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
