@@ -96,13 +96,13 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
 }  // namespace
 
 std::vector<std::string> oracle_methods(const std::vector<Record>& records) {
-  std::set<std::string> fair_runs;  // runs with a method that does not use the reference
+  std::set<std::string> non_oracle_runs;  // runs with a method that does not use the reference
   for (const Record& r : records) {
-    if (!r.oracle) fair_runs.insert(run_name(r));
+    if (!r.oracle) non_oracle_runs.insert(run_name(r));
   }
   std::set<std::string> out;
   for (const Record& r : records) {
-    if (r.oracle && fair_runs.contains(run_name(r))) out.insert(r.method);
+    if (r.oracle && non_oracle_runs.contains(run_name(r))) out.insert(r.method);
   }
   return {out.begin(), out.end()};
 }
@@ -125,7 +125,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
   }
   if (out.empty()) {
     throw InputError("'" + metric_label(all[0].kind) +
-                     "' is a description: no value is better than another");
+                     "' is descriptive: no value is better than another");
   }
   return out;
 }

@@ -23,7 +23,7 @@ PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second
     if (is_empty) continue;
     const double middle = both.empty() ? 0.0 : mean(both);
     const double value = lead != 0 ? (lead > 0 ? -kBeyond : kBeyond) : middle;
-    // A zero error beside finite ratios in the same group remains beyond any ratio.
+    // A zero error exceeds any finite ratio in the same group.
     const bool is_beyond = std::abs(value) > 1e-6 * kBeyond;
     out.losses_last.push_back(is_beyond ? std::copysign(kBeyond, value) : value);
     ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);

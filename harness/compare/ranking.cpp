@@ -49,7 +49,7 @@ void decide(Ranking& out,
       standings[winner] < standings[loser]) {
     out.beats[winner][loser] = true;
   } else if (test.p <= options.alpha) {
-    test.p = 1.0;  // ranks and ratio contradict each other: nothing is shown
+    test.p = 1.0;  // ranks and ratio contradict each other: not significant
   }
   out.p[test.a][test.b] = out.p[test.b][test.a] = test.p;
 }

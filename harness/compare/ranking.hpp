@@ -1,13 +1,13 @@
-/// Which method is proven better than which: the one procedure behind verdicts, ranks and marks.
+/// Pairwise significance of methods: the procedure behind verdicts, ranks and marks.
 ///
-/// Every pair of methods is tested over groups by Wilcoxon's signed-rank test (zeros as Pratt has
-/// them), a group on which a method fails more often being lost by the largest magnitude; Holm's
-/// correction covers all pairs, so a best method that was picked by looking is covered too. A
-/// method is proven better than another where that p is at most alpha, and the geometric mean ratio
-/// over common runs agrees: it points the same way, by more than the relevant difference (failures
-/// alone may decide between methods that are equal otherwise), with an interval that excludes 1,
-/// and so does the order. Fewer groups than an interval needs (8) prove nothing. Where there is no
-/// interval for another reason (equal ratios, failures), the ranks, the direction and the size of
+/// Every pair of methods is tested over groups by Wilcoxon's signed-rank test (zeros as in Pratt);
+/// a group on which one method fails more often counts as its loss, with the largest magnitude.
+/// Holm's correction covers all pairs, including that of a best method selected from the results. A
+/// method is proven better than another if the corrected p is at most alpha and the geometric mean
+/// ratio over common runs agrees: it has the same sign, exceeds the relevant difference (failures
+/// alone can decide between methods that are otherwise equal), its interval excludes 1, and the
+/// order agrees, too. With fewer groups than an interval needs (8), nothing is proven. If there is
+/// no interval for another reason (equal ratios, failures), the ranks and the direction and size of
 /// the ratio decide.
 #pragma once
 
@@ -22,7 +22,7 @@
 namespace loopbench::harness {
 
 struct RankingOptions {
-  double alpha = 0.05;          ///< chance of any false claim among all pairs
+  double alpha = 0.05;          ///< probability of any false claim among all pairs
   double relevant = kRelevant;  ///< relative difference up to which methods are equal
 };
 
@@ -30,19 +30,20 @@ struct Ranking {
   std::vector<std::size_t> order;        ///< best standing first (Levels::standing)
   std::vector<std::vector<bool>> beats;  ///< [a][b]: a is proven better than b
   std::vector<std::vector<bool>> equal;  ///< [a][b]: tied on every group
-  std::vector<std::vector<double>> p;    ///< [a][b]: at most alpha exactly where one beats
-  std::size_t pairs = 0;                 ///< tested: those that are not equal
-  double least_p = 1.0;                  ///< that all groups of one sign reach, corrected; or 1
-  /// Fewest with which a pair could be proven.
+  std::vector<std::vector<double>> p;    ///< [a][b]: at most alpha exactly if one beats the other
+  std::size_t pairs = 0;                 ///< number of tested pairs, which are not equal
+  double least_p = 1.0;                  ///< corrected p if all groups have one sign; or 1
+  /// Minimum number of groups for a significant pair.
   std::size_t groups_needed = kFewestForInterval;
 
-  /// Whether so many groups can prove anything about so many methods.
+  /// Whether a pair can be significant with this number of groups and methods.
   bool can_prove(double alpha) const { return least_p <= alpha; }
   /// The first in order and those equal to it.
   std::vector<std::size_t> leaders() const;
   /// Whether the leaders beat every other method.
   bool is_best_proven() const;
-  /// Ranks that the claims leave to a method: 1 + those that beat it, to all less those it beats.
+  /// Range of ranks given the significant pairs: 1 + the number of methods that beat it, to the
+  /// number of methods minus those that it beats.
   std::size_t lowest_rank(std::size_t method) const;
   std::size_t highest_rank(std::size_t method) const;
 };
@@ -50,9 +51,9 @@ struct Ranking {
 /// Deterministic. O(methods^2 * (runs + groups^3)) for exact tests.
 Ranking rank_methods(const GroupedValues& values, const RankingOptions& options);
 
-/// A text of letters for each method; two share a letter exactly where neither beats the other
-/// (Piepho, Journal of Computational and Graphical Statistics 13, 2004). `a` holds the first in
-/// order. Empty texts where that takes more than 100 letters.
+/// Letters for each method; two methods share a letter exactly if neither beats the other (Piepho,
+/// Journal of Computational and Graphical Statistics 13, 2004). The first in order has `a`. Empty
+/// strings if more than 100 letters are needed.
 std::vector<std::string> letters(const Ranking& ranking);
 
 }  // namespace loopbench::harness

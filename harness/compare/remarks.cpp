@@ -50,20 +50,20 @@ Lines about_methods(const Comparison& c) {
     if (!gap.is_ranked) {
       out.push_back(fmt::format("{} is not ranked, it has no value: {}", gap.method, gap.why));
     } else if (fails > 0) {
-      out.push_back(fmt::format(
-          "{} fails on {} of {} runs ({}): the tests count them as lost, its median and "
-          "ratio leave them out",
-          gap.method,
-          fails,
-          c.runs,
-          found->why_fails));
+      out.push_back(
+          fmt::format("{} fails on {} of {} runs ({}): they count as losses in the tests and are "
+                      "excluded from its median and ratio",
+                      gap.method,
+                      fails,
+                      c.runs,
+                      found->why_fails));
     } else {
       out.push_back(
           fmt::format("{} lacks {} of {} runs: {}", gap.method, gap.missing, c.possible, gap.why));
     }
   }
   if (!c.oracles.empty()) {
-    out.push_back("not ranked, shown the reference (oracle): " + comma_list(c.oracles));
+    out.push_back("not ranked, use the reference (oracle): " + comma_list(c.oracles));
   }
   if (!c.oracle_closures.empty()) {
     out.push_back("closures measured in the reference or selected by it (oracle): " +
@@ -100,17 +100,17 @@ Lines remarks(const Comparison& c) {
   for (std::string& line : about_methods(c)) out.push_back(std::move(line));
   if (c.methods.empty()) return out;
   const double level = 100.0 * (1.0 - c.options.alpha);
-  out.push_back(fmt::format(
-      "ratio: geometric mean of value / {}, {:g} % interval (Student's, corrected for "
-      "the skewness of the logarithms, each by itself); effect: rank-biserial, positive is better",
-      c.options.baseline,
-      level));
+  out.push_back(
+      fmt::format("ratio: geometric mean of value / {}, {:g} % interval (Student's, corrected for "
+                  "the skewness of the logarithms, each at this level); effect: rank-biserial, "
+                  "positive is better",
+                  c.options.baseline,
+                  level));
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
       "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "
-      "ratio agrees, with its interval; fewer than 8 groups prove nothing; rank: what the claims "
-      "leave open; "
-      "group: methods that share a letter are not "
+      "ratio and its interval agree; fewer than 8 groups prove nothing; rank: range given the "
+      "proven differences; group: methods that share a letter are not "
       "proven different; differences up to {:g} of a value are ties",
       c.options.baseline,
       c.pairs,

@@ -36,7 +36,7 @@ CalibratedSettings read_calibration(const std::string& calibration,
   if (!std::filesystem::is_regular_file(path)) path = calibration;
   std::ifstream in(path, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(path)) {
-    throw refuse(calibration + ": file not found, neither beside the config nor as given");
+    throw refuse(calibration + ": file not found, neither relative to the config nor as given");
   }
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const YamlNode root = parse_yaml(text, path.string());

@@ -16,7 +16,7 @@ struct CalibratedSettings {
 };
 
 /// The settings under each of the `methods` in the calibration file, which has at least one. The
-/// file is searched beside the config, then as given. The settings have the line of the config
+/// file is searched relative to the config, then as given. The settings have the line of the config
 /// entry, so that messages refer to it. Throws InputError `config:line:`.
 CalibratedSettings read_calibration(const std::string& calibration,
                                     const std::vector<std::string>& methods,

@@ -8,7 +8,8 @@
 
 namespace loopbench::harness {
 
-/// Searches beside the config, then in `data` if given. Throws InputError if that is not a folder.
+/// Searches in the config's folder, then in `data` if given. Throws InputError if that is not a
+/// folder.
 DataRoot data_root(const Sweep& sweep, const std::string& data);
 
 }  // namespace loopbench::harness

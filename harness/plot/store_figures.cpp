@@ -6,7 +6,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostPlotted = 800;  // points per curve: more are not visible on a page
+constexpr std::size_t kMostPlotted = 800;  // points per curve; more are not visible in print
 constexpr const char* kReferenceColor = "#9aa1ab";
 constexpr std::array kColors{"#d93025",
                              "#0b6fd3",

@@ -109,12 +109,13 @@ TextTable costs(const std::vector<CellRecord>& cells) {
          median_text(timed, iterations, plain)});
   }
   out.notes.push_back(
-      "medians over cells; memory: the largest resident size of the whole process while the method "
+      "medians over cells; memory: the largest resident size of the process while the method "
       "ran, and its increase (memory that an earlier cell returned to the allocator is reused "
       "without being counted)");
   if (shared) {
-    out.notes.push_back(std::string(alone ? "some" : "all") +
-                        " cells ran beside others; `timing: true` in the config runs them alone");
+    out.notes.push_back(
+        std::string(alone ? "some" : "all") +
+        " cells ran in parallel with others; `timing: true` in the config runs them one at a time");
   }
   std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;

@@ -1,4 +1,4 @@
-/// What is kept about a sequence, computed from it.
+/// Computes the metadata of a sequence.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@ namespace loopbench::harness {
 /// Reads the inputs again to hash them. `group` is the source. Throws InputError.
 SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace);
 
-/// The files with their sizes and hashes; `missing` for one that is not there and that its sequence
-/// did without (an image of a recording), so that a later run notices when it has come. Throws
-/// InputError for one that cannot be read.
+/// The files with their sizes and hashes. The hash of an optional file that does not exist (an
+/// image of a recording) is `missing`, so that a later run detects when it is added. Throws
+/// InputError for a file that cannot be read.
 std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files);
 
 }  // namespace loopbench::harness

@@ -1,4 +1,4 @@
-/// Student's t distribution with whole degrees of freedom.
+/// Student's t distribution with an integer number of degrees of freedom.
 #pragma once
 
 #include <cstddef>

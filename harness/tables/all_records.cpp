@@ -12,8 +12,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, where
-/// neither is meant, by the metric's name.
+/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, if
+/// neither matches, by the metric's name.
 void keep_metric(std::vector<Record>& records, const std::string& metric) {
   std::vector<std::string> known;
   for (const char* column : {"label", "score", "metric"}) {
@@ -51,13 +51,13 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   std::vector<Record> records = all_records(store);
   keep_where(records, rules);
   if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
-    throw InputError(store.string() + ": no score is left to compare" +
+    throw InputError(store.string() + ": no score to compare" +
                      (rules.empty() ? "" : " after --where"));
   }
   keep_metric(records, metric);
   if (options.baseline.empty()) options.baseline = read_run(store).at("baseline");
   if (options.baseline.empty()) {
-    throw InputError(store.string() + ": the sweep has no baseline; --baseline METHOD names one");
+    throw InputError(store.string() + ": the sweep has no baseline; set --baseline METHOD");
   }
   return compare(records, options);
 }

@@ -5,7 +5,7 @@
 namespace loopbench::harness {
 namespace {
 
-bool meet(const std::set<std::string>& a, const std::set<std::string>& b) {
+bool intersect(const std::set<std::string>& a, const std::set<std::string>& b) {
   return std::ranges::any_of(a, [&](const std::string& run) { return b.contains(run); });
 }
 
@@ -30,7 +30,7 @@ std::vector<std::set<std::string>> common_runs(const std::vector<CellRuns>& cell
     for (std::size_t i = 0; i < compared.size(); ++i) {
       for (std::size_t other = 0; other < cells.size(); ++other) {
         if (is_done[other] || cells[other].finished.empty()) continue;
-        if (!meet(cells[compared[i]].tried, cells[other].tried)) continue;
+        if (!intersect(cells[compared[i]].tried, cells[other].tried)) continue;
         compared.push_back(other);
         is_done[other] = true;
         std::erase_if(common,
@@ -46,16 +46,15 @@ std::string CommonRunsNote::text() const {
   if (runs_.empty()) return "";
   const std::set<std::size_t>& first = runs_.begin()->second;
   const bool is_one = std::ranges::all_of(
-      runs_, [&](const auto& lane) { return first.size() == 1 && lane.second == first; });
-  if (is_one && *first.begin() == 0)
-    return "no means (-): no run is one that every method finished";
+      runs_, [&](const auto& entry) { return first.size() == 1 && entry.second == first; });
+  if (is_one && *first.begin() == 0) return "no means (-): no run was finished by every method";
   if (is_one) {
     return "means over the " + std::to_string(*first.begin()) +
            (*first.begin() == 1 ? " run" : " runs") + " that every method finished";
   }
   std::string out;
-  for (const auto& [lane, runs] : runs_) {
-    out += (out.empty() ? "" : ", ") + lane + ": " + runs_text(runs);
+  for (const auto& [name, runs] : runs_) {
+    out += (out.empty() ? "" : ", ") + name + ": " + runs_text(runs);
   }
   return "means over the runs that every method finished (" + out + ")";
 }

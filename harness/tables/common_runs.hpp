@@ -1,4 +1,4 @@
-/// The runs over which the numbers of a table may be averaged so that they can be compared.
+/// Common runs of the cells of a table, so that their averages are comparable.
 #pragma once
 
 #include <map>
@@ -10,23 +10,23 @@ namespace loopbench::harness {
 
 /// One cell of a column (or a row) of a table, by names of runs.
 struct CellRuns {
-  std::set<std::string> tried;     ///< with any outcome
-  std::set<std::string> finished;  ///< with a number; part of `tried`
+  std::set<std::string> tried;     ///< runs with any outcome
+  std::set<std::string> finished;  ///< runs with a number; subset of `tried`
 };
 
-/// For each cell the runs that all cells finished which are compared with it; empty where there is
-/// none. Compared are cells that finished at least one run and tried a run in common, directly or
-/// through others: a method that fails everywhere restricts nobody, and nor do cells of other
-/// sequences. O(cells^2 * runs).
+/// Returns for each cell the runs that all cells compared with it have finished. Two cells are
+/// compared if both finished at least one run and tried a common run, directly or through other
+/// cells. A method that fails everywhere and cells of other sequences therefore do not restrict the
+/// runs. O(cells^2 * runs).
 std::vector<std::set<std::string>> common_runs(const std::vector<CellRuns>& cells);
 
-/// What a reader must know of means over common runs, in one line.
+/// Note below a table with means over common runs.
 class CommonRunsNote {
  public:
-  /// A mean in this column (or row) is over so few runs.
-  void add(const std::string& lane, std::size_t runs) { runs_[lane].insert(runs); }
+  /// Records that a mean in this column (or row) is over `runs` runs.
+  void add(const std::string& name, std::size_t runs) { runs_[name].insert(runs); }
 
-  /// "means over the 4 runs that every method finished"; empty when nothing was added.
+  /// "means over the 4 runs that every method finished"; empty if nothing was added.
   std::string text() const;
 
  private:

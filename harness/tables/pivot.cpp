@@ -21,7 +21,7 @@ std::string fields_joined(const Record& record,
   return out;
 }
 
-/// What must not be averaged with another: everything but sequence, repeat and method.
+/// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
 std::string kind(const Record& r) {
   return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
          "]";
@@ -31,15 +31,16 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   std::string name = fields_joined(record, spec.rows, ", ");
   if (record.oracle) {
     name += " (oracle)";
-    table.note("oracle: the method was shown the reference");
+    table.note("oracle: the method uses the reference");
   }
   const std::size_t row = table.rows.index(name);
   if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
   table.groups[run_key(record)] = group_name(record);
   if (record.status != "ok") {
-    // Too little coverage is one reason for every metric; an undefined number names itself.
-    const bool is_whole = record.metric.empty() || record.status == "incomplete";
-    const std::string what = is_whole ? "" : fields_joined(record, {"label", "relation"}, " ");
+    // Low coverage concerns all metrics; an undefined score is listed by its name.
+    const bool is_complete_cell = record.metric.empty() || record.status == "incomplete";
+    const std::string what =
+        is_complete_cell ? "" : fields_joined(record, {"label", "relation"}, " ");
     table.missing.push_back({name, what, record.status, record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(name + ": " + record.why);
@@ -57,7 +58,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
       other != own) {
     throw InputError("a cell of this table would average '" + other + "' with '" + own +
-                     "'; add the column that tells them apart");
+                     "'; add the column in which they differ");
   }
   table.tried[{row, column}].insert(run_key(record));
   if (record.status != "ok") {
@@ -95,15 +96,16 @@ void mark(Table& out,
     }
   }
   if (is_marked) {
-    out.notes.insert(out.notes.begin(),
-                     "marked: best, and second best, where it is proven better than all others, as "
-                     "compare tests it");
+    out.notes.insert(
+        out.notes.begin(),
+        "marked: best and second best, if proven better than all others by the tests of "
+        "compare");
   } else if (!why_none.empty()) {
-    out.notes.push_back("no best is marked: " + why_none);
+    out.notes.push_back("no best value is marked: " + why_none);
   }
 }
 
-/// What a reader must know of the averages.
+/// Adds a note on how the numbers were averaged.
 void explain_averages(Table& out, const TableNumbers& table) {
   std::size_t most = 1;
   bool has_gain = false;
@@ -121,14 +123,14 @@ Table finish(TableNumbers& table,
              const std::string& title,
              const TableSpec& spec,
              const RankingOptions& options) {
-  // Methods compete; a best sequence means nothing.
+  // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
   Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
   if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
-    out.notes.push_back("numbers of other counts than the judged poses (pairs): " + counts);
+    out.notes.push_back("number of errors, where it differs from the evaluated pairs: " + counts);
   }
   if (!table.oracle_sequences.empty()) {
     std::string names;
@@ -147,8 +149,8 @@ Table finish(TableNumbers& table,
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
     std::vector<TableCell> line(out.columns.size());
     for (std::size_t c = 0; c < out.columns.size(); ++c) {
-      if (const auto whole = table.row_status.find(r); whole != table.row_status.end()) {
-        line[c].status = whole->second;
+      if (const auto row = table.row_status.find(r); row != table.row_status.end()) {
+        line[c].status = row->second;
       }
       if (const auto own = table.status.find({r, c}); own != table.status.end()) {
         line[c].status = own->second;
@@ -167,9 +169,8 @@ Table finish(TableNumbers& table,
   return out;
 }
 
-/// Numbers made by different rules never share a table cell: several protocols split the tables
-/// unless the spec already tells them apart.
-TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& records) {
+/// Splits the tables by protocol if there are several, unless the spec already separates them.
+TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& records) {
   for (const auto* names : {&spec.rows, &spec.columns, &spec.split}) {
     if (std::ranges::count(*names, "protocol") > 0) return spec;
   }
@@ -189,7 +190,7 @@ TableSpec telling_protocols_apart(TableSpec spec, const std::vector<Record>& rec
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& given,
                          const RankingOptions& options) {
-  const TableSpec spec = telling_protocols_apart(given, records);
+  const TableSpec spec = separating_protocols(given, records);
   NameOrder titles;
   std::vector<TableNumbers> builders;
   const auto builder = [&](const std::string& title) -> TableNumbers& {
@@ -204,7 +205,7 @@ std::vector<Table> pivot(const std::vector<Record>& records,
     if (!record.metric.empty() && shown(record))
       add(builder(fields_joined(record, spec.split, ", ")), record, spec);
   }
-  // A cell without any score belongs into every table of its sequence.
+  // A cell without any score is listed in every table of its sequence.
   for (const Record& record : records) {
     if (!record.metric.empty()) continue;
     const std::string own = fields_joined(record, spec.split, ", ");
@@ -217,7 +218,7 @@ std::vector<Table> pivot(const std::vector<Record>& records,
     }
     if (!placed) add(builder(own), record, spec);
   }
-  if (builders.empty()) throw InputError("the table is empty: no row is left to show");
+  if (builders.empty()) throw InputError("the table is empty: no rows to show");
   std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
     out.push_back(finish(builders[t], titles.names()[t], spec, options));

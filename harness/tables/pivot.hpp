@@ -1,4 +1,4 @@
-/// A long table turned into rows x columns, one table per combination of the split columns.
+/// Conversion of a long table to rows x columns, one table per combination of the split columns.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,18 @@
 
 namespace loopbench::harness {
 
-/// Status of a cell whose runs are not among those that every cell compared with it finished.
+/// Status of a cell without a run that all cells compared with it have finished.
 inline constexpr const char* kNoCommonRun = "no common run";
 
-/// One cell of a table: the mean over the records that fell into it. Where cells of several methods
-/// finished different runs, the mean is over the runs that all of them finished.
+/// One cell of a table: the mean over its records. If the cells of several methods finished
+/// different runs, the mean is over the runs that all of them finished.
 struct TableCell {
   std::optional<double> value = {};
-  std::size_t records = 0;   ///< with a number (repeats, for example)
-  std::size_t averaged = 0;  ///< of them: on runs that all compared cells finished
-  std::string status = {};   ///< "declined", "failed", "no common run", ... when there is no value
-  Mark mark = Mark::none;    ///< best or second best of its column or row, where that is proven
-  std::size_t possible = 0;  ///< records and those that failed or are missing; 0: none is missing
+  std::size_t records = 0;   ///< records with a number (repeats, for example)
+  std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
+  std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
+  Mark mark = Mark::none;    ///< proven best or second best of its column or row
+  std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
 };
 
 struct Table {
@@ -31,16 +31,16 @@ struct Table {
   std::vector<std::string> columns;  ///< with unit
   std::vector<std::string> rows;
   std::vector<std::vector<TableCell>> cells;  ///< [row][column]
-  std::vector<std::string> notes;             ///< reasons of cells without value, oracle flags
+  std::vector<std::string> notes;             ///< reasons for missing values, oracle flags
 };
 
-/// Where the rows are methods, the best of a column is marked (see mark_best.hpp), where the
-/// columns are, of a row, and cells with fewer runs than others state how many; their means are
-/// over common runs (common_runs.hpp), which a note says. Gains are averaged as geometric means of
-/// the ratios. Several protocols split the tables even when the spec does not name them. Rows,
-/// columns and tables appear in the order in which the records first name them. Throws InputError
-/// for an unknown column or statistic, and when a cell would average different scores (rotation
-/// with translation, keyframes with dense). O(n log n).
+/// If the rows are methods, marks the best value of each column (see mark_best.hpp); if the columns
+/// are methods, that of each row. Cells with fewer runs than others state their number; means are
+/// then over common runs (common_runs.hpp), and a note reports it. Gains are averaged as geometric
+/// means of the ratios. Several protocols always result in separate tables. Rows, columns and
+/// tables are in order of first appearance in the records. Throws InputError for an unknown column
+/// or statistic, and if a cell would average different scores (rotation with translation, keyframes
+/// with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
                          const RankingOptions& options = {});

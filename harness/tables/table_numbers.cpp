@@ -5,7 +5,7 @@
 namespace loopbench::harness {
 namespace {
 
-/// What the cells of a column (or a row) tried and finished.
+/// Runs that the cells of a column (or a row) tried and finished.
 std::vector<CellRuns> cell_runs(const TableNumbers& table,
                                 const std::vector<TablePosition>& cell_indices,
                                 bool along_columns) {

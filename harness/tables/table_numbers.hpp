@@ -1,4 +1,4 @@
-/// The numbers of a table before they are averaged, and what is compared in it.
+/// Numbers of a table before averaging, and the comparisons between its cells.
 #pragma once
 
 #include <algorithm>
@@ -18,21 +18,21 @@ namespace loopbench::harness {
 
 using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
-/// What a table is made from.
+/// Contents of a table under construction.
 struct TableNumbers {
   NameOrder rows;
   NameOrder columns;
   std::map<TablePosition, CellNumbers> numbers;
   std::map<TablePosition, std::string> status;  // of cells with a record that has no value
   std::map<TablePosition, std::string> kinds;
-  std::map<TablePosition, std::set<std::string>> tried;      // runs with a score, whatever it is
+  std::map<TablePosition, std::set<std::string>> tried;      // runs with a score of any status
   std::map<TablePosition, std::set<std::string>> lost;       // runs on which a score failed
-  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs that failed as a whole
+  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs without any score
   std::map<std::string, std::set<std::string>> lost_by_method;
   std::map<std::string, std::string> groups;  // of runs
   ErrorCounts counts;
-  std::map<std::size_t, std::string> row_status;  // declined or failed as a whole
-  std::set<std::string> oracle_sequences;         // whose closures the reference gave or chose
+  std::map<std::size_t, std::string> row_status;  // status of runs without any score
+  std::set<std::string> oracle_sequences;  // closures measured in or selected by the reference
   std::vector<Missing> missing;
   std::vector<std::string> notes;
 
@@ -51,11 +51,12 @@ MarkInput lane(const TableNumbers& table,
                const std::vector<TablePosition>& cells,
                bool along_columns);
 
-/// Leaves only runs to the means that the cells compared with them finished too. Returns the note
-/// on this; empty where all finished the same runs.
+/// Restricts means to runs that all cells compared with them finished. Returns the note about it;
+/// empty if all cells finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
 
-/// Runs of the competitors that share one with competitor `i`: what its number could be over.
+/// Maximum number of runs for the mean of competitor `i`: those of all competitors that have a run
+/// in common with it.
 std::size_t possible(const MarkInput& lane, std::size_t i);
 
 }  // namespace loopbench::harness

@@ -43,7 +43,7 @@ Hash hash_of(std::string_view bytes, std::uint32_t seed) {
   }
   std::uint64_t rest[2] = {0, 0};
   if (at < bytes.size()) std::memcpy(rest, bytes.data() + at, bytes.size() - at);
-  high ^= second_mixed(rest[1]);  // mixing nothing changes nothing
+  high ^= second_mixed(rest[1]);  // no effect without remaining bytes
   low ^= first_mixed(rest[0]);
   low ^= bytes.size();
   high ^= bytes.size();

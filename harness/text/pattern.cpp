@@ -7,7 +7,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kLongestPattern = 1'000;  // longer ones are no one's intention
+constexpr std::size_t kLongestPattern = 1'000;  // longer patterns are mistakes
 
 re2::StringPiece piece(std::string_view text) { return {text.data(), text.size()}; }
 

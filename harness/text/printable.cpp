@@ -21,7 +21,8 @@ std::size_t shown_bytes(std::string_view text) {
     if ((byte(i) & 0xc0u) != 0x80) return 0;
     point = (point << 6) | (byte(i) & 0x3fu);
   }
-  constexpr std::uint32_t kLeast[] = {0, 0, 0xa0, 0x800, 0x10000};  // shorter would do; or C1
+  constexpr std::uint32_t kLeast[] = {
+      0, 0, 0xa0, 0x800, 0x10000};  // smallest code point by length; or C1
   const bool is_surrogate = point >= 0xd800 && point < 0xe000;
   return point >= kLeast[size] && point <= 0x10ffff && !is_surrogate ? size : 0;
 }

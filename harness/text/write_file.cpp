@@ -64,7 +64,7 @@ void write_into(const FilePath& file, const struct stat& status, const std::stri
   if (reason != 0) throw cannot_write(file, std::strerror(reason));
 }
 
-/// Creates a new temporary file beside `file`; returns its descriptor, or -1 and errno.
+/// Creates a new temporary file in the folder of `file`; returns its descriptor, or -1 and errno.
 int create_beside(const FilePath& file, FilePath& part) {
   for (int i = 0;; ++i) {
     part = file;

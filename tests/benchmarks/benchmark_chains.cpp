@@ -1,4 +1,4 @@
-// Maximum likelihood on chains with nine loops, as KITTI 00 has: the closed form against sparse
+// Maximum likelihood on chains with nine loops, as in KITTI 00: the closed form against sparse
 // least squares, from a thousand keyframes to a million.
 #include <benchmark/benchmark.h>
 
@@ -17,13 +17,13 @@ using namespace methods;
 
 namespace {
 
-/// A car's path wound up ten times whatever n is, with the drift of one KITTI run over all of it:
-/// 1 % of the way at worst, 0.1 rad. Nine loops, one a winding.
+/// Ten rounds of a car for any n, with the drift of one KITTI run: at most 1 % of the distance
+/// travelled and 0.1 rad. Nine loops, one per round.
 Problem chain(std::size_t n) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const double steps = static_cast<double>(n);
-  const double length = 3700.0 / steps;  // [m] a step
+  const double length = 3700.0 / steps;  // per step [m]
   const double sigma_t = 2.0 / std::sqrt(steps);
   const double sigma_r = 0.1 / std::sqrt(steps);
   const auto noise = [&](double t, double r) {

@@ -1,4 +1,4 @@
-// What judging a trajectory costs, step by step, from a thousand poses to ten million.
+// Time of each step of an evaluation, from a thousand poses to ten million.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -20,8 +20,8 @@ using namespace metrics;
 
 namespace {
 
-/// A car at 10 m/s seen ten times a second, its path wound up; the estimate drifts, shakes by
-/// centimetres and is stamped up to 2 ms off.
+/// A car at 10 m/s on a spiral, ten poses per second; the estimate has drift, noise of centimetres
+/// and stamp errors up to 2 ms.
 Trajectory drive(std::size_t size, double amplitude) {
   Trajectory out(size);
   for (std::size_t i = 0; i < size; ++i) {
@@ -50,7 +50,7 @@ const Trajectory& estimate(std::size_t size) {
   return kept[size] = drive(size, 1.0);
 }
 
-/// A file for this process alone.
+/// A file name unique to this process.
 std::filesystem::path written(const std::string& name, const Trajectory& poses) {
   const std::string file = "loopbench_" + std::to_string(getpid()) + "_" + name + ".txt";
   const std::filesystem::path path = std::filesystem::temp_directory_path() / file;
@@ -109,7 +109,7 @@ void score_segments(std::size_t size, benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(segments(pairs, {.lengths = "", .each = false}));
 }
 
-/// What `eval` does with two files, but for printing and diagnostics.
+/// The work of `eval` for two files, without printing and diagnostics.
 void files_to_scores(std::size_t size, benchmark::State& state) {
   const std::filesystem::path truth = written("reference", reference(size));
   const std::filesystem::path guess = written("estimate", estimate(size));
@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
                                  })
         ->RangeMultiplier(10)
         ->Range(1'000, 10'000'000)
-        ->MeasureProcessCPUTime()  // of all threads: what other processes do does not show
+        ->MeasureProcessCPUTime()  // of all threads; independent of other processes
         ->Unit(benchmark::kMillisecond)
         ->Complexity();
   }

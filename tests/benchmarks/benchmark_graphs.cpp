@@ -1,5 +1,6 @@
-// A whole pose-graph solve beside one sparse factorisation of its normal equations, on the public
-// graphs in $LOOPBENCH_DATA: solve time, iterations, their ratio, and the memory either needs.
+// A complete pose-graph solve compared with one sparse factorisation of its normal equations, on
+// the public graphs in $LOOPBENCH_DATA: solve time, iterations, their ratio, and the memory of
+// both.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/SparseCholesky>
@@ -24,7 +25,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// J' Omega J at the keyframes, the first one held.
+/// J' Omega J at the keyframes, with the first one fixed.
 template <class G>
 Sparse normal_equations(const Problem& problem) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -85,7 +86,7 @@ void solve(const Problem& problem, benchmark::State& state) {
   }
 }
 
-/// A method as it comes, on a real chain.
+/// A method with default options on a real chain.
 template <class Method>
 void correct(const Problem& problem, benchmark::State& state) {
   Report report;

@@ -1,4 +1,4 @@
-// Time per method and problem size; a method in the catalogue is timed without asking.
+// Time per method and problem size, for all methods of the catalogue.
 #include <benchmark/benchmark.h>
 
 #include "methods/pipeline.hpp"
@@ -10,7 +10,7 @@ using namespace methods;
 
 namespace {
 
-/// A corrector alone, a smoother alone, or both in one: only the verb, no sampling.
+/// A corrector, a smoother or a joint method: only correct or smooth, without sampling.
 void run(const Stage& stage, const Problem& problem) {
   Report report;
   if (const auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
@@ -23,7 +23,7 @@ void run(const Stage& stage, const Problem& problem) {
   }
 }
 
-/// A hand-held path of n keyframes, three loops, whatever n is.
+/// A hand-held path of n keyframes with three loops for any n.
 Problem sized(std::size_t n) {
   return test::drifting(test::hand_held_truth(n),
                         twist({1e-3, -1e-3, 1e-3}, {1e-4, -1e-4, 1e-4}),

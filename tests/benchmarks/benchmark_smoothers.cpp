@@ -1,5 +1,5 @@
-// What a smoother costs: a curve through a thousand keyframes to a million, and a curve of 200
-// keyframes asked at a thousand times to a million.
+// Time of smoothers: fitting a curve to a thousand to a million keyframes, and sampling a curve of
+// 200 keyframes at a thousand to a million stamps.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 struct Timed {
   const char* name = "";
-  std::int64_t most = 1'000'000;  ///< keyframes; fewer where a curve takes many passes to make
+  std::int64_t most = 1'000'000;  ///< keyframes; fewer if fitting needs many passes
 };
 constexpr Timed kSmoothers[] = {{"polyline"},
                                 {"cubic_spline"},
@@ -33,9 +33,9 @@ constexpr Timed kSmoothers[] = {{"polyline"},
                                 {"dm_n5"},
                                 {"dm_m7"},
                                 {"dm_robust"}};
-constexpr std::size_t kKeyframes = 200;  // of the curve that is asked
+constexpr std::size_t kKeyframes = 200;  // of the sampled curve
 
-/// A hand-held walk, three keyframes a second, that never comes to a rest.
+/// A hand-held walk without stops, three keyframes per second.
 const Problem& walk(std::size_t size) {
   static std::map<std::size_t, Problem> kept;
   if (kept.contains(size)) return kept[size];

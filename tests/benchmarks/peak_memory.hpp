@@ -1,4 +1,4 @@
-/// The most memory a process has held: Linux only, 0 where there is no /proc.
+/// Peak resident memory of this process: Linux only, 0 without /proc.
 #pragma once
 
 #include <fstream>
@@ -6,7 +6,7 @@
 
 namespace loopbench::test {
 
-/// Since the last reset [MiB].
+/// Peak since the last reset [MiB].
 inline double peak_megabytes() {
   std::ifstream in("/proc/self/status");
   for (std::string word; in >> word;) {
@@ -16,7 +16,7 @@ inline double peak_megabytes() {
   return 0.0;
 }
 
-/// Forgets the peak; returns what is held now [MiB].
+/// Resets the peak; returns the current resident size [MiB].
 inline double reset_peak() {
   std::ofstream("/proc/self/clear_refs") << 5;
   return peak_megabytes();

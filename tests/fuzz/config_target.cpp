@@ -15,7 +15,7 @@ void fuzz_config(const std::filesystem::path& file) {
   try {
     parse_sweep({std::istreambuf_iterator<char>(in), {}}, "fuzz.yaml", known);
   } catch (const InputError&) {
-    // refused in words, as it should be
+    // rejected with a message, as expected
   }
 }
 

@@ -1,4 +1,4 @@
-// The target LOOPBENCH_FUZZ_TARGET, as libFuzzer wants it.
+// libFuzzer entry point for the target LOOPBENCH_FUZZ_TARGET.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include "tests/fuzz/targets.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // Readers take paths, and are fuzzed as they are used: through a file that lives in memory.
+  // Readers have a path as input, so the data is passed as a file in memory.
   static const int file = memfd_create("fuzz", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);
   if (file < 0 || ftruncate(file, static_cast<off_t>(size)) != 0 ||

@@ -1,4 +1,4 @@
-/// What fuzzing once found is read again: tests/data/fuzz/<target>/<what it showed>.
+/// Replays earlier findings of the fuzzer: tests/data/fuzz/<target>/<finding>.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -13,21 +13,22 @@ namespace {
 
 using Path = std::filesystem::path;
 
-void expect(bool promise, const char* what) {
-  if (!promise) throw std::logic_error(std::string("broken promise: ") + what);
+void expect(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("violated postcondition: ") + what);
 }
 
-/// check() speaks InputError, which is a reader's word for a wrong file: here it is a finding.
+/// check() throws InputError, as readers do for an invalid file; on a reader's result it is a
+/// finding.
 template <class T>
 void expect_checked(const T& value) {
   try {
     check(value, "result");
   } catch (const InputError& error) {
-    throw std::logic_error(std::string("broken promise: ") + error.what());
+    throw std::logic_error(std::string("violated postcondition: ") + error.what());
   }
 }
 
-/// Nothing when the file is refused in words, as it should be.
+/// Empty if the file is rejected with an InputError, as expected.
 template <class Read>
 auto read_or_refuse(Read read) -> decltype(read()) {
   try {
@@ -43,7 +44,7 @@ void fuzz_trajectory(const Path& file, Format format) {
   expect_checked(read_or_refuse([&] { return read_trajectory(file, options); }));
 }
 
-/// As a problem of two poses, which has rules for edges.
+/// Checks the edges as part of a problem of two poses.
 void expect_sound(Edge edge) {
   edge.from = 0;
   edge.to = 1;

@@ -164,7 +164,7 @@ TEST(Compare, LeavesOutMethodsThatWereShownTheReference) {
   const Comparison c = compared(records);
   EXPECT_EQ(c.methods.size(), 3u);
   EXPECT_EQ(c.methods[0].method, "uniform");
-  EXPECT_TRUE(has_note(c, "not ranked, shown the reference (oracle): dual"));
+  EXPECT_TRUE(has_note(c, "not ranked, use the reference (oracle): dual"));
 }
 
 TEST(Compare, FlagsOracleClosuresAndOracleData) {

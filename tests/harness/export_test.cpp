@@ -68,17 +68,18 @@ TEST(RunTimes, AreOnePerCellAndTimes) {
 TEST(Markdown, IsPaddedAndTellsReasons) {
   const std::vector<Table> tables =
       pivot({ate("raw", 0.25), ate("a|b", 12.5), failed("bad", "no such luck")}, TableSpec{});
-  EXPECT_EQ(markdown(tables),
-            "### room, keyframes\n"
-            "\n"
-            "| method | ate [m] |\n"
-            "| ------ | ------: |\n"
-            "| raw    |    0.25 |\n"
-            "| a\\|b   |   12.50 |\n"
-            "| bad    |  failed |\n"
-            "\n"
-            "- bad: failed: no such luck\n"
-            "- no best is marked: 1 independent run per cell cannot prove a difference at 0.05\n");
+  EXPECT_EQ(
+      markdown(tables),
+      "### room, keyframes\n"
+      "\n"
+      "| method | ate [m] |\n"
+      "| ------ | ------: |\n"
+      "| raw    |    0.25 |\n"
+      "| a\\|b   |   12.50 |\n"
+      "| bad    |  failed |\n"
+      "\n"
+      "- bad: failed: no such luck\n"
+      "- no best value is marked: 1 independent run per cell cannot prove a difference at 0.05\n");
 }
 
 TEST(Notes, SayAReasonOnce) {

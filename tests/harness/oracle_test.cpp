@@ -126,8 +126,7 @@ TEST(Oracle, RowsOfTablesAreMarked) {
   const std::vector<Table> tables = pivot({plain, leaky}, {});
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].rows, (std::vector<std::string>{"dm", "paper_oracle (oracle)"}));
-  EXPECT_EQ(tables[0].notes,
-            std::vector<std::string>{"oracle: the method was shown the reference"});
+  EXPECT_EQ(tables[0].notes, std::vector<std::string>{"oracle: the method uses the reference"});
 }
 
 TEST(Oracle, TheStoreKeepsTheFlag) {

@@ -120,7 +120,7 @@ TEST(Pivot, HasNoMeanWithoutACommonRun) {
   const Table table = table_of(errors({{"raw", {1.0, none}}, {"dm", {none, 2.0}}}));
   EXPECT_EQ(table_view(table).lines[0][1].text, "- (1 of 2)");
   EXPECT_EQ(table_view(table).lines[1][1].text, "- (1 of 2)");
-  EXPECT_EQ(table.notes[0], "no means (-): no run is one that every method finished");
+  EXPECT_EQ(table.notes[0], "no means (-): no run was finished by every method");
   EXPECT_NE(csv({table}).find("dense,raw,ate [m],,1,0,no common run,"), std::string::npos)
       << csv({table});
 }

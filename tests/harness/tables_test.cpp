@@ -156,9 +156,8 @@ std::vector<Table> marked() {
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
   const std::string notes =
-      "marked: best, and second best, where it is proven better than all others, as compare "
-      "tests "
-      "it\n";
+      "marked: best and second best, if proven better than all others by the tests of "
+      "compare\n";
   EXPECT_EQ(markdown(tables),
             "### dense\n\n"
             "| method                  |   ate [m] |\n"

@@ -162,12 +162,13 @@ TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
   const std::string table = "table r --columns score --show ate --where unit=m";
   const std::string pooled = run(table + " --split times").out;
   EXPECT_TRUE(std::regex_search(pooled, std::regex("uniform +\\| \\*\\*[0-9.]+\\*\\*"))) << pooled;
-  EXPECT_TRUE(has(pooled, "- marked: best, and second best, where"));
+  EXPECT_TRUE(has(pooled, "- marked: best and second best, if proven"));
   const std::string apart = run(table + " --split sequence").out;
   EXPECT_FALSE(has(apart, "**")) << apart;
-  EXPECT_TRUE(has(apart,
-                  "- no best is marked: 4 independent runs per cell cannot prove a difference at "
-                  "0.05"));
+  EXPECT_TRUE(
+      has(apart,
+          "- no best value is marked: 4 independent runs per cell cannot prove a difference at "
+          "0.05"));
 }
 
 TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {

@@ -1,4 +1,4 @@
-/// A library that a plugin brings.
+/// A shared library that a plugin depends on.
 #pragma once
 
 int exit_code_of_success();

@@ -17,7 +17,7 @@ namespace {
 
 const std::filesystem::path kOutside = LOOPBENCH_OUTSIDE;
 
-/// The refusal names the file and the reason.
+/// Checks that the error message contains the file and the reason.
 void expect_refused(const std::filesystem::path& object, const std::string& reason) {
   try {
     load_plugin(object);

@@ -1,4 +1,4 @@
-// A plugin with every bad habit, to show that it costs its own cells only.
+// A plugin that crashes, hangs, exits and exhausts memory; only its own cells must fail.
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -43,7 +43,7 @@ struct Floods {
   void operator()() const {
     std::vector<std::unique_ptr<char[]>> kept;
     constexpr std::size_t kBlock = std::size_t{64} << 20;
-    for (int i = 0; i < 64; ++i) {  // 4 GiB at most, should the limit not hold
+    for (int i = 0; i < 64; ++i) {  // at most 4 GiB if the limit does not work
       kept.push_back(std::make_unique<char[]>(kBlock));
       std::memset(kept.back().get(), i, kBlock);
     }

@@ -1,4 +1,4 @@
-/// A plugin that aborts, loops, exits and floods memory, through the command line.
+/// A plugin that aborts, loops, exits and exhausts memory, run through the command line.
 #include <gtest/gtest.h>
 
 #include "harness/catalogue/catalogue.hpp"
@@ -33,7 +33,8 @@ TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
 
   const CommandResult again = loopbench_command(line, folder);
   EXPECT_EQ(again.exit_code, 1) << "failures are kept as failures";
-  EXPECT_NE(again.out.find("(6 of them in earlier runs), 4 failed"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("(6 of them in earlier runs), 4 failed"), std::string::npos)
+      << again.out;
 }
 
 TEST(Misbehaving, ItsVersionCoversTheLibrariesThatItBrings) {

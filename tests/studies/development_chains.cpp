@@ -16,14 +16,14 @@ using namespace metrics;
 
 namespace {
 
-/// How one odometer's chain is used.
+/// Use of one odometer's chain in the study.
 struct ChainUse {
   std::string odometer;
   std::string sequence;
-  std::vector<std::size_t> whole;  ///< with so many loops
+  std::vector<std::size_t> loops;  ///< numbers of loops of the complete chain
   int stretches = 0;
   std::uint64_t seed = 0;
-  double shortest = 0.2;  ///< stretch, of the chain
+  double shortest = 0.2;  ///< section length, relative to the chain
   double longest = 0.7;
 };
 
@@ -41,7 +41,7 @@ class ChainMaker {
     add(use, sequence.problem, truth_of(sequence));
   }
 
-  /// The optimum over all closures stands for the truth; the chain is what odometry alone says.
+  /// Uses the optimum over all closures as ground truth; the chain is the composed odometry.
   void use_optimum(const ChainUse& use, const std::string& path) {
     PoseGraphOptions options;
     options.path = path;
@@ -71,7 +71,7 @@ class ChainMaker {
     return poses_at(sequence.reference, stamps(sequence.problem.keyframes), {});
   }
 
-  /// At most `most` of 0 .. size - 1, evenly.
+  /// At most `most` evenly spaced indices of 0 .. size - 1.
   static std::vector<std::size_t> subsample(std::size_t size, std::size_t most) {
     std::vector<std::size_t> out;
     const std::size_t count = std::min(size, most);
@@ -90,7 +90,7 @@ class ChainMaker {
            const std::vector<std::optional<Pose>>& truth) {
     DevelopmentChain whole{use.odometer, use.sequence, "", problem, truth};
     whole.problem.frames.clear();
-    for (const std::size_t loops : use.whole) {
+    for (const std::size_t loops : use.loops) {
       if (loops > problem.closures.size()) continue;
       DevelopmentChain& chain = chains.emplace_back(whole);
       chain.name = use.odometer + ", " + std::to_string(loops) + " loops";

@@ -22,7 +22,7 @@ const MethodVerdict* verdict_of(const Comparison& c, std::size_t method) {
   return found == c.methods.end() ? nullptr : &*found;
 }
 
-/// The only method with the lowest effect; the number of methods when several share it.
+/// The only method with the lowest effect; the number of methods if several share it.
 std::size_t truly_best(const Truth& truth) {
   const auto least = std::ranges::min_element(truth.effects);
   if (std::ranges::count(truth.effects, *least) > 1) return truth.effects.size();
@@ -45,7 +45,7 @@ bool has_false_claim(const Comparison& c, const Truth& truth) {
   return false;
 }
 
-/// The method that a table of the records marks as best; the number of methods for none.
+/// The method that a table of the records marks as best; the number of methods if none is marked.
 std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
   const Table table = pivot(all, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {

@@ -1,4 +1,4 @@
-/// How often verdicts on synthetic records are wrong, and intervals miss.
+/// Error rates of verdicts and coverage of intervals on synthetic records.
 #pragma once
 
 #include "harness/compare/compare.hpp"
@@ -9,9 +9,9 @@ namespace loopbench::synthetic {
 using namespace metrics;
 
 struct ErrorRates {
-  double false_best = 0.0;    ///< a method is called best that is not
-  double false_better = 0.0;  ///< any pair is ordered that is equal, or the other way round
-  double found = 0.0;         ///< the truly best method is called best
+  double false_best = 0.0;    ///< a method is reported as best that is not
+  double false_better = 0.0;  ///< an equal pair is ordered, or a pair is in the wrong order
+  double found = 0.0;         ///< the truly best method is reported as best
   double marked_wrong = 0.0;  ///< a table marks a method as best that is not
 };
 
@@ -19,7 +19,7 @@ struct ErrorRates {
 /// reads it.
 enum class Through { memory, store };
 
-/// Over `repeats` draws. Effects that are equal are true ties: none of them is best.
+/// Rates over `repeats` draws. Equal effects are true ties: none of them is best.
 ErrorRates error_rates(const Truth& truth,
                        const Shape& shape,
                        int repeats,
@@ -27,11 +27,11 @@ ErrorRates error_rates(const Truth& truth,
                        Through through = Through::memory);
 
 struct IntervalCoverage {
-  double covered = 0.0;   ///< share of the given intervals that hold the true ratio
+  double covered = 0.0;   ///< share of the intervals that contain the true ratio
   double declined = 0.0;  ///< share of comparisons without an interval
 };
 
-/// Of the interval of method 1 against the baseline.
+/// Coverage of the interval of method 1 against the baseline.
 IntervalCoverage coverage(const Truth& truth,
                           const Shape& shape,
                           int repeats,

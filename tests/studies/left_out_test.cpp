@@ -28,7 +28,7 @@ TEST(LeftOut, ChoosesWithoutTheGroupItJudges) {
 
 TEST(LeftOut, GroupsOfOnePartGoTogether) {
   std::vector<GroupRatios> groups = kGroups;
-  groups[1].part = "a";  // then c alone chooses for a and b, and they for c
+  groups[1].part = "a";  // then c alone selects for a and b, and a and b for c
   EXPECT_EQ(left_out(groups).chosen, (std::vector<std::size_t>{1, 1, 0}));
 }
 

@@ -1,5 +1,5 @@
-// How motion_drift does on the development chains under several settings, and what a setting chosen
-// without a sequence, or without an odometer, does on it:
+// Errors of motion_drift on the development chains under several settings, and cross-validation of
+// the settings with one sequence, or one odometer, left out:
 //   motion_drift_study DATA > table.md
 #include <fmt/format.h>
 
@@ -29,15 +29,15 @@ Params chances(double as_stated, double scaled, double steady) {
           {"prior.steady_chance", steady}};
 }
 
-/// Those shown, each an earlier form of the method.
+/// Settings in the table, each an earlier version of the method.
 std::vector<Setting> forms() {
   return {{"free, drift", chances(0.0, 0.0, 1.0)},
           {"free, drift or none", chances(0.0, 0.0, 0.3)},
           {"0.3 for drift", chances(0.5, 0.25, 0.3)},
-          {"as it is", {}}};
+          {"current", {}}};
 }
 
-/// Those chosen from when a sequence is left out.
+/// Candidates of the cross-validation.
 std::vector<Setting> candidates() {
   std::vector<Setting> out = forms();
   out.resize(2);
@@ -50,7 +50,7 @@ std::vector<Setting> candidates() {
   return out;
 }
 
-/// log(ATE / that of dual), a row a chain, a column a setting.
+/// log(ATE / ATE of dual): one row per chain, one column per setting.
 std::vector<std::vector<double>> log_ratios(const std::vector<DevelopmentChain>& chains,
                                             const std::vector<Setting>& settings) {
   std::vector<std::vector<double>> out(chains.size());
@@ -85,7 +85,7 @@ std::vector<GroupRatios> grouped(const std::vector<DevelopmentChain>& chains,
   return out;
 }
 
-/// "0.83 (1.43; 15)": geometric mean, worst, how many above 1.05.
+/// "0.83 (1.43; 15)": geometric mean, worst, number above 1.05.
 std::string cell(const std::vector<GroupRatios>& groups, std::size_t setting) {
   double mean = 0.0, worst = 0.0;
   int above = 0;

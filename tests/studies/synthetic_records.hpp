@@ -1,4 +1,4 @@
-/// Records with known truth, for measuring how often verdicts err.
+/// Records with known true effects, to measure error rates of verdicts.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct Shape {
 /// ties with normal effects.
 std::vector<Shape> shapes();
 
-/// How the errors of several methods are drawn. Method 0 is the baseline.
+/// Distribution of the errors of several methods. Method 0 is the baseline.
 struct Truth {
   std::vector<double> effects;  ///< expected logarithm of each method's error
   std::size_t groups = 10;

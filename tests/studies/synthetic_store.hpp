@@ -10,7 +10,7 @@ namespace loopbench::synthetic {
 
 using namespace harness;
 
-/// Writes results.sqlite anew into the folder, a cell for every record: its sequence, method,
+/// Writes a new results.sqlite into the folder, with a cell for every record: its sequence, method,
 /// group, content, status and RMSE. The baseline is m0.
 void write_store(const std::vector<Record>& records, const std::filesystem::path& folder);
 

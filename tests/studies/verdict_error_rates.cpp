@@ -1,5 +1,5 @@
-/// Measures how often a verdict is false and how often intervals hold the truth, on synthetic
-/// records and stores. Prints Markdown; exits with 1 where a rate is outside its limits. Usage:
+/// Measures error rates of verdicts and coverage of intervals on synthetic records and stores.
+/// Prints Markdown; exits with 1 if a rate is outside its limits. Usage: verdict_error_rates
 /// [repeats].
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ std::vector<Scene> scenes() {
   };
 }
 
-/// Four standard errors of a rate of 5 % above it.
+/// 5 % plus four standard errors of such a rate.
 double limit(int repeats) { return 0.05 + 4.0 * std::sqrt(0.05 * 0.95 / repeats); }
 
 bool print_error_rates(const std::vector<Scene>& all, int repeats, Through through) {
@@ -70,8 +70,8 @@ bool print_error_rates(const std::vector<Scene>& all, int repeats, Through throu
   return is_good;
 }
 
-/// Limits of the coverage of 95 % intervals: two points, but for shapes that mean_interval.hpp
-/// names as beyond it, with four standard errors of the number of intervals.
+/// Limits of the coverage of 95 % intervals: two percentage points, except for the distributions
+/// that mean_interval.hpp lists, plus four standard errors for the number of intervals.
 bool is_covered(const std::string& shape, const IntervalCoverage& c, int repeats) {
   const double given = std::max(1.0, repeats * (1.0 - c.declined));
   const double error = 4.0 * std::sqrt(0.07 * 0.93 / given);

@@ -1,4 +1,4 @@
-/// Running the real binary as a user would.
+/// Runs the real binary from the command line.
 #pragma once
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-/// Records of a sweep whose verdicts are worked by hand.
+/// Records of a sweep whose verdicts are computed by hand.
 #pragma once
 
 #include "harness/compare/compare.hpp"
@@ -37,7 +37,7 @@ inline Record failed(const std::string& sequence, int repeat, const std::string&
 }
 
 /// Eight runs over two sequences of very different size: dual is 10 to 17 % below uniform on all
-/// of them, raw twice as bad, copy uniform but for the last bits.
+/// of them, raw has twice the error, copy equals uniform except for the last bits.
 inline std::vector<Record> sweep() {
   std::vector<Record> out;
   for (int i = 0; i < 8; ++i) {

@@ -1,4 +1,4 @@
-// What a method counted: iterations, kinks, segments ...
+// Counts reported by a method: iterations, kinks, segments ...
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace loopbench::test {
 
 using namespace methods;
 
-/// The count of that name; fails the test when there is none.
+/// The count of that name; fails the test if there is none.
 inline double count(const Report& report, const std::string& name) {
   for (const Count& each : report.counts) {
     if (each.name == name) return each.value;

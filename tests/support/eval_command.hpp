@@ -1,4 +1,4 @@
-/// `loopbench eval` called in the test's own process.
+/// Runs `loopbench eval` in the test process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,13 +24,13 @@ inline std::string golden(const std::string& name) {
   return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
 }
 
-/// What `loopbench eval ARGS` prints, ending as expected.
+/// Output of `loopbench eval ARGS`, which must have the expected exit code.
 inline std::string eval(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   CLI::App app;
   int exit_code = -1;
   add_eval(app, exit_code);
   arguments.insert(arguments.begin(), "eval");
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 wants them so
+  std::reverse(arguments.begin(), arguments.end());  // order required by CLI11
   testing::internal::CaptureStdout();
   try {
     app.parse(arguments);
@@ -42,7 +42,7 @@ inline std::string eval(std::vector<std::string> arguments, int expected_exit = 
   return testing::internal::GetCapturedStdout();
 }
 
-/// The list of judgements, or the only one.
+/// The list of evaluations, or the only one.
 inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   arguments.push_back("--json");
   const Json all = Json::parse(eval(std::move(arguments), expected_exit));

@@ -1,4 +1,4 @@
-/// A baseline for the gate, made by hand: one score of two methods on eight repeats.
+/// A baseline for the gate, constructed by hand: one score of two methods on eight repeats.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ inline Tolerance rmse_alone() {
   return out;
 }
 
-/// Two methods on eight repeats; errors 1.0, 1.1, ... and half of that.
+/// Two methods on eight repeats; errors 1.0, 1.1, ... and half of these.
 inline Snapshot sweep() {
   Snapshot out;
   out.sweep = "quick";

@@ -1,4 +1,4 @@
-/// A sweep for the gate: two methods on eight repeats, with records as a store gives them.
+/// A sweep for the gate: two methods on eight repeats, with records as read from a store.
 #pragma once
 
 #include <functional>
@@ -30,7 +30,7 @@ inline Record score(int run, const std::string& method, const std::string& metri
   return out;
 }
 
-/// ATE 1.0, 1.1, ... of raw and half of that of uniform; RPE a tenth of it.
+/// ATE 1.0, 1.1, ... for raw and half of it for uniform; the RPE is a tenth of the ATE.
 inline std::vector<Record> records() {
   std::vector<Record> out;
   for (int run = 0; run < 8; ++run) {
@@ -43,7 +43,7 @@ inline std::vector<Record> records() {
   return out;
 }
 
-/// The definitions that go with the records.
+/// The definitions for the records.
 inline Snapshot snapshot_of(const std::vector<Record>& records,
                             const std::vector<Tolerance>& limits = {Tolerance{}}) {
   Snapshot out;

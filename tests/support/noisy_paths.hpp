@@ -1,4 +1,4 @@
-// Paths with known noise, and how far a smoother's curve is from what lay under it.
+// Paths with known noise, and the error of a smoother's curve with respect to the true path.
 #pragma once
 
 #include <random>
@@ -23,7 +23,7 @@ inline std::vector<Vector3> wavy(const std::vector<double>& stamps) {
   return out;
 }
 
-/// White noise of sigma on positions and, a tenth of it, on attitudes.
+/// White noise with standard deviation sigma on positions [m] and sigma / 10 on rotations [rad].
 inline Trajectory with_white_noise(Trajectory keyframes, double sigma, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, sigma);

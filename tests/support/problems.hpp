@@ -1,4 +1,4 @@
-/// Small problems made by hand for tests of methods: a known path, a known drift, known closures.
+/// Small problems for tests of methods, with known path, drift and closures.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace loopbench::test {
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// Odometry = true steps * exp(bias), keyframes = odometry chained from the true start,
-/// closures measured without error.
+/// exact closures.
 inline Problem drifting(const Trajectory& truth, const Twist& bias, const Pairs& closures) {
   Problem out;
   const auto between = [&](std::size_t from, std::size_t to) {
@@ -39,7 +39,7 @@ inline Problem drifting(const Trajectory& truth, const Twist& bias, const Pairs&
   return out;
 }
 
-/// `count` tracked frames between neighbouring keyframes, a little off the line between them.
+/// `count` tracked frames between neighbouring keyframes, slightly off the line between them.
 inline void add_frames(Problem& problem, int count) {
   for (std::size_t i = 0; i + 1 < problem.keyframes.size(); ++i) {
     const auto& [begin, a] = problem.keyframes[i];
@@ -57,7 +57,7 @@ inline Pose turned_about_z(double yaw, const Vector3& place) {
   return {exp_so3({0.0, 0.0, yaw}), place};
 }
 
-/// Once around a circle of 5 m, a keyframe every 0.5 s, yaw creeping by `bias` a keyframe.
+/// One round on a circle of 5 m, a keyframe every 0.5 s, with a yaw drift of `bias` per keyframe.
 inline Problem circle(std::size_t n = 41, double bias = 0.01) {
   Trajectory truth;
   for (std::size_t i = 0; i < n; ++i) {
@@ -70,7 +70,7 @@ inline Problem circle(std::size_t n = 41, double bias = 0.01) {
       truth, twist({0.0, 0.0, 0.002}, {0.0, 0.0, bias}), n > 1 ? Pairs{{0, n - 1}} : Pairs{});
 }
 
-/// A hand-held loop through a room: all six directions move, keyframes come 0.1 to 0.7 s apart.
+/// A hand-held loop through a room with motion in all six dimensions, keyframes 0.1 to 0.7 s apart.
 inline Trajectory hand_held_truth(std::size_t n = 60) {
   Trajectory out;
   double time = 100.0;
@@ -84,7 +84,7 @@ inline Trajectory hand_held_truth(std::size_t n = 60) {
   return out;
 }
 
-/// With two loops that overlap, frames between the keyframes, and drift in every direction.
+/// Two overlapping loops, frames between the keyframes, and drift in all six dimensions.
 inline Problem hand_held() {
   Problem out = drifting(hand_held_truth(),
                          twist({0.004, -0.003, 0.002}, {0.002, -0.001, 0.004}),
@@ -93,10 +93,10 @@ inline Problem hand_held() {
   return out;
 }
 
-/// The same path without any error: nothing is left to correct.
+/// The same path without any error.
 inline Problem perfect() { return drifting(hand_held_truth(), Twist::Zero(), {{2, 40}, {20, 57}}); }
 
-/// A figure of eight on the floor, measured in SE(2), the crossing and the start recognised.
+/// A planar figure of eight, measured in SE(2), with closures at the crossing and the start.
 inline Problem planar() {
   Trajectory truth;
   for (std::size_t i = 0; i < 49; ++i) {
@@ -111,7 +111,7 @@ inline Problem planar() {
   return out;
 }
 
-/// Straight ahead at 0.8 m/s, attitude kept, stamps uneven; start and end recognised.
+/// Straight motion at 0.8 m/s without rotation, uneven stamps; a closure from start to end.
 inline Problem straight() {
   Trajectory truth;
   double time = 0.0;
@@ -133,7 +133,7 @@ inline Problem standing() {
   return drifting(truth, Twist::Zero(), {{0, 19}});
 }
 
-/// The camera turns on the spot, not quite evenly, and the turn is measured with an error.
+/// The camera rotates in place at a slightly uneven rate; the rotation is measured with an error.
 inline Problem spinning() {
   Trajectory truth(25);
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -143,7 +143,7 @@ inline Problem spinning() {
   return drifting(truth, twist({0.0, 0.0, 0.0}, {0.001, 0.0, 0.003}), {{0, 24}});
 }
 
-/// The first `n` keyframes of the circle and what joins them; closed when there are two or more.
+/// The first `n` keyframes of the circle and their edges; with a closure for two or more.
 inline Problem short_circle(std::size_t n) {
   Problem out = circle(41);
   out.keyframes.resize(n);
@@ -163,7 +163,7 @@ inline Problem with_closures(Problem problem, const Trajectory& truth, const Pai
   return problem;
 }
 
-/// The same problem seen from a world whose axes and origin lie elsewhere.
+/// The same problem in another world frame.
 inline Problem moved_by(const Pose& there_from_here, Problem problem) {
   for (Trajectory* part : {&problem.keyframes, &problem.frames}) {
     for (StampedPose& pose : *part) {
@@ -178,12 +178,12 @@ struct NamedProblem {
   Problem problem;
 };
 
-/// What an ordinary method should cope with.
+/// Problems that every method should correct.
 inline std::vector<NamedProblem> ordinary_problems() {
   return {{"circle", circle()}, {"hand_held", hand_held()}, {"planar", planar()}};
 }
 
-/// What it may decline but must not stumble over.
+/// Degenerate problems, which a method may decline but on which it must not fail.
 inline std::vector<NamedProblem> awkward_problems() {
   const Trajectory truth = hand_held_truth();
   const Problem base = hand_held();

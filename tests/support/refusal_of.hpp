@@ -1,4 +1,4 @@
-/// What a refusal says.
+/// Error messages of expected failures.
 #pragma once
 
 #include <exception>
@@ -6,7 +6,8 @@
 
 namespace loopbench {
 
-/// The text of the exception, an InputError or OptionError, that `act` throws; "" when it does not.
+/// The text of the exception, an InputError or OptionError, that `act` throws; "" if it does not
+/// throw.
 template <class Act>
 std::string refusal_of(Act act) {
   try {

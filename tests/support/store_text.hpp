@@ -1,4 +1,4 @@
-/// A store as text, without what differs from run to run: times, memory, order of writing.
+/// A store as text, without times, memory and order of writing, which differ from run to run.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ using namespace methods;
 using namespace metrics;
 using namespace harness;
 
-/// A line per cell, score, count, note and trace; numbers in full (%a), in the sweep's order.
+/// One line per cell, score, count, note and trace; numbers in full (%a), in the sweep's order.
 inline std::string store_text(const std::filesystem::path& file) {
   std::string out;
   const auto exact = [](double value) {

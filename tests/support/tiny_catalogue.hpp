@@ -1,4 +1,4 @@
-/// A catalogue small enough to work results out by hand, for tests of the harness alone.
+/// A small catalogue whose results can be computed by hand, for tests of the harness.
 #pragma once
 
 #include <stdexcept>
@@ -37,7 +37,7 @@ inline Sequence load_line(const LineOptions& options, const DataRoot&) {
   return out;
 }
 
-/// Moves everything along z: undone by alignment, so it changes nothing but the curve.
+/// Shifts all poses along z, which alignment removes.
 struct Shift final : Corrector {
   struct Options {
     double by = 1.0;

@@ -1,4 +1,4 @@
-/// A store that sweeps of the tiny catalogue are run into, on one thread of this process.
+/// A store for sweeps of the tiny catalogue, run on one thread of this process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ class TinyStore : public testing::Test {
     Resumed resumed;
   };
 
-  /// Runs what the store misses of the config, on one thread.
+  /// Runs the cells of the config that are missing in the store, on one thread.
   Ran run(const std::string& text, Retry retry = Retry::none, const std::string& only = "") {
     const Sweep sweep = parse_sweep(text, folder_.path() / "c.yaml", known_);
     CellKeys keys(sweep, known_, root_, build_);

@@ -9,7 +9,7 @@ using namespace loopbench::methods;
 
 namespace {
 
-/// Pulls the end of the last closure towards where it was seen; a corrector from outside.
+/// An external corrector: moves the end of the last closure towards its measured position.
 class HalfWay final : public Corrector {
  public:
   struct Options {
@@ -38,10 +38,10 @@ class HalfWay final : public Corrector {
 
 template <class Visit>
 void fields(HalfWay::Options& o, Visit visit) {
-  visit("share", o.share, "part of the gap to close [-]", Between{0.0, 1.0});
+  visit("share", o.share, "fraction of the gap to close [-]", Between{0.0, 1.0});
 }
 
-/// A smoother whose curve lives in this object's code.
+/// A smoother whose curve type is defined in this shared object.
 class Lines final : public Smoother {
  public:
   struct Options {};
@@ -54,7 +54,7 @@ class Lines final : public Smoother {
 template <class Visit>
 void fields(Lines::Options&, Visit) {}
 
-/// Fails on every problem, to test the fence.
+/// Fails on every problem, to test the isolation of cells.
 class Thrower final : public Method {
  public:
   struct Options {};

@@ -1,4 +1,4 @@
-// As a plugin of an older interface exports it: only the first member is known to mean the same.
+// Exports the interface of an older version, which shares only the first member.
 extern "C" const int* loopbench_plugin() {
   static const int interface = 1;
   return &interface;

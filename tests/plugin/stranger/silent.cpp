@@ -1,4 +1,4 @@
-// A shared object that forgot its LOOPBENCH_PLUGIN line.
+// A shared object without a LOOPBENCH_PLUGIN line.
 #include "methods/plugin.hpp"
 
 int answer() { return 42; }
