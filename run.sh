@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./run.sh          installs what is missing, builds, runs the default comparison
-# ./run.sh ARGS...  the same set-up, then `loopbench ARGS...`
+# ./run.sh          installs missing packages, builds, runs the default comparison
+# ./run.sh ARGS...  the same setup, then `loopbench ARGS...`
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/build/release

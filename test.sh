@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./test.sh            set-up, optimised build, all tests
-# ./test.sh all        besides: all tests under ASan and UBSan, threaded code under TSan
+# ./test.sh            setup, optimised build, all tests
+# ./test.sh all        also all tests under ASan and UBSan, threaded code under TSan
 # ./test.sh PRESET...  only these (release, debug, tsan, clang)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"

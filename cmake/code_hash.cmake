@@ -1,4 +1,4 @@
-# Writes OUT, a C++ file with a hash of FILES: the libraries whose code decides the results of cells.
+# Writes OUT, a C++ file with a hash of FILES: the libraries whose code affects the results of cells.
 set(hashes "")
 foreach(file IN LISTS FILES)
   file(SHA256 ${file} hash)

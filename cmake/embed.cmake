@@ -1,4 +1,4 @@
-# Writes OUT, a C++ file with the bytes of FILES (paths below FOLDER): what the program carries along.
+# Writes OUT, a C++ file with the bytes of FILES (paths below FOLDER): they are embedded in the program.
 set(bytes "")
 set(table "")
 set(number 0)

@@ -1,12 +1,12 @@
-# One way to make a library here, one way to make a test: built and registered in the same breath.
+# Functions that define a library or a test.
 
-# Half of a translation unit's time goes into these; parsed once per library instead. Sources still
-# include what they use: header verification builds without them.
+# Precompiled headers, parsed once per library; they take half of the compile time of a source. Sources
+# still include what they use: header verification builds without precompiled headers.
 set(loopbench_slow_headers
   <Eigen/Core> <Eigen/Geometry> <algorithm> <filesystem> <functional> <map> <memory> <string> <vector>)
 
 # loopbench_library(<name> FOLDER <dir> [ONLY <regex>] [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
-# Every .hpp and .cpp below FOLDER belongs to it; dropping a file in is enough.
+# Contains every .hpp and .cpp below FOLDER; new files are added automatically.
 function(loopbench_library name)
   cmake_parse_arguments(ARG "" "FOLDER;ONLY;EXCEPT" "LINK;PRIVATE" ${ARGN})
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.hpp)
@@ -38,8 +38,8 @@ function(loopbench_library name)
 endfunction()
 
 # loopbench_test(<name> SOURCES <file>... LINK <library>... [SHARDS <n>])
-# One program, registered as <n> tests that share its cases out among them: starting a process costs
-# more than most cases do, above all under a sanitizer. A single case: --gtest_filter of the program.
+# One program, registered as <n> tests with a share of its cases each: starting a process takes longer
+# than most cases, above all under a sanitizer. To run a single case, use --gtest_filter.
 function(loopbench_test name)
   cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_SHARDS)

@@ -1,6 +1,6 @@
-# The parts of OpenCV that datasets/rgbd uses. By hand: Debian ships OpenCVConfig.cmake only with
+# The OpenCV modules used by datasets/rgbd. Without find_package: OpenCVConfig.cmake is only in
 # libopencv-dev, which depends on every module and its graphics stack. Without OpenCV the program
-# is built without the image front end (exit code 4 when a config asks for it).
+# is built without the image front end (exit code 4 if a config needs it).
 find_path(LOOPBENCH_STB_INCLUDE stb/stb_image.h REQUIRED)
 find_path(LOOPBENCH_OPENCV_INCLUDE opencv2/calib3d.hpp PATH_SUFFIXES opencv4)
 add_library(loopbench_opencv INTERFACE)

@@ -1,5 +1,5 @@
-# Sourced by run.sh and test.sh: install_missing PACKAGE... installs what is not there, and names it.
-# Needs Debian 12 (or a relative with the same package names).
+# Sourced by run.sh and test.sh: install_missing PACKAGE... installs missing packages and prints their names.
+# Needs Debian 12 (or a derivative with the same package names).
 
 packages=(
   g++ cmake ninja-build
@@ -19,7 +19,7 @@ install_missing() {
   done
   ((${#missing[@]})) || return 0
   if ! command -v apt-get >/dev/null; then
-    echo "loopbench: please install, by the names of Debian 12: ${missing[*]}" >&2
+    echo "loopbench: please install these packages (names of Debian 12): ${missing[*]}" >&2
     exit 2
   fi
   local as_root=()

@@ -1,4 +1,4 @@
-# Writes OUT, a C++ file that says which commit SOURCE is at; leaves it alone when nothing changed.
+# Writes OUT, a C++ file with the commit of SOURCE; does not touch it if nothing changed.
 set(commit "unknown")
 set(state "unknown")
 find_program(git git)

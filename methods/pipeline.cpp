@@ -55,7 +55,7 @@ class Pipeline final : public Method {
 Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   const Trajectory& before = problem.keyframes;
   require_same_stamps(before, keyframes);
-  // Built field by field, because copying the whole problem would also copy the old keyframes.
+  // Built field by field, because copying the complete problem would also copy the old keyframes.
   Problem moved{std::move(keyframes),
                 problem.odometry,
                 problem.closures,

@@ -1,4 +1,4 @@
-# Fails when a file includes something that is not upstream of it, or a library outside its door.
+# Fails if a file includes a file that is not upstream of it, or a library outside the folder for it.
 
 # What each part may include.
 set(may_include_datasets/core "datasets/core")
@@ -7,9 +7,9 @@ set(may_include_methods "datasets/core|methods")
 set(may_include_metrics "datasets/core|metrics")
 set(may_include_harness "datasets|methods|metrics|harness")
 
-# The order inside the parts, read downwards: an entry (a folder, or a .hpp and .cpp of that name) may
-# include itself and the lines above it, but not the other entries on its own line. A file belongs
-# to the longest entry that holds it.
+# Order within the parts: an entry (a folder, or a .hpp and .cpp of that name) may include itself and
+# the entries on lines above, but not the other entries on the same line. A file belongs to the longest
+# entry that contains it.
 set(order
   "datasets/core"
   "datasets/hash datasets/revisits datasets/disabled_options datasets/dataset datasets/formats"
@@ -68,24 +68,24 @@ set(order
   "harness/program"
 )
 
-# door_<library> is the only place that may include the headers matched by header_<library>.
+# Only files that match folder_<library> may include the headers that match header_<library>.
 set(libraries ceres yaml sqlite re2 cli json opencv stb)
 set(header_ceres "ceres/")
-set(door_ceres "methods/solvers/")
+set(folder_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
-set(door_yaml "harness/config/")
+set(folder_yaml "harness/config/")
 set(header_sqlite "sqlite3")
-set(door_sqlite "harness/store/")
+set(folder_sqlite "harness/store/")
 set(header_re2 "re2/")
-set(door_re2 "harness/text/pattern\\.")
+set(folder_re2 "harness/text/pattern\\.")
 set(header_cli "CLI/")
-set(door_cli "harness/(program|commands)/")
+set(folder_cli "harness/(program|commands)/")
 set(header_json "nlohmann/")
-set(door_json "harness/(commands|tables|gate|eval|report)/")
+set(folder_json "harness/(commands|tables|gate|eval|report)/")
 set(header_opencv "opencv2/")
-set(door_opencv "datasets/rgbd/.*\\.cpp")
+set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")
-set(door_stb "datasets/rgbd/.*\\.cpp")
+set(folder_stb "datasets/rgbd/.*\\.cpp")
 
 set(level 0)
 foreach(line IN LISTS order)
@@ -97,7 +97,7 @@ foreach(line IN LISTS order)
   endforeach()
 endforeach()
 
-# The longest entry of the order that holds a path; empty if none does.
+# The longest entry of the order that contains a path; empty if none does.
 function(find_entry path out)
   get_property(known GLOBAL PROPERTY entry_${path} SET)
   if(NOT known)
@@ -123,7 +123,7 @@ foreach(folder datasets/core datasets methods metrics harness)
   foreach(file IN LISTS files)
     find_entry(${file} from)
     if(NOT from)
-      message(SEND_ERROR "${file} has no place in the order of tests/includes_flow_one_way.cmake")
+      message(SEND_ERROR "${file} is missing in the order of tests/includes_flow_one_way.cmake")
     endif()
     file(STRINGS ${ROOT}/${file} includes REGEX "^#include")
     foreach(line IN LISTS includes)
@@ -136,8 +136,8 @@ foreach(folder datasets/core datasets methods metrics harness)
         endif()
       endif()
       foreach(library IN LISTS libraries)
-        if(line MATCHES "<${header_${library}}" AND NOT file MATCHES "^${door_${library}}")
-          message(SEND_ERROR "${file}: ${line} is outside its door ${door_${library}}")
+        if(line MATCHES "<${header_${library}}" AND NOT file MATCHES "^${folder_${library}}")
+          message(SEND_ERROR "${file}: ${line} is allowed only in ${folder_${library}}")
         endif()
       endforeach()
       if(folder STREQUAL "datasets/core" AND line MATCHES "<(fmt|yaml-cpp|nlohmann|sqlite3|CLI|opencv2|stb)")

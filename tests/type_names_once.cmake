@@ -1,15 +1,15 @@
-# Fails when two headers of the product declare a type of one name: what a reader looks for by its
-# name is then one thing, whatever its namespace.
+# Fails if two headers of the product declare types of the same name, in any namespaces, so that a name
+# is unambiguous.
 cmake_minimum_required(VERSION 3.25)
 
-# Names that mean two things for now; each stands here until one of the two has another name.
+# Accepted duplicates, until one of the two types is renamed.
 set(accepted "")
 
 file(GLOB_RECURSE headers RELATIVE ${ROOT}
   ${ROOT}/datasets/*.hpp ${ROOT}/methods/*.hpp ${ROOT}/metrics/*.hpp ${ROOT}/harness/*.hpp)
 set(found "")
 foreach(header IN LISTS headers)
-  # What stands at the beginning of a line is at namespace scope: clang-format indents the rest.
+  # Declarations at the beginning of a line are at namespace scope: clang-format indents others.
   file(STRINGS ${ROOT}/${header} lines
     REGEX "^(class|struct|union|enum|enum class|using|concept) [A-Za-z_0-9]+( final)?( [:={].*)?$")
   foreach(line IN LISTS lines)
@@ -25,6 +25,6 @@ foreach(header IN LISTS headers)
 endforeach()
 foreach(name IN LISTS accepted)
   if(NOT name IN_LIST found)
-    message(SEND_ERROR "${name} is declared once: take it off the list of accepted names")
+    message(SEND_ERROR "${name} is declared once: remove it from the list of accepted names")
   endif()
 endforeach()

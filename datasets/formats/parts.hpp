@@ -34,7 +34,7 @@ auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
         return parts;
       }
     } catch (const InputError&) {
-      // Thrown again below, with the line number in the whole file.
+      // Thrown again below, with the line number in the complete file.
     }
   }
   parts.clear();

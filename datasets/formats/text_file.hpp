@@ -58,7 +58,7 @@ class TextFile {
   mutable Repaired repaired;
 
   /// Estimated number of lines, assuming that all are as long as `line`; a hint for reserve(). The
-  /// first part counts the whole file, because the results of other parts are appended to it.
+  /// first part counts the complete file, because the results of other parts are appended to it.
   std::size_t estimated_lines(const Line& line) const {
     return (begin_ == 0 ? size_ : end_ - begin_) / (line.text.size() + 1) + 1;
   }
@@ -72,7 +72,7 @@ class TextFile {
   void refill();
 
   std::string name_;
-  std::size_t size_ = 0;      ///< of the whole file [bytes]
+  std::size_t size_ = 0;      ///< of the complete file [bytes]
   std::size_t begin_ = 0;     ///< file offset of the start of this part
   std::size_t unread_ = 0;    ///< file offset of the next bytes to read into the window
   std::size_t end_ = 0;       ///< file offset of the end of this part

@@ -10,8 +10,8 @@
 namespace loopbench::harness {
 
 /// Writes figure5.svg (fr1) and figure7.svg (fr3): two segments fitted locally with N = 3, 4, 5;
-/// and figure6.svg (fr1) and figure8.svg (fr3): the whole run in the xoy plane for N and in xyz for
-/// M. All on the closed input in this reading. Returns the names of the files written.
+/// and figure6.svg (fr1) and figure8.svg (fr3): the complete run in the xoy plane for N and in xyz
+/// for M. All on the closed input in this reading. Returns the names of the files written.
 std::vector<std::string> paper_figures(const std::vector<PaperCell>& cells,
                                        const std::string& reading,
                                        const std::filesystem::path& folder);

@@ -12,7 +12,7 @@ namespace loopbench::methods {
 bool is_stiff(const Problem& problem);
 
 /// Returns the problem with the closures' information scaled down to that bound. Rows and columns
-/// are scaled alike, so correlations do not change. O(edges).
+/// are scaled equally, so correlations do not change. O(edges).
 Problem with_bounded_stiffness(const Problem& problem);
 
 }  // namespace loopbench::methods

@@ -10,7 +10,7 @@
 
 namespace loopbench::metrics {
 
-using loopbench::to_text;  // beside the one below
+using loopbench::to_text;  // in addition to the overload below
 
 /// Criteria for a revisited place and for a false closure.
 struct DetectionRule {

@@ -22,7 +22,7 @@ Series resample(const Series& series, std::size_t cells);
 /// discontinuity there. The samples are evenly spaced; their number is a power of two. O(n log n).
 std::vector<Vector3> low_pass(const Series& even, double window);
 
-/// Centred moving average over `window`; it shrinks symmetrically at the ends and beside gaps
+/// Centred moving average over `window`; it shrinks symmetrically at the ends and next to gaps
 /// longer than the window. An oscillation of period T is multiplied by sin(pi window / T) /
 /// (pi window / T): 0 at T = window, 64 % at 2 windows and 90 % at 4. O(n).
 std::vector<Vector3> moving_average(const Series& series, double window);

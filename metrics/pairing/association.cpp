@@ -12,14 +12,14 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Visits (index in wanted, index in stamps) of each wanted stamp and its nearest stamp.
+/// Visits (index in wanted, index in stamps) of each requested stamp and its nearest stamp.
 template <class Visit>
 void for_each_nearest(const std::vector<double>& wanted,
                       const std::vector<double>& stamps,
                       double max_diff,
                       Visit visit) {
   if (stamps.empty()) return;
-  std::size_t after = 0;  // first stamp not before the wanted one
+  std::size_t after = 0;  // first stamp not before the requested one
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     while (after < stamps.size() && stamps[after] < wanted[i]) ++after;
     std::size_t nearest = after;
@@ -86,7 +86,7 @@ Paired interpolate_reference(const Trajectory& reference,
   Paired out;
   out.reference.reserve(estimate.size());
   out.estimate.reserve(estimate.size());
-  std::size_t after = 0;  // first reference pose not before the wanted stamp
+  std::size_t after = 0;  // first reference pose not before the requested stamp
   for (const StampedPose& pose : estimate) {
     const double stamp = pose.stamp + offset;
     while (after < reference.size() && reference[after].stamp < stamp) ++after;

@@ -31,13 +31,13 @@ enum class Limit { strict, inclusive };
 /// Whether pairs may cross: an earlier reference pose paired with a later estimate pose.
 enum class Crossing { allowed, refused };
 
-/// TUM's associate.py (strict, crossing allowed) and `nearest` (inclusive, crossing refused).
+/// TUM's associate.py (strict, crossing allowed) and `nearest` (inclusive, crossing rejected).
 /// One-to-one and greedy: repeatedly takes the pair that is first by (difference, reference,
-/// estimate) among all pairs within max_diff, and removes both poses. If crossing is refused, pairs
-/// that cross a taken pair are skipped. Around a burst of stamps, associate.py pairs the remaining
-/// poses across a taken pair, so the estimate's stamps decrease there. Result in the order of the
-/// reference. Stamps must strictly increase, also after the offset is added to the estimate.
-/// O((n + m) log(n + m)) for any max_diff, in practice near O(n + m).
+/// estimate) among all pairs within max_diff, and removes both poses. If crossing is rejected,
+/// pairs that cross a taken pair are skipped. Around a burst of stamps, associate.py pairs the
+/// remaining poses across a taken pair, so the estimate's stamps decrease there. Result in the
+/// order of the reference. Stamps must strictly increase, also after the offset is added to the
+/// estimate. O((n + m) log(n + m)) for any max_diff, in practice near O(n + m).
 std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         std::vector<double> estimate,
                                         double max_diff,

@@ -28,7 +28,7 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
     const auto at = [&](std::size_t i) {
       return distances.begin() + static_cast<std::ptrdiff_t>(i * step);
     };
-    // Bisection for the first start, a linear walk for the others: the distance never decreases.
+    // Bisection for the first start, linear search for the others: the distance never decreases.
     DistanceAt beyond = std::lower_bound(at(k), distances.end(), *at(k) + length);
     for (; k < last; ++k) {
       const DistanceAt from = at(k);

@@ -32,7 +32,7 @@ struct Surface {
 };
 
 /// Computes points and normals. A normal is that of the least-squares plane of 5 x 5 pixels. Pixels
-/// beside depth edges, on curved patches (beyond noise) and at grazing angles have no normal.
+/// next to depth edges, on curved patches (beyond noise) and at grazing angles have no normal.
 /// `inverse_depth_sigma` [1/m] is the standard deviation of one pixel of the original image; noise
 /// of neighbouring pixels is assumed independent. O(pixels).
 Surface surface_of(const DownsampledDepth& image, double inverse_depth_sigma);

@@ -14,7 +14,7 @@ namespace loopbench::rgbd {
 struct Feature {
   float u = 0.0f;      ///< undistorted [px]
   float v = 0.0f;      ///< undistorted [px]
-  float depth = 0.0f;  ///< [m]; 0: not measured or beside a depth edge
+  float depth = 0.0f;  ///< [m]; 0: not measured or next to a depth edge
   float sigma = 1.0f;  ///< pixel size of the pyramid level relative to the image [-]
   std::int32_t octave = 0;
 };

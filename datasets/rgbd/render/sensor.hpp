@@ -17,7 +17,7 @@ namespace loopbench::rgbd {
 /// Depth image: noise with standard deviation 1.425 mm/m^2 z^2 (Khoshelham and Elberink 2012),
 /// disparity in steps of 1/8 pixel, rounding to millimetres and a random offset of at most one
 /// pixel. Depth is missing below 0.5 m, above 4.5 m, on slanted surfaces, in the projector's shadow
-/// beside depth edges and in random patches.
+/// next to depth edges and in random patches.
 /// All draws are determined by `frame` and the seed. O(pixels).
 RgbdFrame apply_sensor_model(const RenderedImage& ideal,
                              const Camera& camera,

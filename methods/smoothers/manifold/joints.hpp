@@ -54,8 +54,8 @@ struct Joint {
 Joint joint_between(const Nodes& nodes, const Window& before, const Window& after);
 
 /// Joint between two windows of one edge each. Windows around nodes (`size` odd) are blended over
-/// the whole earlier edge. Windows around edges are blended from edge middle to edge middle, as is
-/// a straight line between two nodes, which carries no information about the edges beside it.
+/// the complete earlier edge. Windows around edges are blended from edge middle to edge middle, as
+/// is a straight line between two nodes, which carries no information about the edges next to it.
 Joint sliding_joint(const Nodes& nodes,
                     const Window& before,
                     const Window& after,

@@ -47,7 +47,7 @@ struct SpatialFit {
 };
 
 /// Fits heights along `up`, relative to the first node. `guarded`: rejects a surface that leaves
-/// the spline, on its own edges or one edge beside them, by more than the height range of its
+/// the spline, on its own edges or one edge next to them, by more than the height range of its
 /// nodes; nodes near a conic produce such surfaces even with truncation. O(nodes).
 SpatialFit fit_spatial(const Nodes& nodes,
                        std::span<const NodeRange> segments,

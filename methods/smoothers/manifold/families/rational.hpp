@@ -26,7 +26,7 @@ struct Rational {
 
 /// Least-squares fit in y by Levenberg-Marquardt from the linearised solution. Requires at least
 /// four points with distinct x, or five with `with_level`. Returns nullopt when the denominator has
-/// a real root within the range of x or half that range beside it.
+/// a real root within the range of x or half that range on either side of it.
 std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level);
 
 }  // namespace loopbench::methods::manifold
