@@ -194,10 +194,10 @@ void scale_information(TrackingResult& tracked, DetectedLoops& loops, double dep
   if (!(excess > 1.0)) return;
   for (Edge& edge : tracked.odometry) edge.information /= excess;
   for (Edge& edge : loops.closures) edge.information /= excess;
-  tracked.notes.push_back(
-      fmt::format("{} disagree by more than their residuals say: information divided by {:.2f}",
-                  depth_excess > loop_excess ? "features and depth" : "loops and odometry",
-                  excess));
+  tracked.notes.push_back(fmt::format(
+      "{} disagree by more than their residuals indicate: information divided by {:.2f}",
+      depth_excess > loop_excess ? "features and depth" : "loops and odometry",
+      excess));
 }
 
 }  // namespace

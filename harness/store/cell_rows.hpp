@@ -45,7 +45,7 @@ std::size_t detail_number(const std::string& table);
 /// Throws InputError naming the first damaged cell, or if a cell is missing.
 void require_intact(const CellRows& rows, const std::filesystem::path& file);
 
-/// Throws InputError naming the corrupted part `what` of `file`, such as "the trace of A / B is".
+/// Throws InputError naming the corrupted part `what` of `file`.
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, const std::string& what);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".

@@ -23,7 +23,7 @@ Motion limit(double stamp, const Vector3& origin, const StampedPose* samples) {
     points[k] = samples[k].world_from_body.translation - origin;
     if (offsets[k] == 0.0 || (k > 0 && offsets[k] == offsets[k - 1])) {
       throw std::runtime_error("jumps: the stamps around " + to_text(stamp) +
-                               " s are too coarse for four samples beside a keyframe");
+                               " s are too coarse for four samples next to a keyframe");
     }
   }
   const std::array<Vector3, 4> c = divided_differences(offsets, points);

@@ -187,7 +187,7 @@ TEST(Frontend, BeginsAnewWhenLostForLongAndSaysSo) {
   check(sequence.problem, "room");
   std::string notes;
   for (const std::string& note : sequence.provenance.notes) notes += note + "\n";
-  EXPECT_NE(notes.find("the step between is a guess"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("the motion in between is assumed"), std::string::npos) << notes;
 }
 
 TEST(Frontend, AsksForAboutSoManyKeyframes) {

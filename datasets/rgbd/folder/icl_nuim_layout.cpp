@@ -76,7 +76,7 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
     throw list.error(0, "lists no image, expected lines of number depth number colour");
   const fs::path truth = icl_nuim_truth(folder);
   if (truth.empty()) {
-    out.notes.emplace_back("no *.gt.freiburg: nothing can be judged against a reference");
+    out.notes.emplace_back("no *.gt.freiburg: no evaluation against a reference");
     return out;
   }
   out.lists.push_back(truth);

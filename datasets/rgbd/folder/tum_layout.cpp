@@ -67,7 +67,7 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
     out.reference = read_trajectory(truth, read_options);
     out.reference_file = truth;
   } else {
-    out.notes.emplace_back("no groundtruth.txt: nothing can be judged against a reference");
+    out.notes.emplace_back("no groundtruth.txt: no evaluation against a reference");
   }
   return out;
 }

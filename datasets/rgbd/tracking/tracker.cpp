@@ -153,11 +153,11 @@ void Tracker::start_map(std::size_t frame, double stamp, Features features) {
   if (!recent_.empty()) located.world_from_camera = recent_.back().world_from_body;
   located.information = isotropic_information(kGuess * kGuess, kGuess * kGuess);
   if (lost_since_) {
-    out_.notes.push_back(
-        fmt::format("tracking lost at {:.3f} s and not recovered: begun anew at {:.3f} s; the step "
-                    "between is a guess",
-                    *lost_since_,
-                    stamp));
+    out_.notes.push_back(fmt::format(
+        "tracking lost at {:.3f} s and not recovered: restarted at {:.3f} s; the motion "
+        "in between is assumed",
+        *lost_since_,
+        stamp));
   }
   lost_since_.reset();
   lost_count_ = 0;

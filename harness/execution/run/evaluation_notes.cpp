@@ -67,12 +67,12 @@ std::string stamp_differences(const Trajectory& reference, const metrics::Evalua
 
 std::string bridged(const metrics::Evaluation& evaluation) {
   if (evaluation.coverage.bridged == 0.0) return "";
-  const bool is_judged = evaluation.protocol.max_estimate_gap == 0.0;
+  const bool is_evaluated = evaluation.protocol.max_estimate_gap == 0.0;
   return fmt::format(
       "tracking gaps: {:.3g} s between keyframes are bridged without a measurement, "
       "and {} (max_estimate_gap)",
       evaluation.coverage.bridged,
-      is_judged ? "evaluated nevertheless" : "not evaluated");
+      is_evaluated ? "evaluated nevertheless" : "not evaluated");
 }
 
 void note_once(std::vector<std::string>& list, const std::string& text) {

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
-/// Draws that are the same with every standard library.
+/// Random draws that do not depend on the standard library.
 class SliceDraws {
  public:
   explicit SliceDraws(std::int64_t seed) : bits_(static_cast<std::uint64_t>(seed)) {}
 
-  /// In (0, 1).
+  /// Uniform in (0, 1).
   double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
 
-  /// Box and Muller.
+  /// Standard normal, by the Box-Muller transform.
   Eigen::VectorXd normal(Eigen::Index size) {
     Eigen::VectorXd out(size);
     for (Eigen::Index i = 0; i < size; ++i) {
@@ -43,15 +43,15 @@ void slice_step(SlicePoint& at,
                 const Evidence& evidence,
                 SliceDraws& draw) {
   const Eigen::VectorXd other = draw.normal(prior.unknowns);
-  const double enough = at.log_evidence + std::log(draw.uniform());
+  const double threshold = at.log_evidence + std::log(draw.uniform());
   double angle = kFullTurn * draw.uniform();
   double low = angle - kFullTurn;
   double high = angle;
-  // The bracket shrinks by a third a try towards where we stand, which is likely enough.
+  // Each rejection shrinks the bracket towards the current point, which exceeds the threshold.
   for (int tries = 0; tries < 100; ++tries) {
     const Eigen::VectorXd there = std::cos(angle) * at.unknowns + std::sin(angle) * other;
     const double value = log_evidence(model_at(prior, there), evidence);
-    if (value > enough) {
+    if (value > threshold) {
       at = {there, value};
       return;
     }
@@ -60,16 +60,16 @@ void slice_step(SlicePoint& at,
   }
 }
 
-/// A fresh hypothesis, all else as it is.
+/// Metropolis step that redraws the hypothesis only.
 void choice_step(SlicePoint& at,
                  const MotionPrior& prior,
                  const Evidence& evidence,
                  SliceDraws& draw) {
   Eigen::VectorXd there = at.unknowns;
   there[0] = draw.normal(1)[0];
-  const double enough = at.log_evidence + std::log(draw.uniform());
+  const double threshold = at.log_evidence + std::log(draw.uniform());
   const double value = log_evidence(model_at(prior, there), evidence);
-  if (value > enough) at = {there, value};
+  if (value > threshold) at = {there, value};
 }
 
 }  // namespace
