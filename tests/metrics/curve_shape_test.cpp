@@ -119,7 +119,7 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
                           Times::keyframes,
                           Protocol{.align = Align::none});
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
-            "jumps: the stamps around 1.0 s are too coarse for four samples beside a keyframe");
+            "jumps: the stamps around 1.0 s are too coarse for four samples next to a keyframe");
 }
 
 TEST(Jerk, ByHandOnACubic) {
