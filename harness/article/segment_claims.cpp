@@ -57,7 +57,7 @@ constexpr Quoted kQuoted[] = {
 /// Squared distances of each family to the reference; a rejected window uses a parabola, as in dm.
 struct Contest {
   std::array<double, kFamilies.size()> squares{};
-  std::array<std::size_t, kFamilies.size()> refused{};
+  std::array<std::size_t, kFamilies.size()> rejected{};
   std::size_t samples = 0;
   std::size_t windows = 0;
 
@@ -68,14 +68,14 @@ struct Contest {
     std::string out = fmt::format("{} windows", windows);
     for (std::size_t k = 0; samples > 0 && k < kFamilies.size(); ++k) {
       out += fmt::format(", {} {:.2f} mm", kNames[k], 1e3 * rms(k));
-      if (refused[k] > 0) out += fmt::format(" ({} refused)", refused[k]);
+      if (rejected[k] > 0) out += fmt::format(" ({} rejected)", rejected[k]);
     }
     return out;
   }
   bool won_by(std::size_t family) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < kFamilies.size(); ++k) least = std::min(least, rms(k));
-    return 2 * refused[family] <= windows && rms(family) <= (1.0 + kTieMargin) * least;
+    return 2 * rejected[family] <= windows && rms(family) <= (1.0 + kTieMargin) * least;
   }
 };
 
@@ -123,7 +123,7 @@ struct Run {
     for (std::size_t k = 0; k < kFamilies.size(); ++k) {
       const auto piece = fitter.fit(window, {&kFamilies[k], 1});
       if (!piece && k == 0) return;
-      if (!piece) ++contest.refused[k];
+      if (!piece) ++contest.rejected[k];
       pieces.push_back(piece ? *piece : pieces.front());
     }
     ++contest.windows;

@@ -31,26 +31,26 @@ Calibration learn(const Sweep& sweep,
                   const DataRoot& root,
                   const LearnOptions& options) {
   const Pattern train = Pattern::of_option("--train", options.train);
-  std::vector<Cell> wanted;
+  std::vector<Cell> selected;
   Calibration out;
   out.config = sweep.config.filename().string();
   out.every = options.every;
   for (std::size_t d = 0; d < sweep.datasets.size(); ++d) {
     if (train.is_in(sweep.datasets[d].label)) {
-      wanted.push_back({.index = wanted.size(), .dataset = d});
+      selected.push_back({.index = selected.size(), .dataset = d});
     } else {
       out.not_trained_on.push_back(sweep.datasets[d].label);
     }
   }
-  if (wanted.empty()) {
+  if (selected.empty()) {
     throw InputError(sweep.config.string() + ": no dataset's label matches '" + options.train +
                      "'");
   }
 
-  Sequences sequences(sweep, catalogue, root, wanted);
+  Sequences sequences(sweep, catalogue, root, selected);
   std::vector<std::shared_ptr<const Sequence>> loaded;
   std::vector<std::string> labels;
-  for (const Cell& cell : wanted) {
+  for (const Cell& cell : selected) {
     loaded.push_back(sequences.get(cell));
     labels.push_back(sweep.datasets[cell.dataset].label);
     const std::string& source = sequences.metadata(cell)->source;

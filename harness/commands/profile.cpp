@@ -19,10 +19,10 @@ struct ProfileArguments {
 };
 
 int print_profile(const ProfileArguments& arguments) {
-  const Pattern wanted = Pattern::of_option("--only", arguments.only);
+  const Pattern selected = Pattern::of_option("--only", arguments.only);
   std::vector<CellRecord> cells = read_cells(arguments.store);
   std::erase_if(cells, [&](const CellRecord& cell) {
-    return !wanted.is_in(cell.sequence + " / " + cell.method);
+    return !selected.is_in(cell.sequence + " / " + cell.method);
   });
   if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
   value(Record{}, arguments.accuracy.value);  // throws for an unknown name before printing

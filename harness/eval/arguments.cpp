@@ -112,10 +112,10 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   const Params of_folder = is_rpg_folder ? rpg_settings(a.reference) : Params{};
   std::vector<metrics::NamedProtocol> out;
   for (const std::string& name : a.protocols) {
-    Params wanted = changes(a, known_protocol(name, {}).rules);
+    Params changed = changes(a, known_protocol(name, {}).rules);
     // Command line options override the folder's configuration, which applies to rpg's protocols.
-    if (name.starts_with("rpg")) wanted.insert(of_folder.begin(), of_folder.end());
-    out.push_back(known_protocol(name, wanted));
+    if (name.starts_with("rpg")) changed.insert(of_folder.begin(), of_folder.end());
+    out.push_back(known_protocol(name, changed));
   }
   return out;
 }
@@ -147,19 +147,19 @@ std::vector<MetricQuestion> requested_metrics(const EvalArguments& a,
 ReferenceBody reference_body(const EvalArguments& a) {
   ReferenceBody out;
   if (!a.reference_body) return out;
-  const auto refuse = [&](const std::string& what) {
+  const auto error = [&](const std::string& what) {
     return InputError("--ref-body: '" + *a.reference_body + "'" + what);
   };
   const std::vector<double> given = numbers(*a.reference_body);
   if (given.size() != 3 && given.size() != 7) {
-    throw refuse(": expected x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
+    throw error(": expected x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
   }
   double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};
   for (std::size_t i = 0; i < given.size(); ++i) *members[i] = given[i];
   try {
     pose_of(out);
   } catch (const OptionError&) {
-    throw refuse(": expected a unit quaternion after the position");
+    throw error(": expected a unit quaternion after the position");
   }
   return out;
 }

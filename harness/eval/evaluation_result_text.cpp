@@ -80,8 +80,8 @@ std::vector<Missing> undefined(const EvaluationResult& j, const std::string& row
     }
     for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (why.empty()) continue;
-      const bool is_whole = axis == "3d" || axis == "all";
-      const std::string what = label(metric) + " " + relation + (is_whole ? "" : " " + axis);
+      const bool is_total = axis == "3d" || axis == "all";
+      const std::string what = label(metric) + " " + relation + (is_total ? "" : " " + axis);
       out.push_back({row, what, "undefined", why});
     }
   }

@@ -23,7 +23,7 @@ class BaselineReader {
   Baseline read(const Json& root) {
     const Json& format = member(root, "loopbench_baseline", "");
     if (format != kBaselineFormat) {
-      refuse("loopbench_baseline",
+      reject("loopbench_baseline",
              fmt::format("found format {}, expected {}: it lacks data that format {} compares; "
                          "check the results, then write it again with --update (limits are kept)",
                          format.dump(),
@@ -58,28 +58,28 @@ class BaselineReader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& at, const std::string& what) const {
+  [[noreturn]] void reject(const std::string& at, const std::string& what) const {
     throw InputError(file_ + ": " + at + ": " + what);
   }
 
   const Json& member(const Json& node, const std::string& key, const std::string& at) const {
     const std::string location = at.empty() ? "" : at;
-    if (!node.is_object()) refuse(location.empty() ? "baseline" : location, "expected an object");
+    if (!node.is_object()) reject(location.empty() ? "baseline" : location, "expected an object");
     const auto found = node.find(key);
-    if (found == node.end()) refuse(location + (location.empty() ? "" : ".") + key, "is missing");
+    if (found == node.end()) reject(location + (location.empty() ? "" : ".") + key, "is missing");
     return *found;
   }
 
   std::string text(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
-    if (!found.is_string()) refuse(at + "." + key, "expected text, found " + found.dump());
+    if (!found.is_string()) reject(at + "." + key, "expected text, found " + found.dump());
     return found.get<std::string>();
   }
 
   double number(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
     if (!found.is_number() || found.get<double>() < 0.0) {
-      refuse(at + "." + key, "expected a non-negative number, found " + found.dump());
+      reject(at + "." + key, "expected a non-negative number, found " + found.dump());
     }
     return found.get<double>();
   }
@@ -87,7 +87,7 @@ class BaselineReader {
   std::map<std::string, std::string> texts(const Json& root, const std::string& key) const {
     std::map<std::string, std::string> out;
     const Json& node = member(root, key, "");
-    if (!node.is_object()) refuse(key, "expected an object");
+    if (!node.is_object()) reject(key, "expected an object");
     for (const auto& [name, value] : node.items()) out[name] = text(node, name, key);
     return out;
   }
@@ -95,16 +95,16 @@ class BaselineReader {
   template <class Each>
   void each(const Json& root, const std::string& key, Each act) const {
     const Json& node = member(root, key, "");
-    if (!node.is_array()) refuse(key, "expected a list");
+    if (!node.is_array()) reject(key, "expected a list");
     for (std::size_t i = 0; i < node.size(); ++i) act(node[i], fmt::format("{}[{}]", key, i));
   }
 
   Tolerance limit(const Json& node, const std::string& at) const {
     Tolerance out;
     const Json& rules = member(node, "where", at);
-    if (!rules.is_array()) refuse(at + ".where", "expected a list");
+    if (!rules.is_array()) reject(at + ".where", "expected a list");
     for (const Json& rule : rules) {
-      if (!rule.is_string()) refuse(at + ".where", "expected text, found " + rule.dump());
+      if (!rule.is_string()) reject(at + ".where", "expected text, found " + rule.dump());
       out.where.push_back(rule.get<std::string>());
     }
     out.values = statistics(node, at);
@@ -112,7 +112,7 @@ class BaselineReader {
       where(out.where);
       for (const std::string& statistic : out.values) value(Record{}, statistic);
     } catch (const InputError& error) {
-      refuse(at, error.what());
+      reject(at, error.what());
     }
     out.relative = number(node, "relative", at);
     out.absolute = number(node, "absolute", at);
@@ -136,7 +136,7 @@ class BaselineReader {
       }
     }
     if (out.empty() || out.size() != found.size()) {
-      refuse(at + ".values", "expected a list of statistics, found " + found.dump());
+      reject(at + ".values", "expected a list of statistics, found " + found.dump());
     }
     return out;
   }
@@ -151,7 +151,7 @@ class BaselineReader {
     out.axis = text(node, "axis", at);
     out.unit = text(node, "unit", at);
     const auto better = from_text<metrics::Better>(text(node, "better", at));
-    if (!better) refuse(at + ".better", "expected " + choice_list<metrics::Better>());
+    if (!better) reject(at + ".better", "expected " + choice_list<metrics::Better>());
     out.better = *better;
     const auto target = node.find("target");
     if (target != node.end() && target->is_number()) out.target = target->get<double>();
@@ -166,7 +166,7 @@ class BaselineReader {
   const Json& list(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
     if (!found.is_array() || found.size() != questions_.size()) {
-      refuse(at + "." + key, fmt::format("expected a list of {}, as scores", questions_.size()));
+      reject(at + "." + key, fmt::format("expected a list of {}, as scores", questions_.size()));
     }
     return found;
   }
@@ -177,7 +177,7 @@ class BaselineReader {
                        const std::string& at) const {
     const Json& entry = list(node, key, at)[i];
     if (!entry.is_number_integer()) {
-      refuse(fmt::format("{}.{}[{}]", at, key, i),
+      reject(fmt::format("{}.{}[{}]", at, key, i),
              "expected a whole number, found " + entry.dump());
     }
     return entry.get<std::int64_t>();
@@ -195,7 +195,7 @@ class BaselineReader {
     if (node.contains("statuses")) {
       const Json& status = list(node, "statuses", at)[i];
       if (!status.is_string()) {
-        refuse(fmt::format("{}.statuses[{}]", at, i), "expected text, found " + status.dump());
+        reject(fmt::format("{}.statuses[{}]", at, i), "expected text, found " + status.dump());
       }
       out.status = status.get<std::string>();
     }
@@ -204,7 +204,7 @@ class BaselineReader {
       for (const std::string& statistic : limit.values) {
         const Json& entry = list(node, statistic, at)[i];
         if (!entry.is_number()) {
-          refuse(fmt::format("{}.{}[{}]", at, statistic, i),
+          reject(fmt::format("{}.{}[{}]", at, statistic, i),
                  "expected a number, found " + entry.dump());
         }
         out.values[statistic] = entry.get<double>();

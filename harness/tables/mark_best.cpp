@@ -17,30 +17,30 @@ struct MarkContest {
   std::size_t groups = 0;
 };
 
-MarkContest mark_contest(const MarkInput& lane) {
+MarkContest mark_contest(const MarkInput& input) {
   MarkContest out;
   std::set<std::string> runs;
-  for (std::size_t i = 0; i < lane.competitors.size(); ++i) {
-    const ByRun& own = lane.competitors[i];
+  for (std::size_t i = 0; i < input.competitors.size(); ++i) {
+    const ByRun& own = input.competitors[i];
     if (std::ranges::none_of(own, [](const auto& run) { return run.second.has_value(); })) continue;
     out.entries.push_back(i);
     for (const auto& [run, value] : own) runs.insert(run);
   }
   NameOrder groups;
   out.values.values.resize(out.entries.size());
-  out.values.better = lane.better;
-  out.values.target = lane.target;
+  out.values.better = input.better;
+  out.values.target = input.target;
   for (const std::size_t i : out.entries) {
-    out.is_complete.push_back(lane.competitors[i].size() == runs.size());
+    out.is_complete.push_back(input.competitors[i].size() == runs.size());
   }
   for (const std::string& run : runs) {
-    const auto knows = [&](std::size_t i) { return lane.competitors[i].contains(run); };
-    if (!std::ranges::all_of(out.entries, knows)) continue;
+    const auto has_run = [&](std::size_t i) { return input.competitors[i].contains(run); };
+    if (!std::ranges::all_of(out.entries, has_run)) continue;
     for (std::size_t e = 0; e < out.entries.size(); ++e) {
-      out.values.values[e].push_back(lane.competitors[out.entries[e]].at(run));
+      out.values.values[e].push_back(input.competitors[out.entries[e]].at(run));
     }
-    const auto group = lane.group.find(run);
-    out.values.group.push_back(groups.index(group == lane.group.end() ? run : group->second));
+    const auto group = input.group.find(run);
+    out.values.group.push_back(groups.index(group == input.group.end() ? run : group->second));
   }
   out.groups = groups.names().size();
   return out;
@@ -52,9 +52,9 @@ const char* mark_name(Mark mark) {
   return mark == Mark::best ? "best" : mark == Mark::second ? "second" : "";
 }
 
-Marks mark_best(const MarkInput& lane, const RankingOptions& options) {
-  Marks out{std::vector<Mark>(lane.competitors.size(), Mark::none), ""};
-  const MarkContest all = mark_contest(lane);
+Marks mark_best(const MarkInput& input, const RankingOptions& options) {
+  Marks out{std::vector<Mark>(input.competitors.size(), Mark::none), ""};
+  const MarkContest all = mark_contest(input);
   if (all.entries.size() < 2 || all.groups == 0) return out;
   const Ranking ranking = rank_methods(all.values, options);
   if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {

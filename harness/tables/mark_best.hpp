@@ -35,6 +35,6 @@ struct Marks {
 /// best: significantly better than all except the best. Equal methods share a mark. A competitor
 /// that lacks a run without having failed on it is compared on the common runs, but never marked.
 /// Competitors without values are ignored.
-Marks mark_best(const MarkInput& lane, const RankingOptions& options);
+Marks mark_best(const MarkInput& input, const RankingOptions& options);
 
 }  // namespace loopbench::harness

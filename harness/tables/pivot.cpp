@@ -80,7 +80,7 @@ void mark(Table& out,
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<TablePosition> cells = cell_indices(table, l, along_columns);
-    const MarkInput all = lane(table, cells, along_columns);
+    const MarkInput all = mark_input(table, cells, along_columns);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
                             : mark_best(all, options);

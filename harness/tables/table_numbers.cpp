@@ -30,19 +30,19 @@ std::vector<CellRuns> cell_runs(const TableNumbers& table,
 }  // namespace
 
 std::vector<TablePosition> cell_indices(const TableNumbers& table,
-                                        std::size_t lane,
+                                        std::size_t index,
                                         bool along_columns) {
   const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
   std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
-    out.push_back(along_columns ? TablePosition{i, lane} : TablePosition{lane, i});
+    out.push_back(along_columns ? TablePosition{i, index} : TablePosition{index, i});
   }
   return out;
 }
 
-MarkInput lane(const TableNumbers& table,
-               const std::vector<TablePosition>& cells,
-               bool along_columns) {
+MarkInput mark_input(const TableNumbers& table,
+                     const std::vector<TablePosition>& cells,
+                     bool along_columns) {
   MarkInput out{{}, table.groups, metrics::Better::neither, 0.0};
   std::set<std::string> runs;
   for (const TablePosition& cell_index : cells) {
@@ -87,11 +87,11 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   return note.text();
 }
 
-std::size_t possible(const MarkInput& lane, std::size_t i) {
+std::size_t possible(const MarkInput& input, std::size_t i) {
   std::set<std::string> out;
-  for (const ByRun& other : lane.competitors) {
+  for (const ByRun& other : input.competitors) {
     const bool shares = std::ranges::any_of(
-        other, [&](const auto& run) { return lane.competitors[i].contains(run.first); });
+        other, [&](const auto& run) { return input.competitors[i].contains(run.first); });
     if (!shares) continue;
     for (const auto& [run, value] : other) out.insert(run);
   }

@@ -43,13 +43,13 @@ struct TableNumbers {
 
 /// The cells of one column (or row).
 std::vector<TablePosition> cell_indices(const TableNumbers& table,
-                                        std::size_t lane,
+                                        std::size_t index,
                                         bool along_columns);
 
 /// The cells of a column (or a row) that compete, with the runs on which they failed.
-MarkInput lane(const TableNumbers& table,
-               const std::vector<TablePosition>& cells,
-               bool along_columns);
+MarkInput mark_input(const TableNumbers& table,
+                     const std::vector<TablePosition>& cells,
+                     bool along_columns);
 
 /// Restricts means to runs that all cells compared with them finished. Returns the note about it;
 /// empty if all cells finished the same runs.
@@ -57,6 +57,6 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns);
 
 /// Maximum number of runs for the mean of competitor `i`: those of all competitors that have a run
 /// in common with it.
-std::size_t possible(const MarkInput& lane, std::size_t i);
+std::size_t possible(const MarkInput& input, std::size_t i);
 
 }  // namespace loopbench::harness

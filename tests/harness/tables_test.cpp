@@ -136,11 +136,11 @@ TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
 }
 
 TEST(MarkBest, TakesRunsOfAGroupAsOne) {
-  MarkInput lane{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
-  EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::best);
-  for (int i = 1; i <= 8; ++i) lane.group[std::to_string(i)] = i < 5 ? "a" : "b";
-  EXPECT_EQ(mark_best(lane, {}).marks[0], Mark::none);
-  EXPECT_NE(mark_best(lane, {}).why_none, "");
+  MarkInput input{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
+  EXPECT_EQ(mark_best(input, {}).marks[0], Mark::best);
+  for (int i = 1; i <= 8; ++i) input.group[std::to_string(i)] = i < 5 ? "a" : "b";
+  EXPECT_EQ(mark_best(input, {}).marks[0], Mark::none);
+  EXPECT_NE(mark_best(input, {}).why_none, "");
 }
 
 std::vector<Table> marked() {

@@ -23,9 +23,9 @@
     const host = document.getElementById("detection-curve");
     host.replaceChildren();
     const points = first.map((k) => ({ x: Number(k.axis), y: valueOf(k.place) })).filter((p) => Number.isFinite(p.y));
-    const said = ["revisits", "closures", "false_poses", "average_precision", "full_precision_recall"]
+    const summary = ["revisits", "closures", "false_poses", "average_precision", "full_precision_recall"]
       .map((name) => `${name.replaceAll("_", " ")} ${R.number(valueOf(placeOf(name)))}`).join(", ");
-    R.caption(host, `Loop detection: ${R.scores.sequences[R.state.sequence]}`, points.length ? said : "");
+    R.caption(host, `Loop detection: ${R.scores.sequences[R.state.sequence]}`, points.length ? summary : "");
     if (!points.length) return R.nothing(host, "This sequence has no loop candidates or no loops.");
     const reached = points.filter((p) => p.y > 0);
     const accepted = { x: valueOf(placeOf("recall")), y: valueOf(placeOf("precision")) };

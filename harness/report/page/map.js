@@ -70,7 +70,7 @@
           const loop = group.append("g").attr("class", "loop");
           loop.append("line").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
           for (const [cx, cy] of [[x1, y1], [x2, y2]]) loop.append("circle").attr("cx", cx).attr("cy", cy).attr("r", 3);
-          loop.append("title").text("loop closure: the same place");
+          loop.append("title").text("loop closure: revisited place");
         }
       },
     });
