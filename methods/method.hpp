@@ -1,9 +1,9 @@
 /// Interfaces of correctors, smoothers and joint methods, and the registry entry of a method.
 ///
 /// A Corrector adjusts keyframe poses using loop closures. A Smoother fits a curve to the keyframes
-/// and cannot remove drift. A Method does both jointly. A corrector and a smoother can be composed
-/// (pipeline.hpp). All functions are const and pure: the same problem gives bit-identical results
-/// on any thread.
+/// and cannot remove drift. A Method does both: a joint method, or the composition of a corrector
+/// and a smoother (pipeline.hpp). All functions are const and pure: the same problem gives
+/// bit-identical results on any thread.
 #pragma once
 
 #include <functional>
@@ -44,7 +44,7 @@ class Smoother {
   virtual std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const = 0;
 };
 
-/// Joint method: computes a curve directly from a problem.
+/// From a problem to a curve. What derives from it in the catalogue is a joint method.
 class Method {
  public:
   virtual ~Method() = default;
@@ -58,16 +58,16 @@ using Stage = std::variant<std::unique_ptr<const Corrector>,
                            std::unique_ptr<const Smoother>,
                            std::unique_ptr<const Method>>;
 
-enum class Kind { corrector, smoother, method };
+enum class Kind { corrector, smoother, joint };
 inline auto choices(Kind) {
   return std::array{std::pair{"corrector", Kind::corrector},
                     std::pair{"smoother", Kind::smoother},
-                    std::pair{"method", Kind::method}};
+                    std::pair{"joint", Kind::joint}};
 }
 
 struct MethodEntry {
   std::string name;
-  Kind kind = Kind::method;
+  Kind kind = Kind::joint;
   std::string summary;
   std::vector<OptionInfo> options;
   std::function<Stage(const Params&)> make;  ///< throws OptionError
@@ -83,7 +83,7 @@ MethodEntry method(std::string name, std::string summary, typename T::Options de
   return {std::move(name),
           is_corrector  ? Kind::corrector
           : is_smoother ? Kind::smoother
-                        : Kind::method,
+                        : Kind::joint,
           std::move(summary),
           describe(defaults),
           [defaults](const Params& given) -> Stage {

@@ -48,16 +48,19 @@ TEST_F(GateCli, PassesTheSameSweepRunAgain) {
 
 TEST_F(GateCli, NamesAMethodThatIsAnotherUnderItsLabel) {
   sweep("paper_oracle");
-  EXPECT_NE(refused().find("another method 'mine'"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("defines the method 'mine' differently"), std::string::npos)
+      << refused();
   sweep("uniform, rotation: none");
   EXPECT_NE(refused().find("these results have 'rotation=none'"), std::string::npos) << refused();
 }
 
 TEST_F(GateCli, NamesAMetricThatIsAnotherUnderItsLabel) {
   sweep("uniform", "rpe, delta: 10");
-  EXPECT_NE(refused().find("another metric 'motion'"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("defines the metric 'motion' differently"), std::string::npos)
+      << refused();
   sweep("uniform", "ape");
-  EXPECT_NE(refused().find("another metric 'motion'"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("defines the metric 'motion' differently"), std::string::npos)
+      << refused();
 }
 
 TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {

@@ -73,7 +73,7 @@ TEST(PlantedRegression, OneMethodALittleWorseInOneScore) {
 TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
   expect_named(
       caught_definition([](Snapshot& now) { now.metrics["rpe"] = "rpe, delta=10.0, unit=frames"; }),
-      {"another metric 'rpe'", "delta=1.0", "delta=10.0"});
+      {"defines the metric 'rpe' differently", "delta=1.0", "delta=10.0"});
   expect_named(caught_records([](Record& r) {
                  if (r.label == "ate") r.metric = "ape";
                }),
@@ -82,7 +82,7 @@ TEST(PlantedRegression, AMetricRedefinedUnderItsLabel) {
 
 TEST(PlantedRegression, AnHonestMethodReplacedByAnOracleUnderItsLabel) {
   expect_named(caught_definition([](Snapshot& now) { now.methods["uniform"] = "paper_oracle"; }),
-               {"another method 'uniform'", "'paper_oracle'"});
+               {"defines the method 'uniform' differently", "'paper_oracle'"});
   expect_named(caught_records([](Record& r) { r.oracle = r.method == "uniform"; }),
                {"room / uniform", "oracle: the method or its data uses the reference, was not"});
 }
@@ -91,7 +91,7 @@ TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
   expect_named(caught_definition([](Snapshot& now) {
                  now.methods["uniform"] = "uniform, rotation=none, weights=time";
                }),
-               {"another method 'uniform'", "'rotation=slerp'", "'rotation=none'"});
+               {"defines the method 'uniform' differently", "'rotation=slerp'", "'rotation=none'"});
 }
 
 TEST(PlantedRegression, AnIncompleteCellWithAThousandTimesTheError) {
@@ -163,14 +163,14 @@ TEST(PlantedRegression, AChangedProtocol) {
   expect_named(caught_definition([](Snapshot& now) {
                  now.protocols["loopbench [2]"] = "align=sim3, max_diff=0.02";
                }),
-               {"another protocol 'loopbench [2]'", "'align=se3'", "'align=sim3'"});
+               {"defines the protocol 'loopbench [2]' differently", "'align=se3'", "'align=sim3'"});
 }
 
 TEST(PlantedRegression, OtherContentOfTheDataset) {
   expect_named(caught_definition([](Snapshot& now) {
                  now.sequences["room"] = "simulated: path=room, seed=1; a.txt 3 cafe";
                }),
-               {"another sequence 'room'", "a.txt 3 beef", "a.txt 3 cafe"});
+               {"defines the sequence 'room' differently", "a.txt 3 beef", "a.txt 3 cafe"});
   std::vector<Record> now = records();
   Baseline hashed = baseline();
   hashed.snapshot.contents = {{"room", "beef"}};

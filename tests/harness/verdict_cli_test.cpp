@@ -79,7 +79,7 @@ TEST_F(VerdictCli, CompareRefusesByName) {
             "loopbench: --metric: no metric is named 'aet'; did you mean 'ate'?\n");
   EXPECT_TRUE(has(refusal("r --value rms"), "did you mean 'rmse'?"));
   EXPECT_TRUE(has(refusal("r --where metrc=ate"), "did you mean 'metric'?"));
-  EXPECT_TRUE(has(refusal("r --where sequence=nowhere"), "no score is left"));
+  EXPECT_TRUE(has(refusal("r --where sequence=nowhere"), "no score to compare"));
   EXPECT_TRUE(has(refusal("nowhere"), "nowhere: file not found"));
   EXPECT_TRUE(has(refusal("c.yaml"), "c.yaml: "));
   refusal("r --alpha 2");

@@ -28,7 +28,12 @@ struct JudgedCell {
                             times,
                             protocol,
                             tracked_stamps(problem))) {
-    evaluation.context = {&reference, &at_keyframes, &problem, curve.get(), times, protocol};
+    evaluation.context = {.reference = &reference,
+                          .estimate = &at_keyframes,
+                          .problem = &problem,
+                          .curve = curve.get(),
+                          .times = times,
+                          .protocol = protocol};
   }
   JudgedCell(const JudgedCell&) = delete;
 

@@ -35,7 +35,7 @@ TEST(LoadPlugin, BringsItsMethodsInOrder) {
   EXPECT_EQ(entries[0].name, "half_way");
   EXPECT_EQ(entries[0].kind, Kind::corrector);
   EXPECT_EQ(entries[1].kind, Kind::smoother);
-  EXPECT_EQ(entries[2].kind, Kind::method);
+  EXPECT_EQ(entries[2].kind, Kind::joint);
   ASSERT_EQ(entries[0].options.size(), 1u);
   EXPECT_EQ(entries[0].options[0].name, "share");
   EXPECT_EQ(entries[0].options[0].rule, "0 <= share <= 1");

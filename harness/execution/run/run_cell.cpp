@@ -17,6 +17,20 @@
 namespace loopbench::harness {
 namespace {
 
+metrics::Context context_of(const Sequence& sequence,
+                            const Trajectory& at_keyframes,
+                            const Curve& curve,
+                            metrics::Times times,
+                            const metrics::Protocol& protocol) {
+  return {.reference = &sequence.reference,
+          .estimate = &at_keyframes,
+          .problem = &sequence.problem,
+          .curve = &curve,
+          .times = times,
+          .protocol = protocol,
+          .loop_candidates = &sequence.loop_candidates};
+}
+
 using Clock = std::chrono::steady_clock;
 
 /// Runs `work` and converts any exception to a status with its message: declined for Undefined
@@ -117,14 +131,7 @@ void judge(CellResult& result,
   catch_errors(none, [&] {
     metrics::Evaluation evaluation =
         metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
-    evaluation.context = {&sequence.reference,
-                          &at_keyframes,
-                          &sequence.problem,
-                          &curve,
-                          row.times,
-                          protocol,
-                          nullptr,
-                          &sequence.loop_candidates};
+    evaluation.context = context_of(sequence, at_keyframes, curve, row.times, protocol);
     ScoreResult usual = row;
     usual.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
     if (!usual.why.empty()) {
@@ -159,14 +166,8 @@ void judge_without_reference(CellResult& result,
   for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
     metrics::Evaluation evaluation;
     evaluation.protocol = sweep.protocols[p].rules;
-    evaluation.context = {&sequence.reference,
-                          &at_keyframes,
-                          &sequence.problem,
-                          &curve,
-                          metrics::Times::keyframes,
-                          evaluation.protocol,
-                          nullptr,
-                          &sequence.loop_candidates};
+    evaluation.context =
+        context_of(sequence, at_keyframes, curve, metrics::Times::keyframes, evaluation.protocol);
     const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
