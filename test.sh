@@ -1,18 +1,33 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, all tests
-# ./test.sh all        also all tests under ASan and UBSan, threaded code under TSan
-# ./test.sh PRESET...  only these (release, debug, tsan, clang)
+# ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
+# ./test.sh NAME...    only these (lint, or a preset: release, debug, tsan, clang)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 (($#)) || set -- release
-[[ $* == all ]] && set -- tsan debug release
+[[ $* == all ]] && set -- lint tsan debug release
 install_missing "${packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" clang "* ]] && install_missing clang-14
+
+# clang-format for all files; clang-tidy for the product, each library as one source.
+lint() {
+  install_missing clang-format clang-tidy
+  find datasets methods metrics harness tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
+  cmake --preset lint >/dev/null
+  find build/lint/CMakeFiles -path '*/Unity/*.cxx' -print0 |
+    xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option \
+      --extra-arg=-Wno-shadow 2>/dev/null
+}
 
 counts=()
 for preset in "$@"; do
   echo "== $preset"
+  if [[ $preset == lint ]]; then
+    lint
+    counts+=("lint: clean")
+    continue
+  fi
   cmake --preset "$preset" -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   cmake --build --preset "$preset"
   ctest --preset "$preset"

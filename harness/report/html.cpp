@@ -70,7 +70,7 @@ std::string html_text(std::string_view text) {
   return out;
 }
 
-std::string script_text(std::string json) {
+std::string script_text(const std::string& json) {
   std::string out;
   out.reserve(json.size());
   for (const char c : json) {

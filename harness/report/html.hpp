@@ -13,7 +13,7 @@ namespace loopbench::harness {
 std::string html_text(std::string_view text);
 
 /// JSON for a <script> element, with every `<` escaped, so that no content can end the element.
-std::string script_text(std::string json);
+std::string script_text(const std::string& json);
 
 /// A table with its caption and a list of notes. `attributes` is inserted into the figure's tag.
 std::string html_table(const TableView& table_view, const std::string& attributes = "");

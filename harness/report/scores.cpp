@@ -10,11 +10,11 @@
 namespace loopbench::harness {
 namespace {
 
-std::string text(const nlohmann::json& json) {
+std::string json_text(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string number(double value) {
+std::string json_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.5g}", value) : "null";
 }
 
@@ -73,27 +73,30 @@ std::string scores_json(const ReportContent& content) {
         continue;
       }
       const metrics::Statistics& s = found->second->statistics;
-      values += fmt::format(
-          "[{},{},{},{}]", number(s.rmse), number(s.mean), number(s.median), number(s.max));
+      values += fmt::format("[{},{},{},{}]",
+                            json_number(s.rmse),
+                            json_number(s.mean),
+                            json_number(s.median),
+                            json_number(s.max));
     }
     cells += fmt::format("{}{{\"s\":{},\"m\":{},\"n\":{},\"st\":{},\"ms\":{},\"v\":[{}]}}",
                          cells.empty() ? "" : ",\n",
                          sequence.at(cell.sequence),
                          m,
                          cell.repeat,
-                         text(cell.status),
-                         number(1e3 * cell.seconds),
+                         json_text(cell.status),
+                         json_number(1e3 * cell.seconds),
                          values);
   }
   const auto baseline = content.run.find("baseline");
   return fmt::format(
       "{{\"methods\":{},\"oracle\":{},\"sequences\":{},\"baseline\":{},"
       "\"statistics\":[\"rmse\",\"mean\",\"median\",\"max\"],\"kinds\":{},\"cells\":[{}]}}",
-      text(content.methods),
-      text(oracle),
-      text(content.sequences),
-      text(baseline == content.run.end() ? "" : baseline->second),
-      text(kinds),
+      json_text(content.methods),
+      json_text(oracle),
+      json_text(content.sequences),
+      json_text(baseline == content.run.end() ? "" : baseline->second),
+      json_text(kinds),
       cells);
 }
 

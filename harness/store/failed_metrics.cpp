@@ -8,7 +8,7 @@ namespace loopbench::harness {
 namespace {
 
 using MetricKey = std::tuple<std::string, std::string, std::string, std::string>;
-using Run = std::pair<std::string, std::int64_t>;
+using RunKey = std::pair<std::string, std::int64_t>;
 
 MetricKey metric_key(const Record& r) { return {r.protocol, r.times, r.metric, metric_label(r)}; }
 
@@ -32,7 +32,7 @@ void add(Scores& scores, const Record& r) {
 void expand_failed_metrics(std::vector<Record>& records) {
   if (std::ranges::none_of(records, is_failed_metric)) return;
   std::map<MetricKey, Scores> anywhere;
-  std::map<std::pair<MetricKey, Run>, Scores> on_run;
+  std::map<std::pair<MetricKey, RunKey>, Scores> on_run;
   for (const Record& r : records) {
     if (r.metric.empty() || r.relation.empty()) continue;
     add(anywhere[metric_key(r)], r);

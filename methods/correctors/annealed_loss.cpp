@@ -39,7 +39,11 @@ double anneal(const std::vector<Edge>& closures,
   constexpr double kOtherMinimum = 1e-6;  // relative cost difference that indicates another minimum
   std::vector<ScaledPose> annealed = poses;
   const bool is_lower = solve(settings).cost < direct.cost * (1.0 - kOtherMinimum);
-  poses = is_lower ? std::move(annealed) : start;
+  if (is_lower) {
+    poses = std::move(annealed);
+  } else {
+    poses = start;
+  }
   return direct.cost_before;
 }
 

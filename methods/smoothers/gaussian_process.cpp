@@ -130,16 +130,16 @@ std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Rep
     return interval > kLongest * median || interval < kShortest * median;
   });
   const std::size_t lowest = min_keyframes();
-  return smooth_segments(keyframes,
-                         segments,
-                         "intervals above 50 or below 0.05 times the median",
-                         report,
-                         [&](Trajectory part, Report& part_report) -> std::unique_ptr<const Curve> {
-                           if (part.size() < lowest) return std::make_unique<Polyline>(part);
-                           if (options_.prior == Prior::velocity)
-                             return smooth_with<2>(part, part_report);
-                           return smooth_with<3>(part, part_report);
-                         });
+  return smooth_segments(
+      keyframes,
+      segments,
+      "intervals above 50 or below 0.05 times the median",
+      report,
+      [&](const Trajectory& part, Report& part_report) -> std::unique_ptr<const Curve> {
+        if (part.size() < lowest) return std::make_unique<Polyline>(part);
+        if (options_.prior == Prior::velocity) return smooth_with<2>(part, part_report);
+        return smooth_with<3>(part, part_report);
+      });
 }
 
 }  // namespace loopbench::methods

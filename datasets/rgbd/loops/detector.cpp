@@ -43,7 +43,7 @@ DetectedLoops detect_loops(const TrackingResult& tracked,
                          hardware_threads(),
                          4 * hardware_threads(),
                          best_of,
-                         [&](std::size_t k, Best best) {
+                         [&](std::size_t k, const Best& best) {
                            progress(k + 1, keyframes.size());
                            out.seconds += best.seconds;
                            if (best.score < 0.0) return;

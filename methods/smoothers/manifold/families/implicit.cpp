@@ -30,7 +30,7 @@ Monomials monomials(int order, const Vector2& u) {
 using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxParameters, kMaxParameters>;
 
-Parameters taubin(const Square& values, Square gradients) {
+Parameters taubin(const Square& values, const Square& gradients) {
   // Largest eigenvalue of gradients relative to values: in this order the zero row of the constant
   // term in `gradients` is harmless, and a small regularisation keeps exact fits nonsingular.
   const Eigen::Index terms = values.rows();
