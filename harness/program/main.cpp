@@ -79,6 +79,7 @@ int run(CLI::App& app,
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): what is outside run() throws only without memory
 int main(int argc, char** argv) {
   set_allocation_counter(counted_malloc());
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
