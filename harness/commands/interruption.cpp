@@ -14,6 +14,7 @@ void note_interruption(int) { interruption = true; }
 const std::atomic<bool>& install_interrupt_handler() {
   std::signal(SIGINT, note_interruption);
   std::signal(SIGTERM, note_interruption);
+  std::signal(SIGHUP, note_interruption);
   return interruption;
 }
 

@@ -4,7 +4,7 @@
 
 namespace loopbench::harness {
 
-/// Installs handlers for SIGINT and SIGTERM that only set the returned flag, which has static
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP that only set the returned flag, which has static
 /// lifetime.
 const std::atomic<bool>& install_interrupt_handler();
 

@@ -223,7 +223,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->check(CLI::IsMember({"none", "failed", "damaged", "all"}))
       ->capture_default_str();
   command->add_flag(
-      "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous.sqlite");
+      "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
   command->callback([arguments, source, &exit_code] { exit_code = run(*arguments, source); });
 }
 

@@ -93,7 +93,7 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
   if (!is_intact(out)) {
     throw InputError(
         file.string() +
-        ": is damaged and cannot be repaired; --fresh keeps it as previous.sqlite and starts "
+        ": is damaged and cannot be repaired; --fresh keeps it as previous-N.sqlite and starts "
         "a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
@@ -117,7 +117,7 @@ void require_intact_texts(Database& database,
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
   throw InputError(file.string() + ": is damaged: its table " + table +
                    " is corrupted; run 'loopbench run' with its config and '--fresh', which "
-                   "keeps this store as previous.sqlite");
+                   "keeps this store as previous-N.sqlite");
 }
 
 }  // namespace loopbench::harness

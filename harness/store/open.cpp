@@ -21,7 +21,7 @@ void check_schema(Database& database, const std::filesystem::path& file) {
   const bool older = found > 0 && found < kSchemaVersion;
   throw InputError(file.string() + ": is not a store of results of this version (schema " +
                    std::to_string(found) + ", expected " + std::to_string(kSchemaVersion) + ")" +
-                   (older ? "; run its config again: --fresh keeps it as previous.sqlite" : ""));
+                   (older ? "; run its config again: --fresh keeps it as previous-N.sqlite" : ""));
 }
 
 Database open_store(const std::filesystem::path& given) {

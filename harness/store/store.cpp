@@ -18,13 +18,35 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
+/// previous-1.sqlite, or the next number that is free.
+std::filesystem::path next_previous(const std::filesystem::path& folder) {
+  for (int number = 1;; ++number) {
+    const std::filesystem::path file = folder / fmt::format("previous-{}.sqlite", number);
+    if (!std::filesystem::exists(file)) return file;
+  }
+}
+
+/// Moves the log of a killed process into the file, so that one rename keeps all of its cells.
+void include_log(const std::filesystem::path& file) {
+  try {
+    Database(file, Database::Mode::create).execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  } catch (const InputError&) {
+    // Damaged: the log is kept next to the file.
+  }
+}
+
 void set_aside(const std::filesystem::path& file) {
   try {
+    const std::filesystem::path previous = next_previous(file.parent_path());
     if (std::filesystem::exists(file)) {
-      std::filesystem::rename(file, file.parent_path() / "previous.sqlite");
+      include_log(file);
+      std::filesystem::rename(file, previous);
     }
-    // Log files left by a killed process belong to the moved file and would corrupt the new one.
-    for (const char* tail : {"-wal", "-shm"}) std::filesystem::remove(file.string() + tail);
+    // A log that is left belongs to the moved file and would corrupt the new one.
+    for (const char* tail : {"-wal", "-shm"}) {
+      const std::filesystem::path log = file.string() + tail;
+      if (std::filesystem::exists(log)) std::filesystem::rename(log, previous.string() + tail);
+    }
   } catch (const std::filesystem::filesystem_error& error) {
     throw InputError(file.string() + ": cannot be written: " + error.code().message());
   }
@@ -46,12 +68,12 @@ void check_size(Database& database, const std::filesystem::path& file) {
   const std::int64_t whole = pages.step() ? pages.integer() : 0;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size >= whole) return;
-  throw InputError(
-      fmt::format("{}: is damaged ({} bytes of {}); --fresh keeps it as previous.sqlite and starts "
-                  "a new store",
-                  file.string(),
-                  size,
-                  whole));
+  throw InputError(fmt::format(
+      "{}: is damaged ({} bytes of {}); --fresh keeps it as previous-N.sqlite and starts "
+      "a new store",
+      file.string(),
+      size,
+      whole));
 }
 
 /// Whether the process was killed between creating the file and its tables.

@@ -45,7 +45,7 @@ struct Resumed {
 class Store {
  public:
   /// Locks the folder if it exists. Opens an existing store; with `fresh` keeps it as
-  /// `previous.sqlite` next to a new one. Writes nothing before resume() or write(). Throws
+  /// `previous-N.sqlite` next to a new one. Writes nothing before resume() or write(). Throws
   /// InputError if another sweep is writing, or the file is not a store, has another schema, or is
   /// damaged.
   Store(std::filesystem::path file,

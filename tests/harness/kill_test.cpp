@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "harness/store/sqlite.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"
 
@@ -38,7 +39,8 @@ class Ended : public testing::Test {
  protected:
   CommandResult run(const std::string& arguments) { return loopbench_command(arguments, folder_); }
 
-  /// `loopbench run c.yaml --out OUT` in the folder; the process, not a shell around it.
+  /// `loopbench run c.yaml --out OUT` in the folder; the process, not a shell around it, and the
+  /// leader of a process group.
   pid_t start(const std::string& out) {
     const std::string config = (folder_.path() / "c.yaml").string();
     const std::string target = (folder_.path() / out).string();
@@ -50,7 +52,11 @@ class Ended : public testing::Test {
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
     pid_t process = -1;
-    posix_spawn(&process, LOOPBENCH_BINARY, &files, nullptr, arguments.data(), environ);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawn(&process, LOOPBENCH_BINARY, &files, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return process;
   }
@@ -161,7 +167,46 @@ TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
   EXPECT_EQ(third.out.substr(0, 2000), again.out.substr(0, 2000)) << "the tables as they were";
   const CommandResult fresh = run("run c.yaml --out k --fresh");
   EXPECT_EQ(fresh.out.find("before"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "k/previous.sqlite"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "k/previous-1.sqlite"));
+}
+
+TEST_F(Ended, SignalsToTheProcessGroupFailNoCell) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(wait(start("whole")), 0);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    for (const int milliseconds : {20, 60, 120}) {
+      const pid_t sweep = start("k");
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      ::kill(-sweep, signal);
+      const int code = wait(sweep);
+      EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
+    }
+  }
+  ASSERT_EQ(wait(start("k")), 0);
+  EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
+}
+
+TEST_F(Ended, AFreshSweepKeepsEveryCellOfAKilledOne) {
+  folder_.file("c.yaml", kConfig);
+  ASSERT_EQ(run("run c.yaml --out k").exit_code, 0);
+  // As a kill leaves it: the last transaction is only in the log.
+  const std::filesystem::path file = store("k");
+  const pid_t child = fork();
+  if (child == 0) {
+    Database database(file, Database::Mode::create);
+    database.execute("PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0;");
+    database.execute("UPDATE cell SET why = 'in the log'");
+    raise(SIGKILL);
+  }
+  ASSERT_EQ(wait(child), 128 + SIGKILL);
+  ASSERT_TRUE(std::filesystem::exists(file.string() + "-wal"));
+  ASSERT_EQ(run("run c.yaml --out k --fresh").exit_code, 0);
+  const std::filesystem::path previous = folder_.path() / "k/previous-1.sqlite";
+  EXPECT_FALSE(std::filesystem::exists(previous.string() + "-wal")) << "one file holds all";
+  Database kept(previous, Database::Mode::read);
+  Statement count = kept.prepare("SELECT count(*) FROM cell WHERE why = 'in the log'");
+  ASSERT_TRUE(count.step());
+  EXPECT_EQ(count.integer(), 48);
 }
 
 TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {

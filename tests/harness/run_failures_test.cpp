@@ -45,9 +45,22 @@ void fields(GappySmoother::Options& o, Visit visit) {
   visit("bad", o.bad, "time without a finite pose [s]");
 }
 
+/// A polyline with a section whose end is not a number.
+struct BadSection final : Smoother {
+  struct Options {};
+  explicit BadSection(const Options&) {}
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
+    report.sections = {{"window", 0.0, 1.0, ""}, {"window", 1.0, std::nan(""), ""}};
+    return std::make_unique<Polyline>(problem.keyframes);
+  }
+};
+template <class Visit>
+void fields(BadSection::Options&, Visit) {}
+
 class RunFailures : public TinyStore {
  protected:
   RunFailures() {
+    known_.methods.push_back(method<BadSection>("bad_section", "reports a section without end"));
     known_.methods.push_back(method<GappySmoother>("gappy", "is not finite at one time"));
     known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
       Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
@@ -83,6 +96,13 @@ TEST_F(RunFailures, OutputThatIsNotFiniteBetweenKeyframesFailsTheCell) {
   const std::vector<Record> unseen = records_of(method, "metrics: [ate]\ntimes: keyframes\n");
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_EQ(unseen[0].status, "ok") << "nobody looks between";
+}
+
+TEST_F(RunFailures, ASectionThatIsNotFiniteFailsItsCellAndNotTheSweep) {
+  const std::vector<Record> records = records_of("bad_section");
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_EQ(records[0].status, "failed");
+  EXPECT_EQ(records[0].why, "section 2 ('window') is from 1.0 to nan s, expected finite stamps");
 }
 
 TEST_F(RunFailures, AFailedMetricFailsTheScoresThatItGivesElsewhereAndNoOther) {

@@ -188,8 +188,11 @@ TEST_F(RunSweep, StopLeavesWholeCellsOnly) {
 TEST_F(RunSweep, AStoreKeepsTheOneBefore) {
   run(1);
   run(1);
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "1" / "previous.sqlite"));
-  EXPECT_EQ(read_records(folder_.path() / "1" / "previous.sqlite").size(), 54u);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "1" / "previous-1.sqlite"));
+  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-1.sqlite").size(), 54u);
+  run(1);
+  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-1.sqlite").size(), 54u);
+  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-2.sqlite").size(), 54u);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "1" / "results.sqlite-wal"));
 }
 

@@ -204,7 +204,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
   std::ofstream(file_, std::ios::binary)
       .flush();  // killed between creating the file and its tables
   EXPECT_EQ(run(kUsual).cells.size(), 4u);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "previous.sqlite"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "previous-1.sqlite"));
 }
 
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {

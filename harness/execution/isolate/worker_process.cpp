@@ -69,8 +69,9 @@ WorkerProcess::~WorkerProcess() {
 void WorkerProcess::run_child(const WorkerContext& context, int pinned, int socket, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // the parent has died in the meantime
-  std::signal(SIGINT, SIG_IGN);       // the sweep handles interrupts
-  std::signal(SIGTERM, SIG_DFL);
+  // The sweep handles signals to the process group; a worker that ended by one would look like a
+  // crashed cell. Handlers, because programs that a method starts would inherit ignored signals.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) {});
   // Close the sweep's files: the store, its lock and the other workers' sockets.
   constexpr int kSocket = 3;
   if (socket != kSocket) dup2(socket, kSocket);

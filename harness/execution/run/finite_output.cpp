@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -38,6 +39,22 @@ void require_finite(const Curve& curve, const Sequence& sequence, const Sweep& s
     }
     require_finite_at(curve, times, "reference stamps");
   }
+}
+
+void require_finite_sections(methods::Report& report) {
+  const auto is_bad = [](const methods::Section& section) {
+    return !std::isfinite(section.begin) || !std::isfinite(section.end);
+  };
+  const auto first = std::ranges::find_if(report.sections, is_bad);
+  if (first == report.sections.end()) return;
+  const std::string why =
+      fmt::format("section {} ('{}') is from {} to {} s, expected finite stamps",
+                  first - report.sections.begin() + 1,
+                  first->kind,
+                  to_text(first->begin),
+                  to_text(first->end));
+  report.sections.clear();
+  throw std::runtime_error(why);
 }
 
 }  // namespace loopbench::harness

@@ -216,6 +216,7 @@ CellResult run_cell(const Cell& cell,
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     require_finite(*curve, sequence, sweep);
+    require_finite_sections(result.report);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
       judge_without_reference(result, sweep, sequence, *curve, catalogue);
