@@ -239,18 +239,22 @@ class BaselineReader {
 
 namespace {
 
+/// The reason in "[json.exception...] parse error at ...: the reason".
+std::string reason_of(const Json::exception& error) {
+  const std::string what = error.what();
+  const std::size_t reason = what.find(": ");
+  return reason == std::string::npos ? what : what.substr(reason + 2);
+}
+
 Json parsed(const std::string& text, const std::string& file) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
-    const std::string what = error.what();  // "[json.exception...] parse error at ...: the reason"
-    const std::size_t reason = what.find(": ");
-    throw input_error(
-        file,
-        line,
-        "is not JSON: " + (reason == std::string::npos ? what : what.substr(reason + 2)));
+    throw input_error(file, line, "is not JSON: " + reason_of(error));
+  } catch (const Json::exception& error) {  // such as a number beyond the largest double
+    throw InputError(file + ": is not a baseline: " + reason_of(error));
   }
 }
 

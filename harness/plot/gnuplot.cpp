@@ -15,9 +15,10 @@
 namespace loopbench::harness {
 namespace {
 
-/// Single-quoted gnuplot string: quotes are doubled; line breaks are not possible in it.
+/// Single-quoted gnuplot string: quotes are doubled; line breaks are not possible in it. gnuplot
+/// rejects a string that begins with a quote, so a space precedes it.
 std::string gnuplot_quoted(const std::string& text) {
-  std::string out = "'";
+  std::string out = text.starts_with('\'') ? "' " : "'";
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
 }
