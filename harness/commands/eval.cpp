@@ -6,7 +6,7 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
-#include "harness/eval/judge_files.hpp"
+#include "harness/eval/evaluate_files.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -17,7 +17,7 @@ int eval(const EvalArguments& a) {
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }
-  std::vector<EvaluationResult> all = judge_files(a);
+  std::vector<EvaluationResult> all = evaluate_files(a);
   if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   if (a.json) {

@@ -24,7 +24,7 @@ struct ListArguments {
 
 struct Item {
   std::string name;
-  std::string kind;  ///< corrector, smoother, method; a protocol's version; otherwise empty
+  std::string kind;  ///< corrector, smoother, joint; a protocol's version; otherwise empty
   std::string summary;
   std::vector<OptionInfo> options;
   bool is_oracle = false;  ///< a method with access to the reference
@@ -107,24 +107,40 @@ std::string renamed_names() {
   return out;
 }
 
+struct ItemList {
+  std::string subject;
+  std::vector<Item> items;
+};
+
+/// All lists, one of them, or the entries of that name.
+std::vector<ItemList> wanted_lists(const Catalogue& known, const std::string& wanted) {
+  const bool is_name = !wanted.empty() && std::ranges::count(kSubjects, wanted) == 0;
+  std::vector<ItemList> out;
+  std::vector<std::string> names = kSubjects;
+  for (const std::string& subject : kSubjects) {
+    ItemList one{subject, items(known, subject)};
+    for (const Item& item : one.items) names.push_back(item.name);
+    if (is_name) std::erase_if(one.items, [&](const Item& item) { return item.name != wanted; });
+    if (is_name ? !one.items.empty() : wanted.empty() || wanted == subject) out.push_back(one);
+  }
+  if (!out.empty()) return out;
+  const bool is_close = !closest(wanted, names).empty();
+  throw InputError(unknown_name("list or entry", wanted, is_close ? names : kSubjects));
+}
+
 int list(const ListArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
-  if (!arguments.subject.empty() &&
-      std::find(kSubjects.begin(), kSubjects.end(), arguments.subject) == kSubjects.end()) {
-    throw InputError(unknown_name("list", arguments.subject, kSubjects));
-  }
   Json json;
-  for (const std::string& subject : kSubjects) {
-    if (!arguments.subject.empty() && arguments.subject != subject) continue;
+  for (const ItemList& one : wanted_lists(known, arguments.subject)) {
     if (arguments.json) {
-      json[subject] = Json::array();
-      for (const Item& item : items(known, subject)) {
-        json[subject].push_back(to_json(item, subject == "protocols"));
+      json[one.subject] = Json::array();
+      for (const Item& item : one.items) {
+        json[one.subject].push_back(to_json(item, one.subject == "protocols"));
       }
       continue;
     }
-    if (arguments.subject.empty()) fmt::print("== {} ==\n", subject);
-    print(subject, items(known, subject));
+    if (arguments.subject.empty()) fmt::print("== {} ==\n", one.subject);
+    print(one.subject, one.items);
     if (arguments.subject.empty()) fmt::print("\n");
   }
   if (arguments.json) fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
@@ -137,7 +153,9 @@ void add_list(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ListArguments>();
   CLI::App* command =
       app.add_subcommand("list", "List datasets, methods, metrics or protocols with their options");
-  command->add_option("subject", arguments->subject, "datasets, methods, metrics or protocols");
+  command->add_option("subject",
+                      arguments->subject,
+                      "datasets, methods, metrics, protocols, or the name of one entry");
   command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print JSON");

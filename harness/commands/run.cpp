@@ -66,7 +66,7 @@ int report_bad_inputs(const std::vector<std::string>& reasons) {
   return kExitBadInput;
 }
 
-/// Whether the method failed or a metric is undefined on its result.
+/// Whether the method or a metric failed.
 bool has_failure(const CellResult& result) {
   return is_failure(result.status) ||
          std::ranges::any_of(result.scores,

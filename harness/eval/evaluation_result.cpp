@@ -73,10 +73,10 @@ std::string why_not_ok(const EvaluationResult& j) {
   return has_no_number(j) ? "none of the requested metrics is defined" : j.incomplete_reason;
 }
 
-EvaluationResult judge(const Trajectory& reference,
-                       const Trajectory& estimate,
-                       const metrics::NamedProtocol& protocol,
-                       const EvaluationOptions& options) {
+EvaluationResult evaluate_estimate(const Trajectory& reference,
+                                   const Trajectory& estimate,
+                                   const metrics::NamedProtocol& protocol,
+                                   const EvaluationOptions& options) {
   metrics::Evaluation evaluation = metrics::evaluate(reference, estimate, protocol.rules);
   evaluation.context = {.reference = &reference,
                         .estimate = &estimate,

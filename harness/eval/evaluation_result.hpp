@@ -65,10 +65,10 @@ std::string why_not_ok(const EvaluationResult& result);
 
 /// Uses the coverage limits of sweeps. Undefined metrics are recorded with the reason. Throws
 /// std::runtime_error if nothing can be evaluated.
-EvaluationResult judge(const Trajectory& reference,
-                       const Trajectory& estimate,
-                       const metrics::NamedProtocol& protocol,
-                       const EvaluationOptions& options);
+EvaluationResult evaluate_estimate(const Trajectory& reference,
+                                   const Trajectory& estimate,
+                                   const metrics::NamedProtocol& protocol,
+                                   const EvaluationOptions& options);
 
 /// Marks an evaluation as incomplete if its coverage is less than half of that of another estimate
 /// with the same reference and protocol, by the smaller of both shares.

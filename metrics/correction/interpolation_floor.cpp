@@ -41,7 +41,10 @@ struct Floor {
 };
 
 /// Evaluates one run of keyframes; `next` is the first reference pose after all earlier runs.
-void judge(Floor& floor, const Trajectory& nodes, const Trajectory& reference, std::size_t& next) {
+void add_run(Floor& floor,
+             const Trajectory& nodes,
+             const Trajectory& reference,
+             std::size_t& next) {
   if (nodes.size() < 2) return;
   std::vector<Vector3> points;
   for (const StampedPose& node : nodes) points.push_back(node.world_from_body.translation);
@@ -76,7 +79,7 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
   Floor floor;
   std::size_t next = 0;
   for (const Trajectory& nodes : stretches(reference, keyframe_stamps, options.max_gap)) {
-    judge(floor, nodes, reference, next);
+    add_run(floor, nodes, reference, next);
   }
   if (!floor.has_between) {
     throw Undefined("interpolation_floor: the reference has no pose between keyframes");

@@ -48,10 +48,10 @@ void require_attitudes(const Paired& paired, Align align) {
       "first pose does not define a rotation; align by se3, sim3 or none");
 }
 
-Evaluation judge(Paired paired,
-                 std::size_t possible,
-                 const Trajectory& reference,
-                 const Protocol& protocol) {
+Evaluation align_pairs(Paired paired,
+                       std::size_t possible,
+                       const Trajectory& reference,
+                       const Protocol& protocol) {
   require_attitudes(paired, protocol.align);
   Evaluation out;
   out.protocol = protocol;
@@ -95,7 +95,7 @@ Evaluation evaluate(const Trajectory& reference,
         span_text(reference.front().stamp, reference.back().stamp) + "): association " +
         to_text(protocol.association) + " accepts " + limits(protocol));
   }
-  Evaluation out = judge(std::move(paired), estimate.size(), reference, protocol);
+  Evaluation out = align_pairs(std::move(paired), estimate.size(), reference, protocol);
   if (uses_complete_files(protocol.pairs)) out.complete = {reference, estimate};
   return out;
 }
@@ -135,7 +135,7 @@ Evaluation evaluate(const Trajectory& reference,
   }
   paired.estimate = estimate.sample(wanted);
   Trajectory complete = uses_complete_files(protocol.pairs) ? paired.estimate : Trajectory();
-  Evaluation out = judge(std::move(paired), possible, reference, protocol);
+  Evaluation out = align_pairs(std::move(paired), possible, reference, protocol);
   out.coverage.bridged = seconds_in(gaps);
   if (uses_complete_files(protocol.pairs)) out.complete = {reference, std::move(complete)};
   return out;

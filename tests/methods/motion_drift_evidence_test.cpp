@@ -191,7 +191,7 @@ TEST(MotionDriftEvidence, MeanErrorsAverageTheConditionalMeans) {
                    (first + 2.0 * second) / 3.0));
 }
 
-/// One gap of 2 explained by one term with median variance 1 and spread 1.5.
+/// One gap of 2 explained by one term with median variance 1 and dispersion 1.5.
 struct OneGap {
   MotionPrior prior{{{.medians = {{TermKind::noise, Component::translation, Regressor::edge, 1.0}},
                       .loadings = {{{1, 1.5}}}}},

@@ -15,8 +15,8 @@ using namespace metrics;
 
 namespace {
 
+using test::EvaluatedCell;
 using test::find;
-using test::JudgedCell;
 using test::why;
 
 const Protocol kAsIs{.align = Align::none};
@@ -31,10 +31,10 @@ Trajectory line(const std::array<double, 6>& strays) {
   return out;
 }
 
-JudgedCell corrected(Problem problem,
-                     Trajectory keyframes,
-                     const Trajectory& truth,
-                     const Protocol& rules = kAsIs) {
+EvaluatedCell corrected(Problem problem,
+                        Trajectory keyframes,
+                        const Trajectory& truth,
+                        const Protocol& rules = kAsIs) {
   return {truth,
           std::move(problem),
           std::make_unique<Polyline>(std::move(keyframes)),
@@ -45,7 +45,7 @@ JudgedCell corrected(Problem problem,
 TEST(GainAlong, ByHand) {
   Problem problem;
   problem.keyframes = line({0.0, 2.0, 2.0, 4.0, 4.0, 4.0});
-  const JudgedCell cell =
+  const EvaluatedCell cell =
       corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}));
   const auto scores = gain_along(cell.evaluation, {});
   // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; each third of the path has two poses.
@@ -53,7 +53,7 @@ TEST(GainAlong, ByHand) {
       find(scores, "translation", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
   EXPECT_EQ(find(scores, "translation", "3d").count, 6u);
   const Protocol by_mean{.align = Align::none, .statistic = Statistic::mean};
-  const JudgedCell again =
+  const EvaluatedCell again =
       corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}), by_mean);
   const auto means = gain_along(again.evaluation, {});
   EXPECT_NEAR(find(means, "translation", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
@@ -68,7 +68,7 @@ TEST(GainAlong, ByHand) {
 TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
   Problem problem;
   problem.keyframes = line({0, 1, 0, 1, 0, 1});
-  const JudgedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
+  const EvaluatedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
   for (const Score& score : gain_along(cell.evaluation, {})) {
     const bool is_free = score.axis == "x" || score.axis == "z" || score.relation == "angle";
     EXPECT_EQ(score.why_undefined, is_free ? "the error before correction is zero" : "")
@@ -85,7 +85,7 @@ TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
   problem.keyframes = line({0, 0, 0, 1, 0, 0});
   const auto gained = [&](Statistic statistic) {
     const Protocol rules{.align = Align::none, .statistic = statistic};
-    const JudgedCell cell =
+    const EvaluatedCell cell =
         corrected(problem, line({0, 0, 0, 3, 0, 0}), line({0, 0, 0, 0, 0, 0}), rules);
     return gain_along(cell.evaluation, {}).front();
   };
@@ -102,7 +102,7 @@ TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreJudged) {
   const Trajectory truth = test::hand_held_truth();
   const Problem problem = test::drifting(truth, twist({0.002, 0, 0}, {0, 0, 0.003}), {{0, 59}});
   for (const Times times : {Times::keyframes, Times::dense}) {
-    const JudgedCell cell(truth, problem, std::make_unique<Polyline>(problem.keyframes), times);
+    const EvaluatedCell cell(truth, problem, std::make_unique<Polyline>(problem.keyframes), times);
     for (const Score& score : gain_along(cell.evaluation, {})) {
       EXPECT_EQ(score.statistics.rmse, 0.0) << score.relation << score.axis;
     }
@@ -120,7 +120,7 @@ TEST(ClosureResidual, ByHandIncludingMahalanobis) {
   measured.translation.x() = 3.0;  // closure from 3 to 0: 3 m, rotated by 90 degrees
   measured.rotation = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
   problem.closures.push_back({0, 3, measured, information});
-  const JudgedCell cell = corrected(problem, problem.keyframes, problem.keyframes);
+  const EvaluatedCell cell = corrected(problem, problem.keyframes, problem.keyframes);
   const auto scores = closure_residual(cell.evaluation, {});
   EXPECT_NEAR(find(scores, "translation", "3d").sse, 9.0, 1e-12);
   EXPECT_NEAR(find(scores, "rotation", "3d").max, 90.0, 1e-12);
@@ -134,10 +134,10 @@ TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
   const Trajectory truth = test::hand_held_truth();
   const Problem problem =
       test::drifting(truth, twist({0.002, 0, 0}, {0, 0, 0.003}), {{0, 59}, {3, 30}});
-  const JudgedCell here(
+  const EvaluatedCell here(
       truth, problem, std::make_unique<Polyline>(problem.keyframes), Times::keyframes);
   const Pose elsewhere = test::random_pose(random, 30.0, 2.0);
-  const JudgedCell there(
+  const EvaluatedCell there(
       truth,
       problem,
       std::make_unique<Polyline>(test::moved_by(elsewhere, 1.0, problem.keyframes)),
@@ -157,7 +157,7 @@ TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
 TEST(ClosureResidual, IsZeroForTheTruth) {
   const Trajectory truth = test::hand_held_truth();
   const Problem problem = test::drifting(truth, twist({0.01, 0, 0}, {0, 0, 0}), {{0, 59}});
-  const JudgedCell cell(truth, problem, std::make_unique<Polyline>(truth), Times::keyframes);
+  const EvaluatedCell cell(truth, problem, std::make_unique<Polyline>(truth), Times::keyframes);
   for (const Score& score : closure_residual(cell.evaluation, {})) {
     EXPECT_LT(score.statistics.max, 1e-10) << score.relation;
   }
@@ -169,11 +169,11 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   problem.keyframes = poses;
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs), {}); }),
             "closure_residual: needs loop closures, which files do not have");
-  const JudgedCell none = corrected(problem, poses, poses);
+  const EvaluatedCell none = corrected(problem, poses, poses);
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation, {}); }),
             "closure_residual: needs loop closures; the sequence has none");
   problem.closures.push_back({0, 5, {}, Matrix6::Identity(), 3.0});
-  const JudgedCell scaled = corrected(problem, poses, poses);
+  const EvaluatedCell scaled = corrected(problem, poses, poses);
   EXPECT_THROW(closure_residual(scaled.evaluation, {}), std::runtime_error);
 }
 
@@ -185,7 +185,7 @@ TEST(LocalShape, ByHand) {
     bent[i].world_from_body.rotation = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
     bent[i].world_from_body.translation = Vector3(3.5, static_cast<double>(i) - 3.0, 0.0);
   }
-  const JudgedCell cell = corrected(problem, bent, problem.keyframes);
+  const EvaluatedCell cell = corrected(problem, bent, problem.keyframes);
   const auto scores = local_shape(cell.evaluation, {});
   EXPECT_EQ(find(scores, "translation", "3d").count, 5u);
   EXPECT_NEAR(find(scores, "translation", "3d").max, 0.5, 1e-12);

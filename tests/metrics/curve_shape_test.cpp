@@ -13,8 +13,8 @@ using namespace metrics;
 
 namespace {
 
+using test::EvaluatedCell;
 using test::find;
-using test::JudgedCell;
 using test::why;
 
 const Protocol kAsIs{.align = Align::none};
@@ -40,7 +40,9 @@ class Formula final : public Curve {
 };
 
 /// A keyframe every 0.5 s for 4 s; the reference samples the formula with `rate`.
-JudgedCell made(double zero, const std::function<Vector3(double)>& position, double rate = 100.0) {
+EvaluatedCell made(double zero,
+                   const std::function<Vector3(double)>& position,
+                   double rate = 100.0) {
   const auto sampled = [&](double every) {
     std::vector<double> times;
     for (double k = 0.0; k * every <= 4.0 + 1e-9; ++k) times.push_back(zero + k * every);
@@ -59,7 +61,7 @@ JudgedCell made(double zero, const std::function<Vector3(double)>& position, dou
 class JumpsAt : public testing::TestWithParam<double> {};
 
 TEST_P(JumpsAt, ByHandOnPieces) {
-  const JudgedCell cell = made(GetParam(), [](double t) -> Vector3 {
+  const EvaluatedCell cell = made(GetParam(), [](double t) -> Vector3 {
     if (t < 2.0) return {t, t * t, 0.0};  // velocity (1, 4, 0), acceleration (0, 2, 0) at 2
     return {t + 3.0, 4.0, 4.0};           // velocity (1, 0, 0), acceleration 0
   });
@@ -77,7 +79,7 @@ TEST_P(JumpsAt, ByHandOnPieces) {
 INSTANTIATE_TEST_SUITE_P(Stamps, JumpsAt, testing::Values(0.0, 1305031910.765));
 
 TEST(Jumps, SmoothCurvesHaveNone) {
-  const JudgedCell cell = made(7.0, [](double t) -> Vector3 {
+  const EvaluatedCell cell = made(7.0, [](double t) -> Vector3 {
     return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
   });
   const auto scores = jumps(cell.evaluation, {.reach = 0.02});
@@ -93,7 +95,8 @@ TEST(Jumps, APolylineKinksByTheChangeOfItsVelocity) {
   poses[2].world_from_body.translation = Vector3(1.0, 2.0, 0.0);
   Problem problem;
   problem.keyframes = poses;
-  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  const EvaluatedCell cell(
+      poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   const auto scores = jumps(cell.evaluation, {});
   EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 1e-14);
   EXPECT_NEAR(find(scores, "velocity", "3d").max, std::sqrt(5.0), 1e-12);
@@ -108,23 +111,24 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
             "jumps: needs a curve, which files do not have");
   Problem problem;
   problem.keyframes = poses;
-  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  const EvaluatedCell cell(
+      poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(cell.evaluation, {}); }),
             "jumps: needs at least three keyframes");
   problem.keyframes.push_back({1.0 + 1e-15, poses[1].world_from_body});
   problem.keyframes[2].stamp = std::nextafter(1.0, 2.0);
-  const JudgedCell coarse(poses,
-                          problem,
-                          std::make_unique<Polyline>(problem.keyframes),
-                          Times::keyframes,
-                          Protocol{.align = Align::none});
+  const EvaluatedCell coarse(poses,
+                             problem,
+                             std::make_unique<Polyline>(problem.keyframes),
+                             Times::keyframes,
+                             Protocol{.align = Align::none});
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
             "jumps: the stamps around 1.0 s are too coarse for four samples next to a keyframe");
 }
 
 TEST(Jerk, ByHandOnACubic) {
   for (const double zero : {0.0, 1305031910.765}) {
-    const JudgedCell cell = made(zero, [](double t) -> Vector3 {
+    const EvaluatedCell cell = made(zero, [](double t) -> Vector3 {
       return {2.0 * t * t * t, t, -1.0};
     });
     const auto scores = jerk(cell.evaluation, {.rate = 10.0});
@@ -139,7 +143,7 @@ TEST(Jerk, ByHandOnACubic) {
 
 TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
   const auto cubic = [](double t) -> Vector3 { return {2.0 * t * t * t, t, -1.0}; };
-  const JudgedCell whole = made(0.0, cubic);
+  const EvaluatedCell whole = made(0.0, cubic);
   Trajectory holed;
   for (const StampedPose& pose : whole.reference) {
     if (pose.stamp < 1.005 || pose.stamp > 1.995) holed.push_back(pose);
@@ -159,7 +163,8 @@ TEST(Jerk, OfAStraightReferenceHasNoRatio) {
   for (std::size_t i = 0; i < 5; ++i) poses[i].stamp = static_cast<double>(i);
   Problem problem;
   problem.keyframes = poses;
-  const JudgedCell cell(poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
+  const EvaluatedCell cell(
+      poses, problem, std::make_unique<Polyline>(poses), Times::keyframes, kAsIs);
   EXPECT_EQ(jerk(cell.evaluation, {.rate = 1.0, .max_gap = 2.0}).at(2).why_undefined,
             "the reference has zero jerk");
 }

@@ -35,11 +35,11 @@ Trajectory half_corrected(Trajectory keyframes) {
 
 std::vector<Score> scores(const MetricEntry& entry, int ddof) {
   const Problem problem = test::hand_held();
-  const test::JudgedCell cell(finely(test::hand_held_truth()),
-                              problem,
-                              std::make_unique<Polyline>(half_corrected(problem.keyframes)),
-                              Times::keyframes,
-                              {.tolerance = 0.9, .ddof = ddof});
+  const test::EvaluatedCell cell(finely(test::hand_held_truth()),
+                                 problem,
+                                 std::make_unique<Polyline>(half_corrected(problem.keyframes)),
+                                 Times::keyframes,
+                                 {.tolerance = 0.9, .ddof = ddof});
   return entry.score(cell.evaluation, {});
 }
 

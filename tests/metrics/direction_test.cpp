@@ -14,7 +14,7 @@ using namespace metrics;
 
 namespace {
 
-using test::JudgedCell;
+using test::EvaluatedCell;
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {
@@ -42,11 +42,11 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
   const Problem problem = test::drifting(
       thinned(circle(0.0)), twist({0.01, 0.0, 0.02}, {0.0, 0.001, 0.01}), {{0, 20}, {5, 25}});
   const std::vector<LoopCandidate> candidates{{0, 20, 1.0, true}, {5, 25, 0.5, true}};
-  JudgedCell cell(circle(0.0),
-                  problem,
-                  std::make_unique<Polyline>(thinned(circle(0.3))),
-                  Times::dense,
-                  {.align = Align::none});
+  EvaluatedCell cell(circle(0.0),
+                     problem,
+                     std::make_unique<Polyline>(thinned(circle(0.3))),
+                     Times::dense,
+                     {.align = Align::none});
   cell.evaluation.context.loop_candidates = &candidates;
   std::map<std::string, std::pair<Better, double>> out;
   for (const MetricEntry& entry : metrics::metrics()) {
@@ -118,6 +118,31 @@ TEST(Direction, OfPrecisionAndRecallIsHigherAndOfCountsNone) {
   EXPECT_EQ(found.size(), 17u);
   for (const auto& [score, direction] : found) {
     EXPECT_EQ(direction.first, counts.contains(score) ? Better::neither : Better::higher) << score;
+  }
+}
+
+TEST(Direction, OfEveryMetricIsTestedHere) {
+  const std::set<std::string> tested{"ate",
+                                     "axis_error",
+                                     "ape",
+                                     "rpe",
+                                     "segments",
+                                     "along_cross",
+                                     "jumps",
+                                     "closure_residual",
+                                     "local_shape",
+                                     "interpolation_floor",
+                                     "smoothing_headroom",
+                                     "coverage",
+                                     "extrinsic_offset",
+                                     "diagnostics",
+                                     "gain_along",
+                                     "path_length",
+                                     "jerk",
+                                     "graph_cost",
+                                     "loop_detection"};
+  for (const MetricEntry& entry : metrics::metrics()) {
+    EXPECT_TRUE(tested.contains(entry.name)) << entry.name << ": state its direction in this file";
   }
 }
 

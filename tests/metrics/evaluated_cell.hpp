@@ -12,12 +12,12 @@ namespace loopbench::test {
 using namespace metrics;
 
 /// Owns everything its evaluation points to; do not copy or move.
-struct JudgedCell {
-  JudgedCell(Trajectory truth,
-             Problem given,
-             std::unique_ptr<const Curve> made,
-             Times times,
-             Protocol protocol = {})
+struct EvaluatedCell {
+  EvaluatedCell(Trajectory truth,
+                Problem given,
+                std::unique_ptr<const Curve> made,
+                Times times,
+                Protocol protocol = {})
       : reference(std::move(truth)),
         problem(std::move(given)),
         curve(std::move(made)),
@@ -35,7 +35,7 @@ struct JudgedCell {
                           .times = times,
                           .protocol = protocol};
   }
-  JudgedCell(const JudgedCell&) = delete;
+  EvaluatedCell(const EvaluatedCell&) = delete;
 
   Trajectory reference;
   Problem problem;

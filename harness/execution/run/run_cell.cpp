@@ -117,12 +117,12 @@ void score(CellResult& result,
 }
 
 /// Computes every metric under the protocol and times of `row`.
-void judge(CellResult& result,
-           const ScoreResult& row,
-           const Sweep& sweep,
-           const Sequence& sequence,
-           const Curve& curve,
-           const Catalogue& catalogue) {
+void add_scores(CellResult& result,
+                const ScoreResult& row,
+                const Sweep& sweep,
+                const Sequence& sequence,
+                const Curve& curve,
+                const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
   const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
@@ -157,11 +157,11 @@ void judge(CellResult& result,
 }
 
 /// Computes metrics that need only the problem; once, since they depend on neither pairs nor times.
-void judge_without_reference(CellResult& result,
-                             const Sweep& sweep,
-                             const Sequence& sequence,
-                             const Curve& curve,
-                             const Catalogue& catalogue) {
+void add_scores_without_reference(CellResult& result,
+                                  const Sweep& sweep,
+                                  const Sequence& sequence,
+                                  const Curve& curve,
+                                  const Catalogue& catalogue) {
   const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
   for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
     metrics::Evaluation evaluation;
@@ -219,13 +219,13 @@ CellResult run_cell(const Cell& cell,
     require_finite_sections(result.report);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
-      judge_without_reference(result, sweep, sequence, *curve, catalogue);
+      add_scores_without_reference(result, sweep, sequence, *curve, catalogue);
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
-        judge(result, row, sweep, sequence, *curve, catalogue);
+        add_scores(result, row, sweep, sequence, *curve, catalogue);
       }
     }
   });

@@ -1,4 +1,4 @@
-/// Marginal likelihood (evidence) of the loop gaps under an error model. No reference is used.
+/// Marginal likelihood (evidence) of the loop gaps under a noise model. No reference is used.
 #pragma once
 
 #include <vector>

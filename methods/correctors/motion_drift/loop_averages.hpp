@@ -1,4 +1,4 @@
-/// Weighted averages over the loops of a chain, used to scale the prior of the error model.
+/// Weighted averages over the loops of a chain, used to scale the prior of the noise model.
 #pragma once
 
 #include <Eigen/Core>

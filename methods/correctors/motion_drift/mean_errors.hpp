@@ -1,4 +1,4 @@
-/// Expected odometry errors, averaged over many error models.
+/// Expected odometry errors, averaged over many noise models.
 #pragma once
 
 #include <vector>

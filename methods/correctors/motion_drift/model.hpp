@@ -1,4 +1,4 @@
-/// The motion-dependent error model: a list of variances, each with its regressor.
+/// The motion-dependent noise model: a list of variances, each with its regressor.
 #pragma once
 
 #include <string>

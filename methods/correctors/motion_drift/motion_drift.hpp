@@ -1,4 +1,4 @@
-/// Corrects a chain under an odometry error model with motion-dependent noise and steady drift.
+/// Corrects a chain under an odometry noise model with motion-dependent noise and steady drift.
 #pragma once
 
 #include "methods/correctors/motion_drift/posterior.hpp"
@@ -9,7 +9,8 @@ namespace loopbench::methods {
 /// The error of odometry edge i is e_i = sum_j B_j phi_j(i) + w_i. The regressors phi_j are the
 /// edge's duration [s], length [m] and rotation angle [rad].
 ///
-/// - Noise: w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt, separately for
+/// - Noise: w_i ~ N(0, S_i), S_i = a dt + b d + c |dtheta| + g (d / dt)^2 dt (g in model `speed`
+///   only), separately for
 ///   translation and rotation and equal on all three axes, plus a multiple of the edge's stated
 ///   covariance.
 /// - Steady drift: B_j ~ N(0, V_j), unknown rotation rates that are constant along the chain. They
@@ -18,7 +19,7 @@ namespace loopbench::methods {
 ///   used only when its size is given as an option. Outside the loops, drift is extrapolated over
 ///   at most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
 ///
-/// A few loops do not determine these variances. The method therefore draws error models from the
+/// A few loops do not determine these variances. The method therefore draws noise models from the
 /// posterior: a prior (prior.hpp) times the likelihood of the loop gaps (posterior.hpp). It
 /// corrects the chain by the expected errors averaged over the drawn models (mean_errors.hpp) and
 /// relinearises until convergence. No reference is needed. The prior also contains simpler
@@ -32,11 +33,11 @@ namespace loopbench::methods {
 /// (Sim(3)) are estimated and removed first, as in `dual`.
 ///
 /// Complexity: about ten times O(edges + (6 closures)^3) and about a thousand times O((6
-/// fit_closures)^3). Sources: design notes, methods 5; Murray, Adams, MacKay, Elliptical slice
+/// fit_closures)^3). Sources: Murray, Adams, MacKay, Elliptical slice
 /// sampling, AISTATS 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
 class MotionDrift final : public Corrector {
  public:
-  /// Noise terms of the error model. `constant` noise is equal in every edge; `time`, `distance`,
+  /// Noise terms of the noise model. `constant` noise is equal in every edge; `time`, `distance`,
   /// `rotation` and `speed` each add a regressor to the one before. `drift` is `rotation` plus
   /// steady drift and the stated odometry covariance; it omits speed, because for evenly spaced
   /// keyframes speed is proportional to distance.
@@ -93,75 +94,84 @@ inline auto choices(MotionDrift::Model) {
 
 template <class Visit>
 void fields(MotionDrift::Options& o, Visit visit) {
+  visit("model",
+        o.model,
+        "terms of the noise model; const: equal in every edge; time, distance, rotation, speed: "
+        "noise that grows with that quantity and those before it; drift: rotation, the stated "
+        "odometry covariance and steady rotation drift");
   visit(
-      "model",
-      o.model,
-      "error terms of the model; const: equal in every edge; time, distance, rotation, speed: "
-      "noise that grows with that quantity and those before it; drift: rotation plus steady drift");
-  visit("fit",
-        o.fit,
-        "estimate the variances from the loops; false: use prior medians and given values");
+      "fit",
+      o.fit,
+      "estimate the variances from the loops, with given values as prior medians; false: use given "
+      "values unchanged and prior medians for the others");
 
   MotionPriorOptions& p = o.prior;
   const Between share{0.0, 1.0};
   const Between deviation{0.0, 10.0};
   visit("prior.noise_part",
         p.noise_part,
-        "prior translation noise along a loop, as a fraction of its path length [-]",
+        "prior standard deviation of the translation noise along a loop, over its path length [-]",
         GreaterThan{0.0});
-  visit("prior.stated_part",
-        p.stated_part,
-        "prior fraction of the rotation noise that is proportional to the stated covariances of "
-        "the odometry [-]",
-        share);
+  visit(
+      "prior.stated_part",
+      p.stated_part,
+      "prior fraction of the noise attributed to the stated odometry covariances, whose factor is "
+      "set by the rotation noise [-]",
+      share);
   visit("prior.steady_after",
         p.steady_after,
         "loop duration at which drift and noise contribute equal rotation variance a priori [s]",
         GreaterThan{0.0});
   visit("prior.scale_dispersion",
         p.scale_dispersion,
-        "standard deviation of the log variance scale common to all translation (or rotation) "
-        "errors [-]",
+        "standard deviation of the natural log of the factor common to all translation variances, "
+        "and of that common to all rotation variances [-]",
         deviation);
   visit("prior.steady_dispersion",
         p.steady_dispersion,
-        "standard deviation of the log ratio of drift to noise variance [-]",
+        "standard deviation of the natural log of the ratio of drift to noise variance [-]",
         deviation);
   visit("prior.axis_dispersion",
         p.axis_dispersion,
-        "standard deviation of the log drift variance of one body axis [-]",
+        "standard deviation of the natural log of the drift variance of one body axis relative to "
+        "the common one; unused if planar [-]",
         deviation);
   visit("prior.share_dispersion",
         p.share_dispersion,
-        "standard deviation of the log variance of one term (time, distance, rotation) [-]",
+        "standard deviation of the natural log of the variance of one term (time, distance, "
+        "rotation) relative to the others [-]",
         deviation);
-  visit("prior.stated_dispersion",
-        p.stated_dispersion,
-        "standard deviation of the log factor on the stated odometry covariances [-]",
-        deviation);
-  visit("prior.closures_dispersion",
-        p.closures_dispersion,
-        "standard deviation of the log factors on the stated closure covariances [-]",
-        deviation);
+  visit(
+      "prior.stated_dispersion",
+      p.stated_dispersion,
+      "standard deviation of the natural log of the factor on the stated odometry covariances [-]",
+      deviation);
+  visit(
+      "prior.closures_dispersion",
+      p.closures_dispersion,
+      "standard deviation of the natural log of the factors on the stated closure covariances [-]",
+      deviation);
   visit("prior.as_stated_chance",
         p.as_stated_chance,
-        "prior probability that all stated covariances are correct up to one common factor [-]",
+        "prior probability that all stated covariances are correct up to one common factor and no "
+        "other noise exists; ignored if a noise variance above 0 is given [-]",
         share);
   visit("prior.scaled_chance",
         p.scaled_chance,
         "prior probability that odometry and closure covariances are correct up to separate "
-        "factors [-]",
+        "factors; ignored if a noise variance above 0 is given; the remainder of both is the "
+        "probability of noise that grows with the motion [-]",
         share);
   visit("prior.steady_chance", p.steady_chance, "prior probability of steady drift [-]", share);
   visit("prior.drift_reach",
         p.drift_reach,
-        "limit on extrapolating drift outside the loops, as a multiple of the motion enclosed by "
-        "loops [-]",
+        "drift is extrapolated outside the loops over at most this multiple of the time, distance "
+        "and rotation angle inside them [-]",
         Between{0.0});
 
   visit("draws",
         o.sampling.draws,
-        "number of error models drawn from the posterior; at most 64 of them are averaged when "
+        "number of noise models drawn from the posterior; at most 64 of them are averaged when "
         "there are more than 16 closures",
         Between{1, 10000});
   visit("draw_steps", o.sampling.steps, "sampler steps between two draws", Between{1, 1000});
@@ -173,11 +183,13 @@ void fields(MotionDrift::Options& o, Visit visit) {
         Between{1, 300});
   visit("average_closures",
         o.average_closures,
-        "maximum number of closures for averaging over models; above it one model is used",
+        "maximum number of closures for averaging over models; above it one model is used, the "
+        "geometric mean of the draws under the most probable hypothesis",
         Between{0, 2000});
   visit("max_iterations",
         o.max_iterations,
-        "maximum number of relinearisations after the variances are estimated",
+        "maximum number of relinearisations in each stage: before and after the estimation of the "
+        "variances, and while averaging",
         Between{1, 1000});
   visit("tolerance",
         o.tolerance,
@@ -185,35 +197,50 @@ void fields(MotionDrift::Options& o, Visit visit) {
         Between{0.0, 1.0});
   visit("max_closures",
         o.max_closures,
-        "maximum number of closures; the time of the dense solve grows with its cube",
+        "maximum number of closures, above which the method declines; the time of the dense solve "
+        "grows with its cube",
         Between{1, 2000});
   visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
 
   const auto by_regressor = [&](const std::string& what,
                                 const std::string& help,
+                                const std::string& none,
                                 MotionDrift::Values& values,
                                 auto first) {
+    constexpr std::array kPer{" per odometry edge",
+                              " per second",
+                              " per metre",
+                              " per radian of rotation angle",
+                              " per (distance / duration)^2 times duration"};
     for (std::size_t g = first; g < kRegressors.size(); ++g) {
-      const std::string unit = name_of(kRegressors[g]);
-      visit((what + ".per_" + unit).c_str(),
+      visit((what + ".per_" + name_of(kRegressors[g])).c_str(),
             values[g],
-            (help + (unit == "speed" ? "speed^2 times duration" : unit) + "; none: estimated")
-                .c_str(),
+            (help + kPer[g] + "; none: " + none).c_str(),
             Between{0.0});
     }
   };
-  by_regressor("noise.t", "translation noise variance on each axis [m^2] per ", o.noise[0], 0u);
-  by_regressor("noise.r", "rotation noise variance on each axis [rad^2] per ", o.noise[1], 0u);
-  by_regressor(
-      "drift.t", "standard deviation of steady translation drift [m] per ", o.drift[0], 1u);
-  by_regressor("drift.r", "standard deviation of steady rotation drift [rad] per ", o.drift[1], 1u);
+  const std::string median = "median derived from the loops, if the model has the term";
+  by_regressor("noise.t", "translation noise variance on each axis [m^2]", median, o.noise[0], 0u);
+  by_regressor("noise.r", "rotation noise variance on each axis [rad^2]", median, o.noise[1], 0u);
+  by_regressor("drift.t",
+               "standard deviation of the constant rate of translation drift [m]",
+               "no such drift",
+               o.drift[0],
+               1u);
+  by_regressor("drift.r",
+               "standard deviation of the constant rate of rotation drift [rad]",
+               "median derived from the loops, if the model has the term",
+               o.drift[1],
+               1u);
   visit("closures.t",
         o.closures[0],
-        "factor on the stated translation covariance of the closures [-]; none: estimated",
+        "factor on the stated translation covariance of the closures [-]; none: derived "
+        "from the loops",
         GreaterThan{0.0});
   visit("closures.r",
         o.closures[1],
-        "factor on the stated rotation covariance of the closures [-]; none: estimated",
+        "factor on the stated rotation covariance of the closures [-]; none: derived "
+        "from the loops",
         GreaterThan{0.0});
 }
 

@@ -1,4 +1,4 @@
-/// Prior of the error model.
+/// Prior of the noise model.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace loopbench::methods {
 
-/// Prior medians of terms that are not given as options, and their uncertainty. A spread is the
+/// Prior medians of terms that are not given as options, and their uncertainty. A dispersion is the
 /// standard deviation of the log of a variance. Tuned on the development chains of results/methods,
 /// in which steady drift exceeds noise after 4 s to 5 min.
 struct MotionPriorOptions {
@@ -37,7 +37,7 @@ enum class Covariance { as_stated, scaled, free };
 ///
 /// The unknowns u are independent standard normal. u[0] selects the hypothesis: its normal
 /// distribution function is compared with the cumulative probabilities of the hypotheses. Under
-/// that hypothesis, log(value of term j) = log(median_j) + sum spread * u.
+/// that hypothesis, log(value of term j) = log(median_j) + sum coefficient * u.
 struct MotionPrior {
   struct Loading {
     Eigen::Index unknown;

@@ -1,4 +1,4 @@
-#include "harness/eval/judge_files.hpp"
+#include "harness/eval/evaluate_files.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -86,7 +86,7 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 
 }  // namespace
 
-std::vector<EvaluationResult> judge_files(const EvalArguments& a) {
+std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
     requested_metrics(a, protocol.rules);  // rejects invalid options before reading files
@@ -141,7 +141,7 @@ std::vector<EvaluationResult> judge_files(const EvalArguments& a) {
         continue;
       }
       try {
-        out.push_back(judge(reference, loaded.poses, protocol, options));
+        out.push_back(evaluate_estimate(reference, loaded.poses, protocol, options));
       } catch (const std::runtime_error& error) {
         if (is_alone) {
           throw InputError(pair.estimate + " with reference " + pair.reference + ": " +

@@ -11,6 +11,6 @@ namespace loopbench::harness {
 /// Returns one result for each estimate and protocol, in that order. If there are several, an
 /// estimate that cannot be read or evaluated has a result with `why_failed`. Throws InputError,
 /// OptionError.
-std::vector<EvaluationResult> judge_files(const EvalArguments& arguments);
+std::vector<EvaluationResult> evaluate_files(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness
