@@ -4,8 +4,8 @@
 
 namespace loopbench::harness {
 
-/// Installs handlers for SIGINT, SIGTERM and SIGHUP that only set the returned flag, which has static
-/// lifetime.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP that only set the returned flag, which has
+/// static lifetime.
 const std::atomic<bool>& install_interrupt_handler();
 
 }  // namespace loopbench::harness
