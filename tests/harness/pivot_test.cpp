@@ -5,6 +5,7 @@
 
 #include "harness/tables/derived.hpp"
 #include "harness/tables/text.hpp"
+#include "tests/support/ate_record.hpp"
 
 namespace loopbench::pivot_test {
 
@@ -14,20 +15,7 @@ using namespace harness;
 
 namespace {
 
-Record ate(const std::string& method, double rmse, int repeat = 0) {
-  Record r;
-  r.sequence = "room";
-  r.repeat = repeat;
-  r.method = method;
-  r.protocol = "evo (align=se3, first=10)";
-  r.times = "dense";
-  r.metric = "ate";
-  r.relation = "translation";
-  r.axis = "3d";
-  r.unit = "m";
-  r.statistics.rmse = rmse;
-  return r;
-}
+using test::ate;
 
 TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   std::vector<Record> records;

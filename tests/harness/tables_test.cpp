@@ -7,6 +7,7 @@
 #include "harness/model/where.hpp"
 #include "harness/tables/derived.hpp"
 #include "harness/tables/text.hpp"
+#include "tests/support/ate_record.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::tables_test {
@@ -17,20 +18,7 @@ using namespace harness;
 
 namespace {
 
-Record ate(const std::string& method, double rmse, int repeat = 0) {
-  Record r;
-  r.sequence = "room";
-  r.repeat = repeat;
-  r.method = method;
-  r.protocol = "evo (align=se3, first=10)";
-  r.times = "dense";
-  r.metric = "ate";
-  r.relation = "translation";
-  r.axis = "3d";
-  r.unit = "m";
-  r.statistics.rmse = rmse;
-  return r;
-}
+using test::ate;
 
 TEST(Where, KeepsWhatEveryRuleKeeps) {
   const auto keeps = [](const std::string& rule) { return where({rule})(ate("dm_n3", 1.0)); };
