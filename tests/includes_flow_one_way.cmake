@@ -54,7 +54,7 @@ set(order
 
   "harness/text harness/statistics"
   "harness/model"
-  "harness/oracle"
+  "harness/oracle harness/external"
   "harness/catalogue"
   "harness/config harness/provenance"
   "harness/execution/run"
@@ -63,7 +63,7 @@ set(order
   "harness/compare"
   "harness/tables"
   "harness/gate harness/profile harness/plot"
-  "harness/report harness/eval harness/article harness/calibrate"
+  "harness/report harness/eval harness/article harness/calibrate harness/correct"
   "harness/commands"
   "harness/program"
 )
@@ -81,7 +81,7 @@ set(folder_re2 "harness/text/pattern\\.")
 set(header_cli "CLI/")
 set(folder_cli "harness/(program|commands)/")
 set(header_json "nlohmann/")
-set(folder_json "harness/(commands|tables|gate|eval|report)/")
+set(folder_json "harness/(commands|tables|gate|eval|report|correct|external)/")
 set(header_opencv "opencv2/")
 set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")

@@ -6,6 +6,8 @@
 #include "harness/catalogue/libraries.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/catalogue/plugins.hpp"
+#include "harness/external/external_datasets.hpp"
+#include "harness/external/external_methods.hpp"
 #include "harness/text/hash.hpp"
 #include "harness/text/suggest.hpp"
 
@@ -39,7 +41,11 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_hooks())) {
     out.datasets.push_back(std::move(entry));
   }
+  for (DatasetEntry& entry : external_datasets(loading_hooks().cache)) {
+    out.datasets.push_back(std::move(entry));
+  }
   for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
+  for (const ExternalMethod& program : external_methods()) out.methods.push_back(program.listed);
   for (const std::filesystem::path& plugin : plugins) {
     std::string version;
     for (methods::MethodEntry& entry : load_plugin(plugin)) {

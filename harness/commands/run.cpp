@@ -14,6 +14,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
+#include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/model/where.hpp"
@@ -40,6 +41,7 @@ struct RunArguments {
   bool fresh = false;
   bool in_process = false;
   bool dry_run = false;
+  bool save_trajectories = false;
 };
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
@@ -145,11 +147,22 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
+  if (arguments.save_trajectories) {
+    set_estimate_folder(out / "trajectories");
+    if (resumed.there > 0) {
+      fmt::print(stderr,
+                 "loopbench: {} cells of earlier runs keep the trajectories saved then, if any; "
+                 "--retry all recomputes them\n",
+                 resumed.there);
+    }
+  }
   const std::atomic<bool>& interrupted = install_interrupt_handler();
   if (!missing.empty()) {
     Progress progress(missing.size());
+    const std::vector<InputFile> no_inputs;
     const auto finished = [&](const CellResult& r) {
       store->write(r);
+      keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
       ++done;
       if (has_failure(r)) ++failed;
       if (r.status == Status::incomplete) ++incomplete;
@@ -209,6 +222,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       "--in-process",
       arguments->in_process,
       "Use threads instead of worker processes, for debugging: no limits, no sandbox");
+  command->add_flag("--save-trajectories",
+                    arguments->save_trajectories,
+                    "Save every cell's estimate at full length, see `export --what trajectories`");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

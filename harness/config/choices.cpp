@@ -201,7 +201,11 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       }
       choice.stages[i].options = to_params(by_stage[i]);
       located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
-        stages[i]->make(choice.stages[i].options);
+        const methods::Stage made = stages[i]->make(choice.stages[i].options);
+        if (stages.size() > 1 &&
+            std::holds_alternative<std::unique_ptr<const methods::Method>>(made))
+          throw OptionError("output",
+                            "with these options it is a joint method and has no smoother");
       });
     }
     out.push_back(std::move(choice));

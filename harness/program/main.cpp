@@ -16,6 +16,8 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/correct.hpp"
+#include "harness/commands/export.hpp"
 #include "harness/program/counted_malloc.hpp"
 #include "harness/provenance/source_commit.hpp"
 #include "harness/provenance/version.hpp"
@@ -94,7 +96,9 @@ int main(int argc, char** argv) {
   add_table(app, exit_code);
   add_compare(app, exit_code);
   add_check(app, exit_code);
+  add_correct(app, exit_code);
   add_eval(app, exit_code);
+  add_export(app, exit_code);
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
   add_merge(app, exit_code);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/external/external_methods.hpp"
 #include "harness/provenance/summarise_sequence.hpp"
 #include "harness/text/hash.hpp"
 
@@ -35,13 +36,15 @@ std::string hashed(const Params& params) {
   return fields.hashed();
 }
 
-std::string of_method(const MethodChoice& choice, const Catalogue& catalogue) {
+std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
   for (const Choice& stage : choice.stages) {
     const auto version = catalogue.versions.find(stage.name);
     fields.add(stage.name)
         .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
         .add(version == catalogue.versions.end() ? "" : version->second);
+    const ExternalMethod* program = find_external(stage.name);
+    if (program != nullptr) fields.add(program->version(stage.options, command_setting(sweep)));
   }
   return fields.hashed();
 }
@@ -72,7 +75,8 @@ CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root
       root_(std::move(root)),
       build_(std::move(build)),
       evaluation_(evaluation_fields(sweep, catalogue)) {
-  for (const MethodChoice& choice : sweep.methods) methods_.push_back(of_method(choice, catalogue));
+  for (const MethodChoice& choice : sweep.methods)
+    methods_.push_back(of_method(choice, sweep, catalogue));
 }
 
 const std::string& CellKeys::asked(const Cell& cell) {

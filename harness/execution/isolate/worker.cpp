@@ -10,6 +10,7 @@
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/run/run_cell.hpp"
+#include "harness/external/external_methods.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -100,6 +101,7 @@ void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_s
       continue;
     }
     begin(shared_status, job.cell, false);
+    prepare_programs(context.sweep.methods[cell.method], command_setting(context.sweep));
     CellResult result = run_cell(cell, context.sweep, entry->sequence, context.catalogue);
     result.worker = how;
     apply_limits(context.sweep.limits, result);

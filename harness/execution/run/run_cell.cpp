@@ -7,10 +7,12 @@
 #include <new>
 
 #include "harness/execution/run/allocations.hpp"
+#include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/finite_output.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/process_usage.hpp"
+#include "harness/external/external_methods.hpp"
 #include "methods/pipeline.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
@@ -42,6 +44,9 @@ void catch_errors(Result& result, Work work) {
   } catch (const metrics::Undefined& reason) {
     result.status = Status::declined;
     result.why = reason.what();
+  } catch (const MemoryLimitExceeded& reason) {
+    result.status = Status::out_of_memory;
+    result.why = reason.what();
   } catch (const std::bad_alloc&) {
     result.status = Status::out_of_memory;
     result.why = "memory allocation failed";
@@ -69,7 +74,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     const auto begin = Clock::now();
     curve = method.estimate(problem, report);
     const std::chrono::duration<double> took = Clock::now() - begin;
-    result.seconds.push_back(took.count());
+    result.seconds.push_back(std::max(0.0, took.count() - exchange_seconds(report)));
     result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
     if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
     result.report = std::move(report);
@@ -180,13 +185,16 @@ void add_scores_without_reference(CellResult& result,
 
 std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
                                                    const Catalogue& catalogue,
-                                                   const Trajectory& reference) {
+                                                   const Trajectory& reference,
+                                                   const CommandSetting& setting) {
   std::unique_ptr<const methods::Corrector> corrector;
   std::unique_ptr<const methods::Smoother> smoother;
   for (const Choice& part : choice.stages) {
     const OracleEntry* oracle = find_oracle(catalogue, part.name);
-    methods::Stage stage = oracle ? oracle->make(part.options, reference)
-                                  : find_method(catalogue, part.name).make(part.options);
+    const ExternalMethod* program = find_external(part.name);
+    methods::Stage stage = oracle    ? oracle->make(part.options, reference)
+                           : program ? program->make(part.options, setting)
+                                     : find_method(catalogue, part.name).make(part.options);
     if (auto* whole = std::get_if<std::unique_ptr<const methods::Method>>(&stage))
       return std::move(*whole);
     if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
@@ -207,7 +215,7 @@ CellResult run_cell(const Cell& cell,
   const MethodChoice& choice = sweep.methods[cell.method];
   result.oracle_method = uses_reference(choice, catalogue);
   catch_errors(result, [&] {
-    const auto method = make_method(choice, catalogue, sequence.reference);
+    const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
       result.why = std::move(*why);
@@ -217,6 +225,7 @@ CellResult run_cell(const Cell& cell,
         timed(result, *method, sequence.problem, sweep.timing);
     require_finite(*curve, sequence, sweep);
     require_finite_sections(result.report);
+    save_estimate(cell, sweep, sequence, *curve);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
       add_scores_without_reference(result, sweep, sequence, *curve, catalogue);

@@ -3,16 +3,18 @@
 
 #include "datasets/core/sequence.hpp"
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/external/command.hpp"
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
-/// Combines the stages of a choice into one method; only an oracle has access to `reference`.
-/// Throws InputError, OptionError.
+/// Combines the stages of a choice into one method; only an oracle has access to `reference`, and
+/// only a program uses `setting`. Throws InputError, OptionError.
 std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
                                                    const Catalogue& catalogue,
-                                                   const Trajectory& reference);
+                                                   const Trajectory& reference,
+                                                   const CommandSetting& setting = {});
 
 /// Does not throw for errors of a method or metric: they are stored as status and why.
 CellResult run_cell(const Cell& cell,

@@ -1,0 +1,199 @@
+#include "harness/external/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "datasets/core/polyline.hpp"
+#include "harness/external/arguments.hpp"
+#include "harness/external/process_tree.hpp"
+#include "harness/external/server.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using ExchangeClock = std::chrono::steady_clock;
+
+double seconds_since(ExchangeClock::time_point begin) {
+  return std::chrono::duration<double>(ExchangeClock::now() - begin).count();
+}
+
+std::filesystem::path new_scratch() {
+  std::string name =
+      (std::filesystem::temp_directory_path() / "loopbench-exchange-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be created");
+  return name;
+}
+
+/// Removes the folder unless a process tree does.
+struct Scratch {
+  std::filesystem::path folder = new_scratch();
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
+  Scratch() = default;
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+};
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs the program on one problem; `own` becomes the method's time [s].
+Trajectory run_once(const CommandOptions& options,
+                    const CommandSetting& setting,
+                    const Problem& problem,
+                    methods::Report& report,
+                    double& own) {
+  const Scratch scratch;
+  const std::filesystem::path input = scratch.folder / "problem";
+  const std::filesystem::path result = scratch.folder / "result";
+  std::filesystem::create_directory(input);
+  write_problem(input, problem);
+  ProgramStart start;
+  start.arguments =
+      with_values(command_words("run", options.run, options.shell),
+                  {{"problem", options.shell ? "${LOOPBENCH_PROBLEM}" : input.string()},
+                   {"result", options.shell ? "${LOOPBENCH_RESULT}" : result.string()}});
+  start.folder = setting.folder;
+  start.environment = {{"LOOPBENCH_PROBLEM", input.string()},
+                       {"LOOPBENCH_RESULT", result.string()}};
+  start.scratch = scratch.folder;
+  start.memory = setting.memory;
+
+  const auto started = ExchangeClock::now();
+  ProcessTree tree(start);
+  std::string output;
+  const ProgramEnd end = tree.wait(output);
+  const double ran = seconds_since(started);
+  if (end.over_memory > 0) {
+    throw MemoryLimitExceeded(
+        fmt::format("the program grew to {} bytes, limit {}", end.over_memory, setting.memory));
+  }
+  if (end.exit_code != 0) throw std::runtime_error(with_output("the program " + text(end), output));
+  ResultFacts facts;
+  if (std::filesystem::is_regular_file(result.string() + ".json")) {
+    facts = parse_facts(content(result.string() + ".json"));
+  }
+  require_ok(facts);
+  Trajectory out;
+  try {
+    out = read_result(result, problem, options.output);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_output(error.what(), output));
+  }
+  report.counts.insert(report.counts.end(), facts.report.counts.begin(), facts.report.counts.end());
+  report.phases.insert(report.phases.end(), facts.report.phases.begin(), facts.report.phases.end());
+  report.notes.insert(report.notes.end(), facts.report.notes.begin(), facts.report.notes.end());
+  report.count("program_cpu_seconds", end.cpu_seconds);
+  report.count("program_memory", static_cast<double>(end.peak_memory));
+  add_output(report, output);
+  if (end.left_behind > 0) {
+    report.notes.push_back(
+        fmt::format("{} processes outlived the program and were killed", end.left_behind));
+  }
+  const bool is_stated = facts.seconds >= 0.0 && facts.seconds <= ran;
+  if (facts.seconds > ran) {
+    report.notes.push_back(fmt::format(
+        "result.json states {} s, but the program ran for {:.3g} s", facts.seconds, ran));
+  }
+  report.notes.emplace_back(is_stated ? "time: as stated by the program"
+                                      : "time: from start to end of the program");
+  own = is_stated ? facts.seconds : ran;
+  return out;
+}
+
+Trajectory corrected(const CommandOptions& options,
+                     const CommandSetting& setting,
+                     const Problem& problem,
+                     methods::Report& report) {
+  if (!options.serve.empty()) return ask_server(options, setting, problem, report);
+  const auto begin = ExchangeClock::now();
+  double own = 0.0;
+  Trajectory out = run_once(options, setting, problem, report, own);
+  report.phases.push_back({kExchangePhase, seconds_since(begin) - own});  // with its end
+  return out;
+}
+
+class CommandCorrector final : public methods::Corrector {
+ public:
+  CommandCorrector(CommandOptions options, CommandSetting setting)
+      : options_(std::move(options)), setting_(std::move(setting)) {}
+  Trajectory correct(const Problem& problem, methods::Report& report) const override {
+    return corrected(options_, setting_, problem, report);
+  }
+
+ private:
+  CommandOptions options_;
+  CommandSetting setting_;
+};
+
+class DenseCommand final : public methods::Method {
+ public:
+  DenseCommand(CommandOptions options, CommandSetting setting)
+      : options_(std::move(options)), setting_(std::move(setting)) {}
+  std::optional<std::string> declines(const Problem& problem) const override {
+    if (problem.keyframes.size() < 2) return "fewer than two keyframes";
+    return std::nullopt;
+  }
+  std::unique_ptr<const Curve> estimate(const Problem& problem,
+                                        methods::Report& report) const override {
+    return std::make_unique<Polyline>(corrected(options_, setting_, problem, report));
+  }
+
+ private:
+  CommandOptions options_;
+  CommandSetting setting_;
+};
+
+}  // namespace
+
+void check_combination(const CommandOptions& o) {
+  if (o.run.empty() == o.serve.empty()) {
+    throw OptionError("run", "run: expected either run or serve, and not both");
+  }
+  const bool serves = o.run.empty();
+  command_words(serves ? "serve" : "run", serves ? o.serve : o.run, o.shell);
+  split_arguments("version", o.version.empty() ? "-" : o.version);
+  split_arguments("depends", o.depends.empty() ? "-" : o.depends);
+  for (const char* name : {"{problem}", "{result}"}) {
+    if (!serves && o.run.find(name) == std::string::npos) {
+      throw OptionError("run", std::string("run: does not contain ") + name + ": " + o.run);
+    }
+  }
+}
+
+std::vector<std::string> command_words(const std::string& option,
+                                       const std::string& text,
+                                       bool shell) {
+  if (shell) return {"sh", "-c", text};
+  return split_arguments(option, text);
+}
+
+methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting) {
+  check_combination(options);
+  if (options.output == ResultPoses::dense) {
+    return std::unique_ptr<const methods::Method>(std::make_unique<DenseCommand>(options, setting));
+  }
+  return std::unique_ptr<const methods::Corrector>(
+      std::make_unique<CommandCorrector>(options, setting));
+}
+
+std::string with_output(const std::string& why, const std::string& output) {
+  return output.empty() ? why : why + "; its output ends with: " + output;
+}
+
+void add_output(methods::Report& report, const std::string& output) {
+  std::string text = output;
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  if (!text.empty()) report.notes.push_back("output: " + text);
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,157 @@
+#include "harness/external/process_tree.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+#include "harness/external/supervisor.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Variables that programs must not see: they lead to the data and the references.
+constexpr std::array<std::string_view, 2> kHidden{"LOOPBENCH_DATA=", "LOOPBENCH_CACHE="};
+
+std::vector<std::string> environment_of(const ProgramStart& start) {
+  std::vector<std::string> out;
+  for (char** each = environ; *each != nullptr; ++each) {
+    const std::string_view variable(*each);
+    bool is_kept = true;
+    for (const std::string_view hidden : kHidden) is_kept &= !variable.starts_with(hidden);
+    for (const auto& [name, value] : start.environment) {
+      is_kept &= !variable.starts_with(name + "=");
+    }
+    if (is_kept) out.emplace_back(variable);
+  }
+  for (const auto& [name, value] : start.environment) out.push_back(name + "=" + value);
+  return out;
+}
+
+/// Two ends that are closed unless they are taken.
+class Ends {
+ public:
+  explicit Ends(bool is_socket = false) {
+    const int failed = is_socket ? socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_.data())
+                                 : pipe2(ends_.data(), O_CLOEXEC);
+    if (failed != 0) {
+      throw std::runtime_error(std::string("cannot start a program: ") + std::strerror(errno));
+    }
+  }
+  ~Ends() {
+    for (const int end : ends_) {
+      if (end >= 0) close(end);
+    }
+  }
+  Ends(const Ends&) = delete;
+  Ends& operator=(const Ends&) = delete;
+
+  int operator[](std::size_t i) const { return ends_[i]; }
+  int take(std::size_t i) { return std::exchange(ends_[i], -1); }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+void do_not_block(int file) { fcntl(file, F_SETFL, fcntl(file, F_GETFL) | O_NONBLOCK); }
+
+}  // namespace
+
+ProcessTree::ProcessTree(const ProgramStart& start) : owner_(getpid()) {
+  const std::vector<std::string> environment = environment_of(start);
+  Ends control;
+  Ends status;
+  Ends output;
+  Ends input(true);
+  Ends errors;
+  constexpr int kPipeSize = 1 << 20;  // [bytes], so that a problem is passed in one piece
+  fcntl(output[1], F_SETPIPE_SZ, kPipeSize);
+  SupervisorFiles files{control[0], status[1], -1, output[1], -1};
+  if (start.serves) {
+    files.input = input[1];
+    files.errors = errors[1];
+    for (const int end : {input[0], input[1]}) {
+      setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kPipeSize, sizeof kPipeSize);
+    }
+  }
+  std::fflush(nullptr);
+  supervisor_ = fork();
+  if (supervisor_ == 0) supervise(start, environment, files);
+  if (supervisor_ < 0) {
+    throw std::runtime_error(std::string("cannot start a program: ") + std::strerror(errno));
+  }
+  control_ = control.take(1);
+  status_ = status.take(0);
+  output_ = output.take(0);
+  do_not_block(output_);
+  if (!start.serves) return;
+  input_ = input.take(0);
+  errors_ = errors.take(0);
+  do_not_block(input_);
+  do_not_block(errors_);
+}
+
+ProcessTree::~ProcessTree() {
+  for (const int file : {control_, status_, input_, output_, errors_}) {
+    if (file >= 0) close(file);
+  }
+  if (getpid() != owner_) return;
+  while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool ProcessTree::has_ended() const {
+  std::array<pollfd, 1> file{{{status_, POLLIN, 0}}};
+  return poll(file.data(), 1, 0) > 0;
+}
+
+ProgramEnd ProcessTree::wait(std::string& output) {
+  bool is_open = true;
+  for (;;) {
+    std::array<pollfd, 3> files{
+        {{status_, POLLIN, 0}, {is_open ? output_ : -1, POLLIN, 0}, {errors_, POLLIN, 0}}};
+    if (poll(files.data(), files.size(), -1) < 0) continue;
+    if (files[1].revents != 0) is_open = read_available(output_, output);
+    if (files[2].revents != 0) read_available(errors_, output);
+    if (files[0].revents != 0) break;
+  }
+  ProgramEnd end;
+  const ssize_t got = read(status_, &end, sizeof end);
+  if (is_open) read_available(output_, output);
+  if (errors_ >= 0) read_available(errors_, output);
+  if (got != static_cast<ssize_t>(sizeof end)) {
+    throw std::runtime_error("the supervisor of the program was killed");
+  }
+  return end;
+}
+
+bool read_available(int file, std::string& text) {
+  std::array<char, 1 << 16> buffer;
+  for (;;) {
+    const ssize_t got = read(file, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return got < 0 && errno == EAGAIN;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (text.size() > kKeptOutput) text.erase(0, text.size() - kKeptOutput);
+  }
+}
+
+std::string text(const ProgramEnd& end) {
+  if (end.start_error != 0) {
+    return std::string("cannot be started: ") + std::strerror(end.start_error);
+  }
+  if (end.signal == 0) return "exited with code " + std::to_string(end.exit_code);
+  const char* name = sigabbrev_np(end.signal);
+  return "was ended by " +
+         (name == nullptr ? "signal " + std::to_string(end.signal) : "SIG" + std::string(name));
+}
+
+}  // namespace loopbench::harness

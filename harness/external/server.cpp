@@ -1,0 +1,183 @@
+#include "harness/external/server.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <new>
+
+#include "harness/external/message.hpp"
+#include "harness/external/process_tree.hpp"
+#include "metrics/evaluation/undefined.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// In memory shared with forked processes.
+struct SharedTurn {
+  std::atomic<std::uint64_t> asked = 0;
+  std::atomic<std::uint64_t> answered = 0;
+};
+
+ProgramStart server_start(const CommandOptions& options, const CommandSetting& setting) {
+  ProgramStart out;
+  out.arguments = command_words("serve", options.serve, options.shell);
+  out.folder = setting.folder;
+  out.memory = setting.memory;
+  out.serves = true;
+  return out;
+}
+
+class Server {
+ public:
+  Server(const CommandOptions& options, const CommandSetting& setting)
+      : tree_(server_start(options, setting)) {
+    void* shared = mmap(
+        nullptr, sizeof(SharedTurn), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared == MAP_FAILED) throw std::runtime_error("cannot start a program: shared memory");
+    turn_ = new (shared) SharedTurn;
+  }
+  ~Server() { munmap(turn_, sizeof(SharedTurn)); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  bool is_in_step() const { return turn_->asked == turn_->answered && !tree_.has_ended(); }
+
+  Trajectory ask(const Problem& problem,
+                 ResultPoses output,
+                 std::int64_t memory,
+                 ResultFacts& facts,
+                 std::string& errors) {
+    const std::uint64_t number = ++turn_->asked;
+    unsent_ = question(problem, output, number);
+    received_.clear();
+    errors_ = &errors;
+    MessageHeader header;
+    receive(sizeof header, memory);
+    std::memcpy(&header, received_.data(), sizeof header);
+    check_header(header, number, problem.keyframes.size());
+    receive(sizeof header + header.text + header.data, memory);
+    if (received_.size() > sizeof header + header.text + header.data) {
+      throw std::runtime_error("the program wrote more than one answer");
+    }
+    turn_->answered = number;  // from here on the streams are in step, whatever the answer says
+    read_available(tree_.errors(), errors);
+    return answer_poses(received_.substr(sizeof header, header.text),
+                        received_.substr(sizeof header + header.text),
+                        facts);
+  }
+
+ private:
+  /// Sends and receives until at least `size` bytes are here.
+  void receive(std::size_t size, std::int64_t memory) {
+    while (received_.size() < size) {
+      std::array<pollfd, 3> files{{{tree_.output(), POLLIN, 0},
+                                   {tree_.errors(), POLLIN, 0},
+                                   {unsent_.empty() ? -1 : tree_.input(), POLLOUT, 0}}};
+      if (poll(files.data(), files.size(), -1) < 0) continue;
+      if (files[2].revents != 0) send_some();
+      if (files[1].revents != 0) read_available(tree_.errors(), *errors_);
+      if (files[0].revents != 0 && !receive_some()) throw_end(memory);
+    }
+  }
+
+  void send_some() {
+    const ssize_t sent = send(tree_.input(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
+    if (sent < 0 && errno != EAGAIN && errno != EINTR) unsent_.clear();  // its end is read next
+  }
+
+  bool receive_some() {
+    std::array<char, 1 << 16> buffer;
+    const ssize_t got = read(tree_.output(), buffer.data(), buffer.size());
+    if (got > 0) received_.append(buffer.data(), static_cast<std::size_t>(got));
+    return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+  }
+
+  [[noreturn]] void throw_end(std::int64_t memory) {
+    const ProgramEnd end = tree_.wait(*errors_);
+    if (end.over_memory > 0) {
+      throw MemoryLimitExceeded(
+          fmt::format("the program grew to {} bytes, limit {}", end.over_memory, memory));
+    }
+    throw std::runtime_error("the program " + text(end) + " before its answer");
+  }
+
+  ProcessTree tree_;
+  SharedTurn* turn_ = nullptr;
+  std::string unsent_;
+  std::string received_;
+  std::string* errors_ = nullptr;
+};
+
+struct KnownServer {
+  std::string key;
+  std::unique_ptr<Server> server;
+};
+
+KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
+  static thread_local std::vector<KnownServer> servers;
+  const std::string key = fmt::format(
+      "{}\n{}\n{}\n{}", options.serve, options.shell, setting.folder.string(), setting.memory);
+  const auto found = std::ranges::find(servers, key, &KnownServer::key);
+  return found == servers.end() ? servers.emplace_back(KnownServer{key, nullptr}) : *found;
+}
+
+Server& running_server(const CommandOptions& options, const CommandSetting& setting) {
+  KnownServer& known = known_server(options, setting);
+  if (known.server && !known.server->is_in_step()) known.server.reset();
+  if (!known.server) known.server = std::make_unique<Server>(options, setting);
+  return *known.server;
+}
+
+}  // namespace
+
+void prepare_server(const CommandOptions& options, const CommandSetting& setting) {
+  running_server(options, setting);
+}
+
+Trajectory ask_server(const CommandOptions& options,
+                      const CommandSetting& setting,
+                      const Problem& problem,
+                      methods::Report& report) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  Server& server = running_server(options, setting);
+  const double started = elapsed();
+  ResultFacts facts;
+  std::string errors;
+  Trajectory out;
+  try {
+    out = checked_result(server.ask(problem, options.output, setting.memory, facts, errors),
+                         problem,
+                         options.output,
+                         "the answer");
+  } catch (const MemoryLimitExceeded&) {
+    throw;
+  } catch (const metrics::Undefined&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_output(error.what(), errors));
+  }
+  for (auto& count : facts.report.counts) report.counts.push_back(std::move(count));
+  for (auto& phase : facts.report.phases) report.phases.push_back(std::move(phase));
+  for (auto& note : facts.report.notes) report.notes.push_back(std::move(note));
+  add_output(report, errors);
+  const double all = elapsed();
+  const bool is_stated = facts.seconds >= 0.0 && facts.seconds <= all;
+  report.notes.emplace_back(is_stated ? "time: as stated by the program"
+                                      : "time: from question to answer");
+  report.phases.push_back({kExchangePhase, is_stated ? all - facts.seconds : started});
+  return out;
+}
+
+}  // namespace loopbench::harness

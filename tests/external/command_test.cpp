@@ -1,0 +1,274 @@
+// Programs as methods, started for each cell: exchange, checks, and what misbehaving ones cost.
+#include "tests/support/command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/params.hpp"
+#include "harness/external/arguments.hpp"
+#include "harness/external/exchange.hpp"
+#include "harness/store/read.hpp"
+
+namespace loopbench::command_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Arguments, AreSplitAsByAShellWithoutExpansions) {
+  EXPECT_THAT(split_arguments("run", R"(a  'b "c' "d 'e" f\ g "" $HOME *)"),
+              ElementsAre("a", "b \"c", "d 'e", "f g", "", "$HOME", "*"));
+  EXPECT_THROW(split_arguments("run", "a 'b"), OptionError);
+  EXPECT_THROW(split_arguments("run", "  "), OptionError);
+  EXPECT_THAT(with_values({"{problem}/x", "{other}", "{", "a{result}"},
+                          {{"problem", "/p q"}, {"result", "{problem}"}}),
+              ElementsAre("/p q/x", "{other}", "{", "a{problem}"));
+}
+
+TEST(Facts, AreCheckedAsTheyAreRead) {
+  const ResultFacts facts =
+      parse_facts(R"({"seconds": 0.5, "iterations": 7, "counts": {"a": 1}, "notes": ["x"]})");
+  EXPECT_EQ(facts.seconds, 0.5);
+  EXPECT_EQ(facts.report.counts.size(), 2u);
+  EXPECT_THAT(facts.report.notes, ElementsAre("x"));
+  EXPECT_THROW(parse_facts("{"), std::runtime_error);
+  EXPECT_THROW(parse_facts("[]"), std::runtime_error);
+  EXPECT_THROW(parse_facts(R"({"iterations": "many"})"), std::runtime_error);
+}
+
+class Command : public testing::Test {
+ protected:
+  /// Runs a sweep of one simulated sequence with these method entries; returns its cells.
+  std::vector<CellRecord> cells(const std::string& entries, const std::string& settings = "") {
+    folder_.file(
+        "c.yaml",
+        "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n  - raw\n" +
+            entries + "metrics: [ate]\ntimes: keyframes\n" + settings);
+    ran_ = loopbench_command("run c.yaml --out r -j 2", folder_);
+    return read_cells(folder_.path() / "r");
+  }
+
+  static std::string entry(const std::string& label, const std::string& run) {
+    return "  - {method: command, label: " + label + ", run: " + run + "}\n";
+  }
+
+  /// ATE of each method [m]
+  std::map<std::string, double> errors() {
+    std::map<std::string, double> out;
+    for (const Record& record : read_records(folder_.path() / "r")) {
+      if (record.metric == "ate" && record.relation == "translation")
+        out[record.method] = record.statistics.rmse;
+    }
+    return out;
+  }
+
+  static std::string notes(const CellRecord& cell) {
+    std::string out;
+    for (const std::string& note : cell.notes) out += note + "\n";
+    return out;
+  }
+
+  TemporaryFolder folder_;
+  CommandResult ran_;
+};
+
+TEST_F(Command, CopyingTheKeyframesIsRaw) {
+  folder_.file("copy.sh", "cp \"$1/keyframes.txt\" \"$2\"\n");
+  const auto done =
+      cells(entry("tum", "'sh copy.sh {problem} {result}'") +
+            entry("g2o", R"("sh -c 'grep VERTEX $0/graph.g2o >$1' {problem} {result}")") +
+            "  - {method: command, label: shell, shell: true, run: 'cp {problem}/keyframes.txt "
+            "{result} && echo copied'}\n"
+            "  - {method: command, label: dense, output: dense, run: 'sh copy.sh {problem} "
+            "{result}'}\n" +
+            "  - {method: command + cubic_spline, label: spline, run: 'sh copy.sh {problem} "
+            "{result}'}\n");
+  ASSERT_EQ(ran_.exit_code, 0) << ran_.out << ran_.err;
+  const auto ate = errors();
+  for (const char* label : {"tum", "g2o", "shell", "dense"}) {
+    EXPECT_EQ(ate.at(label), ate.at("raw")) << label;
+  }
+  EXPECT_NEAR(ate.at("spline"), ate.at("raw"), 1e-12);
+  ASSERT_EQ(done.size(), 6u);
+  EXPECT_THAT(notes(done[3]), HasSubstr("output: copied"));
+  EXPECT_THAT(notes(done[3]), HasSubstr("time: from start to end of the program"));
+  EXPECT_EQ(done[1].phases.front().name, kExchangePhase);
+}
+
+TEST_F(Command, TheFolderHoldsNothingOfTheReference) {
+  const auto done = cells(entry(
+      "look",
+      R"("sh -c 'ls $0 $0/..; echo data=$LOOPBENCH_DATA; cp $0/keyframes.txt $1' {problem} {result}")"));
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_THAT(notes(done[1]), HasSubstr("frames.txt\ngraph.g2o\nkeyframes.txt\nproblem.json\n"));
+  EXPECT_THAT(notes(done[1]), HasSubstr(":\nproblem\ndata=\n"));
+}
+
+TEST_F(Command, ResultJsonStatesTimeCountsAndRefusals) {
+  folder_.file("state.sh",
+               "cp $1/keyframes.txt $2\n"
+               "echo '{\"seconds\": 0.0, \"iterations\": 7, \"notes\": [\"hello\"]}' >$2.json\n");
+  folder_.file("decline.sh", "echo '{\"status\": \"declined\", \"why\": \"too flat\"}' >$2.json\n");
+  const auto done = cells(entry("states", "'sh state.sh {problem} {result}'") +
+                          entry("declines", "'sh decline.sh {problem} {result}'"));
+  ASSERT_EQ(done.size(), 3u);
+  EXPECT_EQ(done[1].phases.front().name, kExchangePhase);
+  EXPECT_LT(done[1].seconds, done[1].phases.front().seconds) << "which is not the method's time";
+  EXPECT_EQ(done[1].counts.front().value, 7.0);
+  EXPECT_THAT(notes(done[1]), HasSubstr("hello\n"));
+  EXPECT_THAT(notes(done[1]), HasSubstr("time: as stated by the program"));
+  EXPECT_EQ(done[2].status, "declined");
+  EXPECT_EQ(done[2].why, "too flat");
+}
+
+TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
+  const std::vector<std::array<std::string, 4>> all{
+      {"crash", R"("sh -c 'kill -SEGV $$' {problem} {result}")", "failed", "ended by SIGSEGV"},
+      {"exit",
+       R"("sh -c 'echo sorry; exit 3' {problem} {result}")",
+       "failed",
+       "exited with code 3; its output ends with: sorry"},
+      {"flood", R"("sh -c 'yes | head -c 3000000; exit 1' {problem} {result}")", "failed", "y\ny"},
+      {"half",
+       R"("sh -c 'head -n 20 $0/keyframes.txt >$1' {problem} {result}")",
+       "failed",
+       "result: has 20 poses, expected 40"},
+      {"cut",
+       R"("sh -c 'head -c 999 $0/keyframes.txt >$1' {problem} {result}")",
+       "failed",
+       "result:"},
+      {"nan", "'sh nan.sh {problem} {result}'", "failed", "result:1:"},
+      {"stamps",
+       R"("awk '{$1 += 0.5; print > R}' R={result} {problem}/keyframes.txt")",
+       "failed",
+       "has stamp 0.5, expected 0.0 of the keyframe"},
+      {"elsewhere",
+       "'cp {problem}/keyframes.txt {problem}/../elsewhere{result}'",
+       "failed",
+       "exited with code 1"},
+      {"nothing", "'true {problem} {result}'", "failed", "the program wrote no result"},
+      {"absent", "'./absent {problem} {result}'", "failed", "cannot be started: No such file"},
+      {"device",
+       R"("sh -c 'ln -s /dev/zero $1' {problem} {result}")",
+       "failed",
+       "result: is not a regular file"},
+      {"json",
+       R"("sh -c 'cp $0/keyframes.txt $1; echo [ >$1.json' {problem} {result}")",
+       "failed",
+       "result.json: "}};
+  folder_.file("nan.sh", "sed 's/ [^ ]*/ nan/' $1/keyframes.txt >$2\n");
+  std::string entries;
+  for (const auto& each : all) entries += entry(each[0], each[1]);
+  const auto done = cells(entries + "  - uniform\n");
+  ASSERT_EQ(done.size(), all.size() + 2) << ran_.err;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(done[i + 1].status, all[i][2]) << all[i][0] << ": " << done[i + 1].why;
+    EXPECT_THAT(done[i + 1].why, HasSubstr(all[i][3])) << all[i][0];
+    EXPECT_LT(done[i + 1].why.size(), 2200u) << "output is cut off";
+  }
+  EXPECT_EQ(done.back().status, "ok");
+}
+
+/// Whether a process has this command line, with blanks between its words.
+bool is_running(const std::string& command_line) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::string text = read_all(entry.path() / "cmdline");
+    for (char& c : text) c = c == '\0' ? ' ' : c;
+    if (text == command_line + " ") return true;
+  }
+  return false;
+}
+
+bool ends_soon(const std::string& command_line) {
+  for (int i = 0; i < 500 && is_running(command_line); ++i) usleep(10000);
+  return !is_running(command_line);
+}
+
+TEST_F(Command, ProcessesThatOutliveTheProgramAreKilled) {
+  folder_.file("forks.sh",
+               "sleep 8731 &\nsetsid sleep 8732 &\n(setsid sh -c 'sleep 8733 & sleep 8734' &)\n"
+               "cp $1/keyframes.txt $2\n");
+  const auto done = cells(entry("forks", "'sh forks.sh {problem} {result}'"));
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "ok") << done[1].why;
+  EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
+  for (const char* time : {"8731", "8732", "8733", "8734"}) {
+    EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
+  }
+}
+
+TEST_F(Command, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
+  folder_.file("hangs.sh", "setsid sleep 8741 &\necho $1 >$PWD/where\nsleep 8742\n");
+  const auto done =
+      cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 1}\n");
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "timeout") << done[1].why;
+  EXPECT_TRUE(ends_soon("sleep 8741"));
+  EXPECT_TRUE(ends_soon("sleep 8742"));
+  std::string where = read_all(folder_.path() / "where");
+  where.pop_back();
+  EXPECT_THAT(where, HasSubstr("loopbench-exchange-"));
+  for (int i = 0; i < 500 && std::filesystem::exists(where); ++i) usleep(10000);
+  EXPECT_FALSE(std::filesystem::exists(where));
+}
+
+TEST_F(Command, MemoryOfTheTreeIsLimited) {
+  const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
+                          "limits: {memory: 700MiB}\n");
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "out_of_memory") << done[1].why;
+  EXPECT_THAT(done[1].why, HasSubstr("grew to "));
+}
+
+TEST_F(Command, CellsAreKeyedByTheProgramsFilesAndVersion) {
+  folder_.file("copy.sh", "cp $1/keyframes.txt $2\n");
+  folder_.file("data", "1");
+  folder_.file("number", "1");
+  const std::string method =
+      "  - {method: command, run: 'sh copy.sh {problem} {result}', depends: data, version: 'cat "
+      "number'}\n";
+  const auto stored = [&] {
+    cells(method);
+    const std::size_t at = ran_.out.find("2 of 2 cells done");
+    return at == std::string::npos ? ran_.out + ran_.err : ran_.out.substr(at, 50);
+  };
+  stored();
+  EXPECT_THAT(stored(), HasSubstr("(2 of them in earlier runs)"));
+  for (const char* file : {"copy.sh", "data", "number"}) {
+    folder_.file(file, read_all(folder_.path() / file) + "\n");
+    EXPECT_THAT(stored(), HasSubstr("(1 of them in earlier runs)")) << file;
+    EXPECT_THAT(stored(), HasSubstr("(2 of them in earlier runs)")) << file;
+  }
+  std::filesystem::remove(folder_.path() / "data");
+  cells(method);
+  EXPECT_THAT(ran_.err, HasSubstr("depends: "));
+}
+
+TEST_F(Command, ImpossibleOptionsAreRejectedWithTheirLine) {
+  const auto error = [&](const std::string& entry) {
+    folder_.file("c.yaml", "datasets: [simulated]\nmethods:\n  - " + entry + "\nmetrics: [ate]\n");
+    return loopbench_command("run c.yaml --dry-run", folder_).err;
+  };
+  EXPECT_THAT(error("command"), HasSubstr("c.yaml:3: command: run: expected either run or serve"));
+  EXPECT_THAT(error("{method: command, run: solve {problem}}"), HasSubstr("c.yaml:3"));
+  EXPECT_THAT(error("{method: command, run: 'solve {problem}'}"),
+              HasSubstr("run: does not contain {result}"));
+  EXPECT_THAT(error("{method: command, run: \"solve '{problem} {result}\"}"),
+              HasSubstr("is not closed"));
+  EXPECT_THAT(error("{method: command + dm_n4, output: dense, run: 'solve {problem} {result}'}"),
+              HasSubstr("has no smoother"));
+}
+
+}  // namespace
+}  // namespace loopbench::command_test

@@ -1,0 +1,98 @@
+// Programs as SLAM systems: dataset `command`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "datasets/formats/formats.hpp"
+#include "harness/store/read.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench::command_dataset_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using testing::HasSubstr;
+
+/// A recording (a file) that a shell script copies as its open trajectory, with one loop.
+class CommandDataset : public testing::Test {
+ protected:
+  CommandDataset() {
+    setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
+    const Problem problem = test::circle(41);
+    write_tum(folder_.path() / "recording.txt", problem.keyframes);
+    folder_.file("slam.sh",
+                 "echo run $3 >>runs\ncp $1 $2\ncp $1 $2.closed\n"
+                 "echo '0 20 0 0 0 0 0 0 1 0.02 0.01' >$2.loops\n");
+  }
+  ~CommandDataset() override { unsetenv("LOOPBENCH_CACHE"); }
+
+  CommandResult run(const std::string& more, const std::string& settings = "") {
+    folder_.file("c.yaml",
+                 "datasets:\n  - {dataset: command, label: mine, sequence: recording.txt, "
+                 "reference: recording.txt, " +
+                     more + "}\nmethods: [raw, uniform]\nmetrics: [ate]\ntimes: keyframes\n" +
+                     settings);
+    return loopbench_command("run c.yaml --fresh --out r", folder_);
+  }
+
+  std::size_t runs() const {
+    const std::string text = read_all(folder_.path() / "runs");
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  }
+
+  const std::string program_ = "run: 'sh slam.sh {sequence} {trajectory} {seed}'";
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandDataset, ItsOutputIsCorrectedAndCached) {
+  const CommandResult done = run(program_);
+  ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
+  EXPECT_EQ(runs(), 1u);
+  for (const CellRecord& cell : read_cells(folder_.path() / "r")) {
+    EXPECT_EQ(cell.status, "ok") << cell.why;
+    EXPECT_EQ(cell.closures, "of the program");
+    EXPECT_EQ(cell.closure_count, 1);
+  }
+  run(program_);
+  EXPECT_EQ(runs(), 1u) << "the output is cached";
+  folder_.file("recording.txt", read_all(folder_.path() / "recording.txt") + "\n");
+  run(program_);
+  EXPECT_EQ(runs(), 2u) << "the recording changed";
+  folder_.file("slam.sh", read_all(folder_.path() / "slam.sh") + "\n");
+  run(program_);
+  EXPECT_EQ(runs(), 3u) << "the program changed";
+}
+
+TEST_F(CommandDataset, RepeatsAreRunsOfTheProgram) {
+  const CommandResult done = run(program_, "repeats: 3\n");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(runs(), 3u);
+  EXPECT_EQ(read_cells(folder_.path() / "r").size(), 6u);
+}
+
+TEST_F(CommandDataset, ItsClosedTrajectoryIsEvaluatedAsItIs) {
+  const CommandResult done = run(program_ + ", use: closed");
+  const std::vector<CellRecord> cells = read_cells(folder_.path() / "r");
+  ASSERT_EQ(cells.size(), 2u) << done.err;
+  EXPECT_EQ(cells[0].status, "ok");
+  EXPECT_EQ(cells[1].status, "declined") << "no closures are left";
+}
+
+TEST_F(CommandDataset, FailuresAreReportedWithTheOutput) {
+  EXPECT_THAT(run("run: 'sh -c \"echo no camera; exit 7\" {trajectory}'").err,
+              HasSubstr("exited with code 7; its output ends with: no camera"));
+  EXPECT_THAT(run("run: 'true {trajectory}'").err, HasSubstr("wrote no trajectory"));
+  EXPECT_THAT(run("run: 'true {sequence}'").err, HasSubstr("does not contain {trajectory}"));
+  EXPECT_THAT(run("run: './absent {trajectory}'").err, HasSubstr("cannot be started"));
+  EXPECT_THAT(run("estimate: a.txt, " + program_).err, HasSubstr("estimate: unknown option"));
+}
+
+}  // namespace
+}  // namespace loopbench::command_dataset_test
