@@ -9,7 +9,8 @@ packages=(
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)
-test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev)
+test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev
+  python3-numpy python3-scipy)
 
 install_missing() {
   local package status missing=()
