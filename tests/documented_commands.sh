@@ -14,8 +14,7 @@ while IFS= read -r hit; do
   line=${line%%'`'*}                     # the end of inline code
   line=${line%%  \#*}                    # a comment after the command
   line=${line%% | *}
-  # shellcheck disable=SC2206,SC2086      # pages quote as a shell does; only words are compared
-  words=($(printf '%s' "$line" | tr -d "'\"")) || words=()
+  read -ra words <<<"${line//[\'\"]/}"    # quotes do not matter here: only words are compared
   command=${words[0]:-}
   [[ $command =~ ^[a-z]+$ ]] || continue # './run.sh' alone, or options only
   checked=$((checked + 1))
