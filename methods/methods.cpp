@@ -93,7 +93,7 @@ std::vector<MethodEntry> methods() {
                           "motion_drift_rotation, variances also grow with speed",
                           {.model = MotionDrift::Model::speed}),
       method<MotionDrift>("motion_drift",
-                          "motion_drift_rotation with steady drift, averaged over noise models "
+                          "motion_drift_rotation with drift, averaged over noise models "
                           "drawn from their posterior"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
