@@ -98,6 +98,7 @@ int main(int argc, char** argv) {
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
   add_merge(app, exit_code);
+  add_salvage(app, exit_code);
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);

@@ -14,6 +14,11 @@ std::filesystem::path store_file(const std::filesystem::path& given) {
   return file;
 }
 
+void create_tables(Database& database) {
+  database.execute(kSchema);
+  database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+}
+
 void check_schema(Database& database, const std::filesystem::path& file) {
   Statement version = database.prepare("PRAGMA user_version");
   const std::int64_t found = version.step() ? version.integer() : 0;
