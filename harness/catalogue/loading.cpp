@@ -36,6 +36,7 @@ rgbd::FrontendHooks loading_hooks() {
   rgbd::FrontendHooks out;
   if (isatty(STDERR_FILENO) == 1) out.progress = draw;
   out.cache = cache_folder();
+  out.build = front_end_hash;
   return out;
 }
 
