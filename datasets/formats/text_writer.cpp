@@ -1,12 +1,9 @@
 #include "datasets/formats/text_writer.hpp"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
 
-#include "datasets/core/error.hpp"
+#include "datasets/formats/replace_file.hpp"
 
 namespace loopbench {
 
@@ -51,15 +48,7 @@ void TextWriter::row(std::initializer_list<double> values) {
 }
 
 void TextWriter::save(const std::filesystem::path& file) const {
-  const std::string name = file.string();
-  const auto failure = [&] {
-    return input_error(name, 0, std::string("cannot be written: ") + std::strerror(errno));
-  };
-  std::FILE* const handle = std::fopen(name.c_str(), "wb");
-  if (handle == nullptr) throw failure();
-  const bool written = std::fwrite(text_.data(), 1, text_.size(), handle) == text_.size();
-  // A full disk may be reported only when the last buffer is flushed.
-  if (std::fclose(handle) != 0 || !written) throw failure();
+  replace_file(file, text_, Target::named);
 }
 
 }  // namespace loopbench

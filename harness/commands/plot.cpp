@@ -8,6 +8,7 @@
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
 #include "harness/tables/store_provenance.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/suggest.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -66,7 +67,7 @@ int write_figures(const PlotArguments& arguments) {
     const std::string& sequence = content.sequences[s];
     const SequenceFigures figures = sequence_figures(content.cells, traces, sequence, methods);
     if (figures.errors.empty()) {
-      fmt::print("{}: has no stored trajectories of these methods\n", sequence);
+      fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
     }
     for (const std::string& format : arguments.formats) {
@@ -75,7 +76,7 @@ int write_figures(const PlotArguments& arguments) {
       const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
         const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
         write_figure(file, panels, 2);
-        fmt::print("{}\n", file.string());
+        fmt::print("{}\n", printable(file.string()));
         ++written;
       };
       write("trajectories", figures.trajectories);
@@ -83,7 +84,7 @@ int write_figures(const PlotArguments& arguments) {
     }
   }
   if (written == 0) throw InputError(arguments.store + ": has no stored trajectories to plot");
-  write_file(folder / "provenance.json", json(read_store_provenance(arguments.store)));
+  write_result(folder / "provenance.json", json(read_store_provenance(arguments.store)));
   return kExitOk;
 }
 

@@ -68,8 +68,8 @@ int reproduce(const ReproduceArguments& arguments) {
   }
   const std::vector<Claim> segments = check_segment_claims(done);
   if (!segments.empty()) claims += "\n## Claims on segments\n\n" + claim_table(segments);
-  write_file(out / "tables.md", "# Tables 1 to 4\n" + paper_tables(done));
-  write_file(out / "claims.md", "# The article's claims\n" + claims);
+  write_result(out / "tables.md", "# Tables 1 to 4\n" + paper_tables(done));
+  write_result(out / "claims.md", "# The article's claims\n" + claims);
   fmt::print("{}\n{}\n", (out / "tables.md").string(), (out / "claims.md").string());
   return kExitOk;
 }

@@ -3,10 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
+#include "datasets/formats/regular_file.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/interruption.hpp"
@@ -23,6 +22,7 @@
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/store_provenance.hpp"
 #include "harness/tables/text.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -47,9 +47,9 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
     const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
     fmt::print("{:5}  {}{} / {}\n",
                cell.index,
-               sweep.datasets[cell.dataset].label,
+               printable(sweep.datasets[cell.dataset].label),
                repeat,
-               sweep.methods[cell.method].label);
+               printable(sweep.methods[cell.method].label));
   }
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
@@ -58,11 +58,10 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
 int report_bad_inputs(const std::vector<std::string>& reasons) {
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {
-    fmt::print(stderr, "loopbench: {}\n", printable(reason));
+    print_error("loopbench: {}\n", printable(reason));
   }
-  fmt::print(stderr,
-             "loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
-             reasons.size());
+  print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
+              reasons.size());
   return kExitBadInput;
 }
 
@@ -86,36 +85,35 @@ std::string write_tables(const std::filesystem::path& store,
                          const Sweep& sweep,
                          const std::filesystem::path& out) {
   std::vector<Record> records = all_records(store);
-  write_file(out / "rows.csv", csv(records));
+  write_result(out / "rows.csv", csv(records));
   keep_where(records, sweep.table.where);
   const std::vector<Table> tables = pivot(records, sweep.table);
   const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
   const StoreProvenance provenance = read_store_provenance(store);
-  write_file(out / "table.md", text + "\n" + provenance_comment(provenance));
-  write_file(out / "provenance.json", json(provenance));
-  write_file(out / "table.csv", csv(tables));
+  write_result(out / "table.md", text + "\n" + provenance_comment(provenance));
+  write_result(out / "provenance.json", json(provenance));
+  write_result(out / "table.csv", csv(tables));
   return text;
 }
 
+constexpr std::size_t kLargestTable = std::size_t{1} << 30;  // [bytes]
+
 /// The stored table without the comment at its end.
 std::string printed_tables(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = read_regular_file(file, kLargestTable, "table");
   return text.substr(0, text.rfind("\n<!-- "));
 }
 
 void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
   if (!resumed.damaged.empty()) {
-    fmt::print(
-        stderr,
+    print_error(
         "loopbench: {}: damaged cells are recomputed: {}{}\n",
         store.string(),
         resumed.damaged.front(),
         resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
   } else if (resumed.lost) {
-    fmt::print(stderr,
-               "loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
-               store.string());
+    print_error("loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
+                store.string());
   }
 }
 
@@ -167,9 +165,11 @@ int run(const RunArguments& arguments, const Source& source) {
   if (done + resumed.there == 0) return kExitInterrupted;
 
   // Writing the tables of many cells takes longer than checking that none is missing.
-  const bool is_up_to_date =
-      resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
-      std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
+  const auto is_there = [&](const char* name) {  // links are replaced, not followed
+    return std::filesystem::is_regular_file(std::filesystem::symlink_status(out / name));
+  };
+  const bool is_up_to_date = resumed.exported && done == 0 && is_there("table.md") &&
+                             is_there("table.csv") && is_there("rows.csv");
   const std::string text =
       is_up_to_date ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
   if (!is_up_to_date) store->exported();
@@ -183,9 +183,9 @@ int run(const RunArguments& arguments, const Source& source) {
              incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
              sweep.table.value,
              protocol_names(sweep),
-             (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
+             printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()));
   if (interrupted) {
-    fmt::print(stderr, "loopbench: interrupted; finished cells are kept\n");
+    print_error("loopbench: interrupted; finished cells are kept\n");
     return kExitInterrupted;
   }
   return failed > 0 ? kExitSomeCellsFailed : kExitOk;

@@ -10,6 +10,7 @@
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/progress.hpp"
+#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -45,8 +46,8 @@ int run_verify(const VerifyArguments& arguments) {
   for (const Difference& difference : found) {
     const Cell& cell = planned[difference.cell];
     fmt::print("{} / {}{}: {} differs between {} and {}\n",
-               sweep.datasets[cell.dataset].label,
-               sweep.methods[cell.method].label,
+               printable(sweep.datasets[cell.dataset].label),
+               printable(sweep.methods[cell.method].label),
                cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "",
                difference.part,
                difference.mode,

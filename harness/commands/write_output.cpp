@@ -6,6 +6,7 @@
 #include "harness/provenance/build_summary.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/store_provenance.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -37,10 +38,10 @@ void write_output(const std::string& text,
   if (format != ExportFormat::csv) return;
   // Standard output has no folder for a second file.
   if (!is_printed && std::filesystem::is_regular_file(file))
-    return write_file(provenance_file(file), json(provenance));
-  fmt::print(stderr,
-             "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",
-             build_summary(provenance.provenance));
+    return write_result(provenance_file(file), json(provenance));
+  print_error(
+      "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",
+      build_summary(provenance.provenance));
 }
 
 }  // namespace loopbench::harness

@@ -1,10 +1,9 @@
 #include "harness/config/read_sweep.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
+#include "datasets/formats/regular_file.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
@@ -107,13 +106,18 @@ class SweepReader {
     return out;
   }
 
-  int count(const YamlNode& node, const std::string& key) const {
+  std::int64_t whole(const YamlNode& node, const std::string& key, std::int64_t most) const {
     const auto* integer = std::get_if<std::int64_t>(&node.scalar);
-    if (node.type != YamlNode::Type::scalar || integer == nullptr || *integer < 1 ||
-        *integer > 1000000) {
-      throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
+    if (node.type == YamlNode::Type::scalar && integer != nullptr && *integer >= 1 &&
+        *integer <= most) {
+      return *integer;
     }
-    return static_cast<int>(*integer);
+    throw input_error(
+        file_, node.line, key + ": expected a whole number, 1 to " + std::to_string(most));
+  }
+
+  int count(const YamlNode& node, const std::string& key) const {
+    return static_cast<int>(whole(node, key, 1'000'000));
   }
 
   /// A number of runs; true for timing cells alone; or {runs: N, serial: true}.
@@ -132,18 +136,19 @@ class SweepReader {
   }
 
   Limits limits(const YamlNode& node) const {
-    map_of(node, "limits", {"seconds", "memory"});
+    map_of(node, "limits", {"seconds", "memory", "cells"});
     Limits out;
-    if (const YamlNode* seconds = node.find("seconds")) {
+    if (const YamlNode* seconds = node.find("seconds"))
       out.seconds = number(*seconds, "limits.seconds");
-    }
     if (const YamlNode* memory = node.find("memory")) {
-      const auto bytes = parse_bytes(word(*memory, "limits.memory"));
-      if (!bytes) {
-        throw input_error(file_, memory->line, "limits.memory: expected a size, for example 2GiB");
-      }
+      const std::string text = word(*memory, "limits.memory");
+      const auto bytes = text == "none" ? 0 : parse_bytes(text);
+      if (!bytes)
+        throw input_error(file_, memory->line, "limits.memory: expected a size (2GiB) or none");
       out.memory = *bytes;
     }
+    if (const YamlNode* cells = node.find("cells"))
+      out.cells = whole(*cells, "limits.cells", 1'000'000'000);
     return out;
   }
 
@@ -288,12 +293,7 @@ Sweep parse_sweep(const std::string& text,
 }
 
 Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read, expected a YAML config");
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return parse_sweep(text, file, catalogue);
+  return parse_sweep(read_named_file(file, 16'000'000, "a YAML config"), file, catalogue);
 }
 
 }  // namespace loopbench::harness

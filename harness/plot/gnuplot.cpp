@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 
-#include "datasets/core/error.hpp"
+#include "harness/plot/run_gnuplot.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -19,7 +18,8 @@ namespace {
 /// rejects a string that begins with a quote, so a space precedes it.
 std::string gnuplot_quoted(const std::string& text) {
   std::string out = text.starts_with('\'') ? "' " : "'";
-  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
+  for (const char c : printable(text))
+    out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
 }
 
@@ -104,27 +104,16 @@ void write_figure(const std::filesystem::path& file,
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::string script = fmt::format(
       "set terminal {}\n"
-      "set output {}\nset grid lc rgb '#dddddd'\nset key outside below\nset border lc rgb "
+      "set grid lc rgb '#dddddd'\nset key outside below\nset border lc rgb "
       "'#666666'\n"
       "set multiplot layout {},{}\n",
       terminal(file, 640 * columns, 480 * rows),
-      gnuplot_quoted(file.string()),
       rows,
       columns);
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   script += "unset multiplot\n";
 
-  write_file(file, "");  // reports why it cannot be written, which gnuplot does not
-  std::FILE* pipe = popen("gnuplot >/dev/null", "w");
-  if (pipe == nullptr) throw InputError(file.string() + ": cannot start gnuplot");
-  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // in case gnuplot is missing
-  const bool sent = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  const int ended = pclose(pipe);
-  std::signal(SIGPIPE, usual);
-  if (ended != 0 || !sent || std::filesystem::file_size(file) == 0) {
-    std::filesystem::remove(file);
-    throw InputError(file.string() + ": gnuplot failed (package gnuplot-nox)");
-  }
+  write_result(file, drawn_by_gnuplot(script));
 }
 
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/text/printable.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -70,7 +72,7 @@ std::string one_line(const std::string& text) {
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  return out;
+  return printable(out);
 }
 
 std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lines) {

@@ -14,6 +14,7 @@
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
+#include "harness/report/sha256.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
@@ -258,6 +259,11 @@ TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
   }
   std::string page = *html_;
   page.replace(page.rfind("</body>"), 7, kProbe);
+  // The page's policy must allow the probe as well.
+  const std::string probe(kProbe);
+  const std::size_t begin = probe.find('>') + 1;
+  const std::string body = probe.substr(begin, probe.find("</script>") - begin);
+  page.insert(page.find("script-src") + 10, " 'sha256-" + base64_sha256(body) + "'");
   const std::string name = folder_->file("page.html", page).string();
   const std::string profile = (folder_->path() / "profile").string();
   const std::string line =

@@ -283,7 +283,7 @@ TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
   const CommandResult alone = run("plot r -o without");
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_TRUE(has(alone.err, "gnuplot failed (package gnuplot-nox)")) << alone.err;
+  EXPECT_TRUE(has(alone.err, "gnuplot is not installed (package gnuplot-nox)")) << alone.err;
 }
 
 }  // namespace

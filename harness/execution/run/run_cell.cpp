@@ -7,7 +7,7 @@
 #include <new>
 
 #include "harness/execution/run/allocations.hpp"
-#include "harness/execution/run/finite_output.hpp"
+#include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/process_usage.hpp"
@@ -33,6 +33,11 @@ metrics::Context context_of(const Sequence& sequence,
 
 using Clock = std::chrono::steady_clock;
 
+/// what() of a plugin's exception can be null.
+const char* message_of(const std::exception& error) {
+  return error.what() != nullptr ? error.what() : "threw an exception without a message";
+}
+
 /// Runs `work` and converts any exception to a status with its message: declined for Undefined
 /// metrics, otherwise failed.
 template <class Result, class Work>
@@ -41,13 +46,13 @@ void catch_errors(Result& result, Work work) {
     work();
   } catch (const metrics::Undefined& reason) {
     result.status = Status::declined;
-    result.why = reason.what();
+    result.why = stored_reason(message_of(reason));
   } catch (const std::bad_alloc&) {
     result.status = Status::out_of_memory;
     result.why = "memory allocation failed";
   } catch (const std::exception& error) {
     result.status = Status::failed;
-    result.why = error.what();
+    result.why = stored_reason(message_of(error));
   } catch (...) {
     result.status = Status::failed;
     result.why = "threw an exception that is not a std::exception";
@@ -72,6 +77,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     result.seconds.push_back(took.count());
     result.cpu_seconds.push_back(process_cpu_seconds() - cpu_begin);
     if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
+    check_report(report);
     result.report = std::move(report);
   }
   if (before) {
@@ -210,13 +216,12 @@ CellResult run_cell(const Cell& cell,
     const auto method = make_method(choice, catalogue, sequence.reference);
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
-      result.why = std::move(*why);
+      result.why = stored_reason(*why);
       return;
     }
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
-    require_finite(*curve, sequence, sweep);
-    require_finite_sections(result.report);
+    check_curve(curve.get(), sequence, sweep);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
       add_scores_without_reference(result, sweep, sequence, *curve, catalogue);
