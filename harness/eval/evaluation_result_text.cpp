@@ -10,8 +10,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// A cell with the value of one record.
-TableCell number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
+/// A table entry with the value of one record.
+TableEntry number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
 
 std::string options_text(const Params& options) {
   std::string out;
@@ -164,17 +164,17 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
       missing.emplace_back();
     }
     auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
-    std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
+    std::vector<TableEntry>& row = table->entries.emplace_back(table->columns.size());
     table->rows.push_back(result.estimate);
-    const auto put = [&](const std::string& column, TableCell cell) {
+    const auto put = [&](const std::string& column, TableEntry entry) {
       const auto [index, is_new] = known.emplace(column, table->columns.size());
       if (is_new) table->columns.push_back(column);
       row.resize(table->columns.size());
-      row[index->second] = std::move(cell);
+      row[index->second] = std::move(entry);
     };
     const bool is_failed = !result.why_failed.empty();
     const auto percent = [&](double share) {
-      return is_failed ? TableCell{.status = "failed"} : number(100.0 * share);
+      return is_failed ? TableEntry{.status = "failed"} : number(100.0 * share);
     };
     put("poses [%]", percent(result.coverage.share()));
     put("time [%]", percent(result.coverage.span));
@@ -206,7 +206,7 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
   }
   for (std::size_t t = 0; t < tables.size(); ++t) {
     tables[t].notes = grouped(missing[t]);
-    for (std::vector<TableCell>& row : tables[t].cells) {
+    for (std::vector<TableEntry>& row : tables[t].entries) {
       row.resize(tables[t].columns.size());
       if (row.front().status == "failed") std::ranges::fill(row, row.front());
     }
