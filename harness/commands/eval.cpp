@@ -27,8 +27,8 @@ int eval(const EvalArguments& a) {
   } else {
     fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
   }
-  const bool all_ok =
-      std::ranges::all_of(all, [](const EvaluationResult& j) { return status(j) == "ok"; });
+  const bool all_ok = std::ranges::all_of(
+      all, [](const EvaluationResult& result) { return status(result) == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 

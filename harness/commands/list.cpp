@@ -98,11 +98,14 @@ void print(const std::string& subject, const std::vector<Item>& all) {
   print_options(all.front());
 }
 
-/// One line for each old name and the name that replaced it.
+/// One line for each old name or value and the one that replaced it.
 std::string renamed_names() {
   std::string out = "Renamed (old names are rejected):\n";
   for (const auto& [owner, before, now] : kRenamedNames) {
     out += fmt::format("  {}{}{} -> {}\n", owner, owner.empty() ? "metric " : ": ", before, now);
+  }
+  for (const auto& [option, before, now] : kRenamedValues) {
+    out += fmt::format("  {0}: {1} -> {0}: {2}\n", option, before, now);
   }
   return out;
 }

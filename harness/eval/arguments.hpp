@@ -48,8 +48,8 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
 /// rpe. Otherwise the default metrics. Throws OptionError.
-std::vector<MetricQuestion> requested_metrics(const EvalArguments& arguments,
-                                              const metrics::Protocol& protocol);
+std::vector<MetricRequest> metric_requests(const EvalArguments& arguments,
+                                           const metrics::Protocol& protocol);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);

@@ -89,7 +89,7 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
-    requested_metrics(a, protocol.rules);  // rejects invalid options before reading files
+    metric_requests(a, protocol.rules);  // rejects invalid options before reading files
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
       !has_offset(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
@@ -127,7 +127,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
     printed.estimate = std::move(loaded.matrices);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const metrics::NamedProtocol& protocol : rules) {
-      const EvaluationOptions options{requested_metrics(a, protocol.rules),
+      const EvaluationOptions options{metric_requests(a, protocol.rules),
                                       !a.per_pose.empty(),
                                       a.min_coverage.value_or(0.0),
                                       are_printed ? &printed : nullptr,

@@ -48,17 +48,17 @@ std::string csv(const std::vector<Table>& tables) {
   for (const Table& table : tables) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        const TableCell& cell = table.cells[r][c];
-        if (!cell.value && cell.status.empty()) continue;
+        const TableEntry& entry = table.entries[r][c];
+        if (!entry.value && entry.status.empty()) continue;
         out += fmt::format("{},{},{},{},{},{},{},{}\n",
                            quoted(table.title),
                            quoted(table.rows[r]),
                            quoted(table.columns[c]),
-                           cell.value ? fmt::format("{}", *cell.value) : "",
-                           cell.records,
-                           cell.averaged,
-                           cell.value ? "ok" : cell.status,
-                           mark_name(cell.mark));
+                           entry.value ? fmt::format("{}", *entry.value) : "",
+                           entry.records,
+                           entry.averaged,
+                           entry.value ? "ok" : entry.status,
+                           mark_name(entry.mark));
       }
     }
   }

@@ -57,7 +57,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::string own = kind(record);
   if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
       other != own) {
-    throw InputError("a cell of this table would average '" + other + "' with '" + own +
+    throw InputError("an entry of this table would average '" + other + "' with '" + own +
                      "'; add the column in which they differ");
   }
   table.tried[{row, column}].insert(run_key(record));
@@ -79,20 +79,20 @@ void mark(Table& out,
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const std::vector<TablePosition> cells = cell_indices(table, l, along_columns);
-    const MarkInput all = mark_input(table, cells, along_columns);
+    const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
+    const MarkInput all = mark_input(table, entries, along_columns);
     const Marks marks = all.better == metrics::Better::neither
-                            ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
+                            ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      TableCell& cell = out.cells[cells[i].first][cells[i].second];
-      cell.mark = marks.marks[i];
-      is_marked = is_marked || cell.mark != Mark::none;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      TableEntry& entry = out.entries[entries[i].first][entries[i].second];
+      entry.mark = marks.marks[i];
+      is_marked = is_marked || entry.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
       const std::size_t most = possible(all, i);
-      if (cell.records > 0 && values < most) cell.possible = cell.records + most - values;
+      if (entry.records > 0 && values < most) entry.possible = entry.records + most - values;
     }
   }
   if (is_marked) {
@@ -109,7 +109,7 @@ void mark(Table& out,
 void explain_averages(Table& out, const TableNumbers& table) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const auto& [cell_index, numbers] : table.numbers) {
+  for (const auto& [entry_index, numbers] : table.numbers) {
     most = std::max(most, numbers.averaged());
     has_gain = has_gain || numbers.is_gain();
   }
@@ -147,7 +147,7 @@ Table finish(TableNumbers& table,
   explain_averages(out, table);
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
-    std::vector<TableCell> line(out.columns.size());
+    std::vector<TableEntry> line(out.columns.size());
     for (std::size_t c = 0; c < out.columns.size(); ++c) {
       if (const auto row = table.row_status.find(r); row != table.row_status.end()) {
         line[c].status = row->second;
@@ -162,7 +162,7 @@ Table finish(TableNumbers& table,
       line[c].averaged = found->second.averaged();
       if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";
     }
-    out.cells.push_back(std::move(line));
+    out.entries.push_back(std::move(line));
   }
   if (down_columns) mark(out, table, true, options);
   if (along_rows) mark(out, table, false, options);

@@ -10,18 +10,18 @@
 namespace loopbench::harness {
 namespace {
 
-std::string shown(const TableCell& cell, int digits) {
+std::string shown(const TableEntry& entry, int digits) {
   const std::string over =
-      cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
-  if (cell.value) return fixed(*cell.value, digits) + over;
-  if (cell.status == kNoCommonRun) return "-" + over;
-  return cell.status.empty() ? "-" : cell.status;
+      entry.possible == 0 ? "" : fmt::format(" ({} of {})", entry.records, entry.possible);
+  if (entry.value) return fixed(*entry.value, digits) + over;
+  if (entry.status == kNoCommonRun) return "-" + over;
+  return entry.status.empty() ? "-" : entry.status;
 }
 
 int digits_of(const Table& table, std::size_t column) {
   double largest = 0.0;
   bool all_integers = true;
-  for (const auto& row : table.cells) {
+  for (const auto& row : table.entries) {
     const double value = row[column].value.value_or(0.0);
     largest = std::max(largest, std::abs(value));
     all_integers = all_integers && value == std::round(value);
@@ -50,8 +50,8 @@ TableView table_view(const Table& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const int digits = digits_of(table, c);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      const TableCell& cell = table.cells[r][c];
-      out.lines[r].push_back({shown(cell, digits), cell.mark});
+      const TableEntry& entry = table.entries[r][c];
+      out.lines[r].push_back({shown(entry, digits), entry.mark});
     }
   }
   return out;

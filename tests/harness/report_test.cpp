@@ -105,10 +105,10 @@ TEST_F(OfASweep, EscapesEveryName) {
 
 TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
-                           "told to fail",
-                           "told to decline",
+                           "set to fail",
+                           "set to decline",
                            "undefined scores",
-                           "told to be undefined",
+                           "set to be undefined",
                            "verdict for every score",
                            "Protocol of every number",
                            "align=",

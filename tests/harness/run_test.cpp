@@ -1,4 +1,4 @@
-/// A whole sweep on the tiny catalogue: cells, store, threads, resilience.
+/// A complete sweep on the tiny catalogue: cells, store, threads, resilience.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,9 +66,9 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   EXPECT_EQ(count("failed"), 9 + 18);  // the method, and the undefined metric of the others
   EXPECT_EQ(count("declined"), 9);
   const auto fails = std::ranges::find(records, std::string("fails"), &Record::method);
-  EXPECT_EQ(fails->why, "told to fail");
+  EXPECT_EQ(fails->why, "set to fail");
   const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::label);
-  EXPECT_EQ(undefined->why, "told to be undefined");
+  EXPECT_EQ(undefined->why, "set to be undefined");
 }
 
 TEST_F(RunSweep, SameBitsOnAnyNumberOfThreads) {

@@ -98,7 +98,7 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
 
 TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
   EXPECT_EQ(marks({runs(1.0, 5), runs(2.0, 5)}).why_none,
-            "5 independent runs per cell cannot prove a difference at 0.05");
+            "5 independent runs per entry cannot prove a difference at 0.05");
   EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // a single competitor
 }
 

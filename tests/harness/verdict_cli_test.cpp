@@ -167,7 +167,7 @@ TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
   EXPECT_FALSE(has(apart, "**")) << apart;
   EXPECT_TRUE(
       has(apart,
-          "- no best value is marked: 4 independent runs per cell cannot prove a difference at "
+          "- no best value is marked: 4 independent runs per entry cannot prove a difference at "
           "0.05"));
 }
 

@@ -133,20 +133,20 @@ void add_scores(CellResult& result,
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
   const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
   const metrics::Protocol& protocol = sweep.protocols[row.protocol].rules;
-  ScoreResult none = row;
-  catch_errors(none, [&] {
+  ScoreResult failure = row;
+  catch_errors(failure, [&] {
     metrics::Evaluation evaluation =
         metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = context_of(sequence, at_keyframes, curve, row.times, protocol);
-    ScoreResult usual = row;
-    usual.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
-    if (!usual.why.empty()) {
-      usual.status = Status::incomplete;
+    ScoreResult evaluated = row;
+    evaluated.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
+    if (!evaluated.why.empty()) {
+      evaluated.status = Status::incomplete;
       result.status = Status::incomplete;
-      result.why = to_text(row.times) + ": " + usual.why;
+      result.why = to_text(row.times) + ": " + evaluated.why;
     }
     for (const MetricChoice& choice : sweep.metrics) {
-      score(result, choice, usual, evaluation, catalogue);
+      score(result, choice, evaluated, evaluation, catalogue);
     }
     const bool densest = row.times == metrics::Times::dense ||
                          std::ranges::count(sweep.times, metrics::Times::dense) == 0;
@@ -154,11 +154,11 @@ void add_scores(CellResult& result,
       result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
   });
-  if (none.status == Status::ok) return;
+  if (failure.status == Status::ok) return;
   for (const MetricChoice& choice : sweep.metrics) {  // no pairs, or no unique alignment
-    none.metric = choice.metric.name;
-    none.label = choice.label;
-    result.scores.push_back(none);
+    failure.metric = choice.metric.name;
+    failure.label = choice.label;
+    result.scores.push_back(failure);
   }
 }
 
@@ -193,8 +193,8 @@ std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
     const OracleEntry* oracle = find_oracle(catalogue, part.name);
     methods::Stage stage = oracle ? oracle->make(part.options, reference)
                                   : find_method(catalogue, part.name).make(part.options);
-    if (auto* whole = std::get_if<std::unique_ptr<const methods::Method>>(&stage))
-      return std::move(*whole);
+    if (auto* joint = std::get_if<std::unique_ptr<const methods::Method>>(&stage))
+      return std::move(*joint);
     if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
       corrector = std::move(*first);
     } else {

@@ -1,4 +1,4 @@
-/// The numbers that are aggregated in one cell of a table.
+/// The numbers that are aggregated in one entry of a table.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace loopbench::harness {
 
-/// Key of a run within a cell: the content of its data if known, otherwise its name.
+/// Key of a run within an entry: the content of its data if known, otherwise its name.
 std::string run_key(const Record& record);
 
-class CellNumbers {
+class EntryNumbers {
  public:
   void add(const Record& record, double value);
 

@@ -1,4 +1,4 @@
-#include "harness/tables/cell_numbers.hpp"
+#include "harness/tables/entry_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace loopbench::harness {
 
 std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content; }
 
-void CellNumbers::add(const Record& record, double value) {
+void EntryNumbers::add(const Record& record, double value) {
   values_.push_back({run_key(record), group_name(record), record.method, value});
   ++added_;
   method_ = record.method;
@@ -23,17 +23,17 @@ void CellNumbers::add(const Record& record, double value) {
   target_ = record.target;
 }
 
-std::set<std::string> CellNumbers::finished() const {
+std::set<std::string> EntryNumbers::finished() const {
   std::set<std::string> out;
   for (const Value& one : values_) out.insert(one.run);
   return out;
 }
 
-void CellNumbers::keep(const std::set<std::string>& runs) {
+void EntryNumbers::keep(const std::set<std::string>& runs) {
   std::erase_if(values_, [&](const Value& one) { return !runs.contains(one.run); });
 }
 
-double CellNumbers::gain() const {
+double EntryNumbers::gain() const {
   std::map<std::string, std::map<std::pair<std::string, std::string>, double>> by_group;
   for (const Value& one : values_) by_group[one.group][{one.method, one.run}] = one.value;
   std::vector<double> groups;
@@ -45,7 +45,7 @@ double CellNumbers::gain() const {
   return 100.0 * (1.0 - std::exp(mean(groups)));
 }
 
-std::optional<double> CellNumbers::average() const {
+std::optional<double> EntryNumbers::average() const {
   // One zero error would make the geometric mean zero.
   const auto zeros = std::ranges::count(values_, 100.0, &Value::value);
   const bool has_no_mean = is_gain_ && zeros > 0 && zeros < std::ssize(values_);
