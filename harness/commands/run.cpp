@@ -109,7 +109,7 @@ void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
     print_error(
         "loopbench: {}: damaged cells are recomputed: {}{}\n",
         store.string(),
-        resumed.damaged.front(),
+        printable(resumed.damaged.front()),
         resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
   } else if (resumed.lost) {
     print_error("loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",

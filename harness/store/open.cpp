@@ -11,6 +11,9 @@ std::filesystem::path store_file(const std::filesystem::path& given) {
   if (!std::filesystem::exists(file)) {
     throw InputError(file.string() + ": file not found, expected a store of results");
   }
+  if (!std::filesystem::is_regular_file(file)) {  // SQLite would wait for a pipe
+    throw InputError(file.string() + ": is not a regular file, expected a store of results");
+  }
   return file;
 }
 

@@ -132,6 +132,17 @@ TEST_F(HostileFiles, ClosedStandardStreamsCrashNothing) {
             std::string::npos);
 }
 
+TEST_F(HostileFiles, NoCommandWaitsForAPipeInPlaceOfAStore) {
+  ASSERT_EQ(mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
+  for (const char* arguments : {"table pipe", "report pipe", "check pipe --baseline b"}) {
+    EXPECT_EQ(run(arguments, ">out").exit_code, 2) << arguments;
+  }
+  EXPECT_EQ(read_all(folder_.path() / "err").find("loopbench: "), 0u);
+  run("table pipe", ">out");
+  EXPECT_EQ(read_all(folder_.path() / "err"),
+            "loopbench: pipe: is not a regular file, expected a store of results\n");
+}
+
 TEST_F(HostileFiles, LinksInAFolderOfResultsAreReplacedAndNotFollowed) {
   const fs::path mine = folder_.file("mine", "precious");
   fs::create_directory(folder_.path() / "r");
