@@ -22,6 +22,7 @@ std::string json(const std::vector<Table>& tables) {
         line.push_back({{"value", cell.value ? Json(*cell.value) : Json(nullptr)},
                         {"records", cell.records},
                         {"averaged", cell.averaged},
+                        {"deviation", cell.deviation ? Json(*cell.deviation) : Json(nullptr)},
                         {"possible", std::max(cell.records, cell.possible)},
                         {"status", cell.value ? "ok" : cell.status},
                         {"mark", mark_name(cell.mark)}});

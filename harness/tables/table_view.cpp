@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/text/wrap.hpp"
+
 namespace loopbench::harness {
 namespace {
 
 std::string shown(const TableCell& cell, int digits) {
   const std::string over =
       cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
-  if (cell.value) return fixed(*cell.value, digits) + over;
+  const std::string deviation = cell.deviation ? " \u00b1 " + fixed(*cell.deviation, digits) : "";
+  if (cell.value) return fixed(*cell.value, digits) + deviation + over;
   if (cell.status == kNoCommonRun) return "-" + over;
   return cell.status.empty() ? "-" : cell.status;
 }
@@ -25,6 +28,18 @@ int digits_of(const Table& table, std::size_t column) {
     all_integers = all_integers && value == std::round(value);
   }
   return all_integers && largest > 0.0 ? 0 : decimals(largest);
+}
+
+/// All columns if none has a value.
+std::vector<std::size_t> columns_with_values(const Table& table) {
+  std::vector<std::size_t> out;
+  std::vector<std::size_t> all;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    all.push_back(c);
+    const auto has_value = [&](const auto& row) { return row[c].value.has_value(); };
+    if (std::ranges::any_of(table.cells, has_value)) out.push_back(c);
+  }
+  return out.empty() ? all : out;
 }
 
 }  // namespace
@@ -43,9 +58,9 @@ std::string fixed(double value, int digits) {
 
 TableView table_view(const Table& table) {
   TableView out{table.title, {table.corner}, {}, table.notes};
-  for (const std::string& column : table.columns) out.headings.push_back(column);
   for (const std::string& row : table.rows) out.lines.push_back({{row, Mark::none}});
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+  for (const std::size_t c : columns_with_values(table)) {
+    out.headings.push_back(table.columns[c]);
     const int digits = digits_of(table, c);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       const TableCell& cell = table.cells[r][c];
@@ -53,11 +68,6 @@ TableView table_view(const Table& table) {
     }
   }
   return out;
-}
-
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
 std::string padded(const std::string& text, std::size_t columns, bool left) {
