@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034  # the lists are used by the scripts that source this
 # Sourced by run.sh and test.sh: install_missing PACKAGE... installs missing packages and prints their names.
 # Needs Debian 12 (or a derivative with the same package names).
 
@@ -9,7 +10,10 @@ packages=(
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)
-test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev)
+get_packages=(curl ca-certificates)
+lint_packages=(clang-format clang-tidy shellcheck)
+package_packages=(dpkg-dev file lintian debootstrap)
+test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl)
 
 install_missing() {
   local package status missing=()

@@ -62,7 +62,7 @@ set(order
   "harness/execution/verify harness/store"
   "harness/compare"
   "harness/tables"
-  "harness/gate harness/profile harness/plot"
+  "harness/gate harness/profile harness/plot harness/get harness/pages"
   "harness/report harness/eval harness/article harness/calibrate"
   "harness/commands"
   "harness/program"

@@ -43,7 +43,7 @@ int reproduce(const ReproduceArguments& arguments) {
   const Catalogue known = catalogue({});
   std::vector<PaperCell> done;
   for (const std::string& config : arguments.configs) {
-    const Sweep sweep = read_sweep(config, known);
+    const Sweep sweep = read_sweep(config, known, arguments.data);
     Progress progress(cells(sweep, seeded(sweep, known), "").size());
     const auto finished = [&](const PaperCell& c) {
       progress.step(fmt::format("{} {} {} {}", c.sequence, c.input, c.reading, c.variant));

@@ -5,23 +5,21 @@
 #include <cstdlib>
 #include <thread>
 
-#include "datasets/formats/regular_file.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/commands/run_output.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
-#include "harness/model/where.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/build_summary.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/store_provenance.hpp"
-#include "harness/tables/text.hpp"
 #include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
@@ -80,30 +78,6 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-/// Writes the tables next to the store; returns the table to print.
-std::string write_tables(const std::filesystem::path& store,
-                         const Sweep& sweep,
-                         const std::filesystem::path& out) {
-  std::vector<Record> records = all_records(store);
-  write_result(out / "rows.csv", csv(records));
-  keep_where(records, sweep.table.where);
-  const std::vector<Table> tables = pivot(records, sweep.table);
-  const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
-  const StoreProvenance provenance = read_store_provenance(store);
-  write_result(out / "table.md", text + "\n" + provenance_comment(provenance));
-  write_result(out / "provenance.json", json(provenance));
-  write_result(out / "table.csv", csv(tables));
-  return text;
-}
-
-constexpr std::size_t kLargestTable = std::size_t{1} << 30;  // [bytes]
-
-/// The stored table without the comment at its end.
-std::string printed_tables(const std::filesystem::path& file) {
-  const std::string text = read_regular_file(file, kLargestTable, "table");
-  return text.substr(0, text.rfind("\n<!-- "));
-}
-
 void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
   if (!resumed.damaged.empty()) {
     print_error(
@@ -119,7 +93,7 @@ void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
 
 int run(const RunArguments& arguments, const Source& source) {
   const Catalogue known = catalogue(arguments.plugins);
-  const Sweep sweep = read_sweep(arguments.config, known);
+  const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
   const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
@@ -170,20 +144,28 @@ int run(const RunArguments& arguments, const Source& source) {
   };
   const bool is_up_to_date = resumed.exported && done == 0 && is_there("table.md") &&
                              is_there("table.csv") && is_there("rows.csv");
-  const std::string text =
-      is_up_to_date ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
-  if (!is_up_to_date) store->exported();
+  const std::vector<Record> records = all_records(file);
+  if (!is_up_to_date) {
+    write_tables(file, sweep, records, out);
+    store->exported();
+  }
   store.reset();
-  fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",
-             text,
-             done + resumed.there,
-             planned.size(),
-             resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there),
-             failed,
-             incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
-             sweep.table.value,
-             protocol_names(sweep),
-             printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()));
+  const std::string earlier =
+      resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there);
+  const std::string status =
+      fmt::format("{} of {} cells done{}, {} failed{}; value: {}; protocol: {}",
+                  done + resumed.there,
+                  planned.size(),
+                  earlier,
+                  failed,
+                  incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
+                  sweep.table.value,
+                  protocol_names(sweep));
+  fmt::print("{}{}\n{}\n{}",
+             summary_text(records, sweep),
+             fitted(status),
+             printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()),
+             next_commands(out));
   if (interrupted) {
     print_error("loopbench: interrupted; finished cells are kept\n");
     return kExitInterrupted;
@@ -195,8 +177,11 @@ int run(const RunArguments& arguments, const Source& source) {
 
 void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print its tables");
-  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print a summary");
+  command
+      ->add_option(
+          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
+      ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_flag("--dry-run",

@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
@@ -24,7 +25,7 @@ struct VerifyArguments {
 
 int run_verify(const VerifyArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
-  Sweep sweep = read_sweep(arguments.config, known);
+  Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   sweep.timing = 1;  // times are not compared
   sweep.serial = false;
   sweep.traces = true;
@@ -68,7 +69,10 @@ void add_verify(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
       "verify", "Check that results are bit-identical for any number of workers");
-  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  command
+      ->add_option(
+          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
+      ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_option("--data", arguments->data, "Folder with real datasets")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "harness/commands/standard_output.hpp"
 #include "harness/provenance/build_summary.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/store_provenance.hpp"
@@ -23,7 +24,8 @@ void write_output(const std::string& text,
   if (format == ExportFormat::json) {
     out = with_provenance(provenance, key, text);
   } else if (format == ExportFormat::terminal) {
-    out += "\n" + build_summary(provenance.provenance) + "\n";
+    const std::string summary = build_summary(provenance.provenance);
+    out += "\n" + (is_printed ? fitted(summary) : summary) + "\n";
   } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
     out += "\n" + provenance_comment(provenance);
   } else if (format == ExportFormat::latex && !is_read_by_a_person) {

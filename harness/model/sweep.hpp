@@ -56,6 +56,7 @@ struct TableSpec {
   std::string value = "rmse";
   std::vector<std::string> show;   ///< scores to show, by their short names; empty: all
   std::vector<std::string> where;  ///< filters of rows, see model/where; empty: all rows
+  bool plus_minus = false;         ///< standard deviations next to means
 };
 
 /// Resource limits of one cell, and the size of the sweep. The default memory limit is the same on

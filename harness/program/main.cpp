@@ -19,6 +19,7 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/help.hpp"
 #include "harness/program/counted_malloc.hpp"
 #include "harness/provenance/source_commit.hpp"
 #include "harness/provenance/version.hpp"
@@ -30,9 +31,13 @@ using namespace loopbench::harness;
 
 namespace {
 
-/// Messages can contain names and contents of files.
+/// Messages can contain names and contents of files. A config can have several errors, one per
+/// line.
 int fail(const std::string& why, int exit_code) {
-  print_error("{}\n", printable("loopbench: " + why));
+  std::istringstream lines(why);
+  for (std::string line; std::getline(lines, line);) {
+    print_error("{}\n", printable("loopbench: " + line));
+  }
   return exit_code;
 }
 
@@ -57,6 +62,10 @@ int run(CLI::App& app,
         const int& exit_code,
         int& print_errno) {
   try {
+    if (words.empty()) {
+      fmt::print("{}", app.help());
+      return kExitOk;
+    }
     std::vector<std::string> last_first = normalised_options(app, words);
     std::ranges::reverse(last_first);  // CLI11 expects this order
     app.parse(std::move(last_first));
@@ -118,6 +127,10 @@ int main(int argc, char** argv) {
   add_profile(app, exit_code);
   add_report(app, exit_code);
   add_verify(app, exit_code);
+  add_get(app, exit_code);
+  add_help(app, exit_code);
+  add_pages(app, exit_code);
+  add_examples(app);
   int print_errno = 0;
   const int out = run(app, {argv + 1, argv + argc}, exit_code, print_errno);
   // Output counts as written only after the buffer is flushed.

@@ -56,4 +56,15 @@ std::optional<double> EntryNumbers::average() const {
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
+std::optional<double> EntryNumbers::deviation() const {
+  if (values_.size() < 2) return std::nullopt;
+  std::vector<double> all;
+  for (const Value& one : values_) all.push_back(one.value);
+  const double centre = mean(all);
+  double squares = 0.0;
+  for (const double value : all) squares += (value - centre) * (value - centre);
+  const double out = std::sqrt(squares / static_cast<double>(all.size() - 1));
+  return std::isfinite(out) ? std::optional(out) : std::nullopt;
+}
+
 }  // namespace loopbench::harness

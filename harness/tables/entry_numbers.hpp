@@ -30,6 +30,8 @@ class EntryNumbers {
   /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
   /// is not a number.
   std::optional<double> average() const;
+  /// Sample standard deviation of the averaged values; nullopt for fewer than two.
+  std::optional<double> deviation() const;
 
   const ByRun& runs() const { return runs_; }  ///< without oracles
   const std::string& method() const { return method_; }

@@ -22,6 +22,7 @@ std::string json(const std::vector<Table>& tables) {
         line.push_back({{"value", entry.value ? Json(*entry.value) : Json(nullptr)},
                         {"records", entry.records},
                         {"averaged", entry.averaged},
+                        {"deviation", entry.deviation ? Json(*entry.deviation) : Json(nullptr)},
                         {"possible", std::max(entry.records, entry.possible)},
                         {"status", entry.value ? "ok" : entry.status},
                         {"mark", mark_name(entry.mark)}});

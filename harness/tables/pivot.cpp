@@ -106,7 +106,7 @@ void mark(Table& out,
 }
 
 /// Adds a note on how the numbers were averaged.
-void explain_averages(Table& out, const TableNumbers& table) {
+void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
   for (const auto& [entry_index, numbers] : table.numbers) {
@@ -115,6 +115,7 @@ void explain_averages(Table& out, const TableNumbers& table) {
   }
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
+  if (spec.plus_minus) text += ", \u00b1 their standard deviation";
   if (has_gain) text += "; gain is 1 - the geometric mean ratio to the baseline";
   out.notes.insert(out.notes.begin(), text);
 }
@@ -144,7 +145,7 @@ Table finish(TableNumbers& table,
     const std::string text = keep_common_runs(table, along_columns);
     if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
-  explain_averages(out, table);
+  explain_averages(out, table, spec);
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
     std::vector<TableEntry> line(out.columns.size());
@@ -158,6 +159,7 @@ Table finish(TableNumbers& table,
       const auto found = table.numbers.find({r, c});
       if (found == table.numbers.end()) continue;
       line[c].value = found->second.average();
+      if (spec.plus_minus) line[c].deviation = found->second.deviation();
       line[c].records = found->second.size();
       line[c].averaged = found->second.averaged();
       if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";

@@ -18,6 +18,8 @@ inline constexpr const char* kNoCommonRun = "no common run";
 /// different runs, the mean is over the runs that all of them finished.
 struct TableEntry {
   std::optional<double> value = {};
+  std::optional<double> deviation =
+      {};                    ///< sample standard deviation; set by TableSpec::plus_minus
   std::size_t records = 0;   ///< records with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of these, those on runs that all compared entries finished
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/text/printable.hpp"
+#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -13,7 +14,9 @@ namespace {
 std::string shown(const TableEntry& entry, int digits) {
   const std::string over =
       entry.possible == 0 ? "" : fmt::format(" ({} of {})", entry.records, entry.possible);
-  if (entry.value) return fixed(*entry.value, digits) + over;
+  const std::string deviation =
+      entry.deviation ? " \u00b1 " + fixed(*entry.deviation, digits) : "";
+  if (entry.value) return fixed(*entry.value, digits) + deviation + over;
   if (entry.status == kNoCommonRun) return "-" + over;
   return entry.status.empty() ? "-" : entry.status;
 }
@@ -27,6 +30,18 @@ int digits_of(const Table& table, std::size_t column) {
     all_integers = all_integers && value == std::round(value);
   }
   return all_integers && largest > 0.0 ? 0 : decimals(largest);
+}
+
+/// All columns if none has a value.
+std::vector<std::size_t> columns_with_values(const Table& table) {
+  std::vector<std::size_t> out;
+  std::vector<std::size_t> all;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    all.push_back(c);
+    const auto has_value = [&](const auto& row) { return row[c].value.has_value(); };
+    if (std::ranges::any_of(table.entries, has_value)) out.push_back(c);
+  }
+  return out.empty() ? all : out;
 }
 
 }  // namespace
@@ -45,9 +60,9 @@ std::string fixed(double value, int digits) {
 
 TableView table_view(const Table& table) {
   TableView out{table.title, {table.corner}, {}, table.notes};
-  for (const std::string& column : table.columns) out.headings.push_back(column);
   for (const std::string& row : table.rows) out.lines.push_back({{row, Mark::none}});
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+  for (const std::size_t c : columns_with_values(table)) {
+    out.headings.push_back(table.columns[c]);
     const int digits = digits_of(table, c);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       const TableEntry& entry = table.entries[r][c];
@@ -55,11 +70,6 @@ TableView table_view(const Table& table) {
     }
   }
   return out;
-}
-
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
 std::string padded(const std::string& text, std::size_t columns, bool left) {

@@ -81,7 +81,7 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
   EXPECT_EQ(refusal("limits: {memory: none, cells: 2000000}\n"), "");
   EXPECT_EQ(refusal("table: nonsense\n"),
             "c.yaml:5: table: found 'nonsense', expected a map of rows, columns, split, value, "
-            "show, where");
+            "show, where, plus_minus");
   EXPECT_EQ(refusal("exclude: [raw]\n"),
             "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
   EXPECT_EQ(refusal("exclude: raw\n"),

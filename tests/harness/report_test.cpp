@@ -240,6 +240,20 @@ const char* const kProbe = R"(<script>
   document.querySelectorAll("#controls details button").forEach((b) => b.click());
   document.querySelectorAll("#controls details button")[1].click();
   if (count("#map path.curve") !== 4) said.push("all methods: " + count("#map path.curve"));
+  // The address contains the choices, so that a link shows the same.
+  const link = new URLSearchParams(location.hash.slice(1));
+  if (link.get("sequence") !== R.scores.sequences[1]) said.push("link: " + location.hash);
+  if (link.getAll("method").length !== R.methods.length) said.push("methods in the link: " + location.hash);
+  document.querySelectorAll("#controls details button")[0].click();
+  const few = R.bestFew();
+  if (few.join() !== R.shown().map((m) => m.place).sort((a, b) => few.indexOf(a) - few.indexOf(b)).join()) said.push("best few");
+  const comparison = R.comparison(R.state.kind);
+  const ranked = comparison.methods.map((m) => m.method).filter((m) => m !== comparison.baseline);
+  if (few.some((m, i) => i > 0 && R.methods[m].name !== ranked[i - 1])) said.push("best few are not the best");
+  document.querySelectorAll("#controls details button")[1].click();
+  const headings = [...document.querySelector("#scores thead tr").cells].map((c) => c.textContent);
+  if (!headings[1].startsWith("gain") || !headings[2].startsWith("time")) said.push("columns: " + headings.join());
+  if (document.querySelector("#controls details").open) said.push("the list of methods is not folded");
   const shown = [...document.querySelectorAll("#scores figure")].find((f) => !f.hidden);
   const column = () => [...shown.querySelectorAll("tbody th")].map((c) => c.textContent);
   const before = column();
