@@ -19,7 +19,7 @@ build_program() {
   fi
 }
 
-install_missing "${packages[@]}"
+install_missing "${packages[@]}" "${compression_packages[@]}"
 case $1 in plot | reproduce) install_missing "${plot_packages[@]}" ;; esac
 [[ -f $build/build.ninja ]] || configure
 build_program

@@ -11,7 +11,7 @@
 namespace loopbench {
 
 void TextWriter::separate() {
-  if (!text_.empty() && text_.back() != '\n') text_ += ' ';
+  if (!text_.empty() && text_.back() != '\n') text_ += separator_;
 }
 
 void TextWriter::comment(std::string_view text) {
@@ -55,6 +55,10 @@ void TextWriter::save(const std::filesystem::path& file) const {
   const auto failure = [&] {
     return input_error(name, 0, std::string("cannot be written: ") + std::strerror(errno));
   };
+  if (name == "-") {
+    if (std::fwrite(text_.data(), 1, text_.size(), stdout) != text_.size()) throw failure();
+    return;
+  }
   std::FILE* const handle = std::fopen(name.c_str(), "wb");
   if (handle == nullptr) throw failure();
   const bool written = std::fwrite(text_.data(), 1, text_.size(), handle) == text_.size();

@@ -20,6 +20,8 @@ const std::map<std::string, void (*)(const fs::path&)> kTargets{{"tum", fuzz_tum
                                                                 {"g2o", fuzz_g2o},
                                                                 {"times", fuzz_times},
                                                                 {"closures", fuzz_closures},
+                                                                {"bag", fuzz_bag},
+                                                                {"csv", fuzz_csv},
                                                                 {"config", fuzz_config}};
 
 TEST(FuzzCorpus, IsReadOrRefusedByItsReader) {
