@@ -20,7 +20,7 @@ build_program() {
   fi
 }
 
-install_missing "${packages[@]}"
+install_missing "${packages[@]}" "${compression_packages[@]}"
 case $1 in
   plot | reproduce) install_missing "${plot_packages[@]}" ;;
   get) install_missing "${get_packages[@]}" ;;

@@ -7,6 +7,8 @@ packages=(
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
   libstb-dev
 )
+# Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4).
+compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)

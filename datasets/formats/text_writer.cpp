@@ -1,14 +1,18 @@
 #include "datasets/formats/text_writer.hpp"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
 
+#include "datasets/core/error.hpp"
 #include "datasets/formats/replace_file.hpp"
 
 namespace loopbench {
 
 void TextWriter::separate() {
-  if (!text_.empty() && text_.back() != '\n') text_ += ' ';
+  if (!text_.empty() && text_.back() != '\n') text_ += separator_;
 }
 
 void TextWriter::comment(std::string_view text) {
@@ -48,7 +52,10 @@ void TextWriter::row(std::initializer_list<double> values) {
 }
 
 void TextWriter::save(const std::filesystem::path& file) const {
-  replace_file(file, text_, Target::named);
+  if (file != "-") return replace_file(file, text_, Target::named);
+  if (std::fwrite(text_.data(), 1, text_.size(), stdout) != text_.size()) {
+    throw input_error("-", 0, std::string("cannot be written: ") + std::strerror(errno));
+  }
 }
 
 }  // namespace loopbench

@@ -11,6 +11,8 @@ const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_t
       {"g2o", fuzz_g2o},
       {"times", fuzz_times},
       {"closures", fuzz_closures},
+      {"bag", fuzz_bag},
+      {"csv", fuzz_csv},
       {"config", fuzz_config},
       {"store", fuzz_store},
       {"salvage", fuzz_salvage},

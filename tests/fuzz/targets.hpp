@@ -17,6 +17,8 @@ void fuzz_any(const std::filesystem::path& file);  ///< format detected by conte
 void fuzz_g2o(const std::filesystem::path& file);
 void fuzz_times(const std::filesystem::path& file);
 void fuzz_closures(const std::filesystem::path& file);
+void fuzz_bag(const std::filesystem::path& file);
+void fuzz_csv(const std::filesystem::path& file);
 void fuzz_config(const std::filesystem::path& file);
 void fuzz_store(const std::filesystem::path& file);
 void fuzz_salvage(const std::filesystem::path& file);
