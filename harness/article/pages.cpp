@@ -72,8 +72,8 @@ std::vector<HeatMap> threshold_maps(const PaperConfig& config) {
       if (config.sweep.methods[cell.result.cell.method].label == config.sweep.baseline) {
         raw = ate;
       } else {
-        ates[*swept(config.sweep, cell, "speed_band")][*swept(config.sweep, cell, "turn_max")] =
-            ate;
+        ates[swept(config.sweep, cell, "speed_band").value_or(0.0)]
+            [swept(config.sweep, cell, "turn_max").value_or(0.0)] = ate;
       }
     }
     HeatMap map;
