@@ -66,13 +66,14 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
     const PlotSeries& series = panel.series[s];
     const std::string name = fmt::format("d{}_{}", index, s);
     blocks += data_block(name, series);
-    plots += fmt::format("{}${} using {} with {} lc rgb {} title {}",
-                         s == 0 ? "" : ", ",
-                         name,
-                         panel.spatial ? "1:2:3" : "1:2",
-                         series.as_points ? "points pt 7 ps 0.5" : "lines lw 1.4",
-                         gnuplot_quoted(series.color),
-                         gnuplot_quoted(series.name));
+    plots += fmt::format(
+        "{}${} using {} with {} lc rgb {} title {}",
+        s == 0 ? "" : ", ",
+        name,
+        panel.spatial ? "1:2:3" : "1:2",
+        series.as_points ? "points pt 7 ps 0.5" : fmt::format("lines lw {:g}", series.width),
+        gnuplot_quoted(series.color),
+        gnuplot_quoted(series.name));
   }
   return blocks + ranges(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",

@@ -15,6 +15,7 @@ struct PlotSeries {
   std::string color;  ///< "#rrggbb"
   bool as_points = false;
   std::vector<Vector3> points;
+  double width = 1.4;  ///< of the line [points]
 };
 
 struct PlotPanel {
