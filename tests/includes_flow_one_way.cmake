@@ -59,7 +59,7 @@ set(order
   "harness/oracle"
   "harness/catalogue"
   "harness/config harness/provenance"
-  "harness/execution/run"
+  "harness/execution/run harness/execution/sandbox"
   "harness/execution/isolate"
   "harness/execution/verify harness/store"
   "harness/compare"

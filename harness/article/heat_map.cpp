@@ -88,7 +88,7 @@ void write_heat_maps(const std::filesystem::path& file, const std::vector<HeatMa
     height += kTop + static_cast<int>(map.rows.size()) * kCellHeight + kBottom;
     width = std::max(width, kLeft + static_cast<int>(map.columns.size()) * kCellWidth + 16);
   }
-  write_file(file,
+  write_result(file,
              fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                          "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
                          "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",

@@ -110,7 +110,7 @@ std::vector<std::filesystem::path> write_pages(const std::vector<PaperConfig>& c
                                                const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> written;
   const auto page = [&](const std::string& name, const std::string& text) {
-    write_file(folder / name, text);
+    write_result(folder / name, text);
     written.push_back(folder / name);
   };
   std::vector<PaperCell> pooled;

@@ -17,6 +17,7 @@
 #include "harness/execution/run/bad_inputs.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
@@ -37,6 +38,7 @@ struct RunArguments {
   std::string retry = "none";
   bool fresh = false;
   bool in_process = false;
+  bool no_sandbox = false;
   bool dry_run = false;
 };
 
@@ -108,8 +110,13 @@ int run(const RunArguments& arguments, const Source& source) {
   const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
   const std::filesystem::path file = out / "results.sqlite";
   CellKeys keys(sweep, known, root, build_id(source.code));
-  std::optional<Store> store(
-      std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
+  SandboxOptions sandbox;
+  sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
+  sandbox.unreachable = {out};
+  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
+  std::map<std::string, std::string> made = provenance(source, sweep, known);
+  made["sandbox"] = sandbox_summary(sandbox);
+  std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
   const Resumed resumed =
       store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
   report_damage(resumed, file);
@@ -117,10 +124,15 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
-  const std::atomic<bool>& interrupted = install_interrupt_handler();
+  std::size_t abandoned = 0;
+  const StopRequests& interrupted = install_interrupt_handler();
   if (!missing.empty()) {
     Progress progress(missing.size());
     const auto finished = [&](const CellResult& r) {
+      if (r.status == Status::interrupted) {
+        ++abandoned;
+        return;
+      }
       store->write(r);
       ++done;
       if (has_failure(r)) ++failed;
@@ -133,7 +145,7 @@ int run(const RunArguments& arguments, const Source& source) {
       const int jobs = sweep.serial ? 1 : arguments.jobs;
       run_sweep(sweep, missing, known, sequences, jobs, interrupted, finished);
     } else {
-      run_isolated(sweep, missing, known, root, arguments.jobs, interrupted, finished);
+      run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
     }
   }
   if (done + resumed.there == 0) return kExitInterrupted;
@@ -166,8 +178,9 @@ int run(const RunArguments& arguments, const Source& source) {
              fitted(status),
              printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()),
              next_commands(out));
-  if (interrupted) {
-    print_error("loopbench: interrupted; finished cells are kept\n");
+  if (interrupted > 0) {
+    print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
+                abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
     return kExitInterrupted;
   }
   return failed > 0 ? kExitSomeCellsFailed : kExitOk;
@@ -194,6 +207,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       "--in-process",
       arguments->in_process,
       "Use threads instead of worker processes, for debugging: no limits, no sandbox");
+  command->add_flag("--no-sandbox",
+                    arguments->no_sandbox,
+                    "Do not restrict what methods can reach (files, network, other processes)");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

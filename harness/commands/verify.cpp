@@ -35,15 +35,18 @@ int run_verify(const VerifyArguments& arguments) {
   // The first setting runs twice, because a method alone can differ from run to run.
   const std::vector<RunMode> modes{
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
-  const std::atomic<bool>& interrupted = install_interrupt_handler();
+  const StopRequests& interrupted = install_interrupt_handler();
+  SandboxOptions sandbox;
+  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
   std::vector<Difference> found;
   {
     Progress progress(planned.size() * modes.size());
-    found = verify(sweep, planned, known, root, modes, interrupted, [&](const std::string& label) {
-      progress.step(label);
-    });
+    found = verify(
+        sweep, planned, known, root, modes, sandbox, interrupted, [&](const std::string& label) {
+          progress.step(label);
+        });
   }
-  if (interrupted) return kExitInterrupted;
+  if (interrupted > 0) return kExitInterrupted;
   for (const Difference& difference : found) {
     const Cell& cell = planned[difference.cell];
     fmt::print("{} / {}{}: {} differs between {} and {}\n",

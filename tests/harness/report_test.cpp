@@ -65,7 +65,7 @@ class OfASweep : public testing::Test {
     const std::vector<Cell> all = cells(sweep, seeded(sweep, catalogue), "");
     store.resume(all, all, Retry::none);
     Sequences sequences(sweep, catalogue, root, all);
-    const std::atomic<bool> stop = false;
+    const StopRequests stop = 0;
     run_sweep(sweep, all, catalogue, sequences, 1, stop, [&](const CellResult& result) {
       store.write(result);
     });

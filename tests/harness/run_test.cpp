@@ -39,7 +39,7 @@ class RunSweep : public testing::Test {
     const std::filesystem::path file = folder_.path() / std::to_string(jobs) / "results.sqlite";
     const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
     Sequences sequences(sweep_, known_, {}, planned);
-    std::atomic<bool> stop = false;
+    StopRequests stop = 0;
     CellKeys keys(sweep_, known_, {}, "build");
     {
       Store store(file, keys, {}, true);
@@ -166,7 +166,7 @@ TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
   };
   const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
   Sequences sequences(sweep_, known_, {}, planned);
-  std::atomic<bool> stop = false;
+  StopRequests stop = 0;
   int finished = 0;
   EXPECT_THROW(
       run_sweep(sweep_, planned, known_, sequences, 2, stop, [&](const auto&) { ++finished; }),
@@ -177,10 +177,10 @@ TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
 TEST_F(RunSweep, StopLeavesWholeCellsOnly) {
   const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
   Sequences sequences(sweep_, known_, {}, planned);
-  std::atomic<bool> stop = false;
+  StopRequests stop = 0;
   std::size_t finished = 0;
   run_sweep(sweep_, planned, known_, sequences, 1, stop, [&](const auto&) {
-    if (++finished == 5) stop = true;
+    if (++finished == 5) stop = 1;
   });
   EXPECT_EQ(finished, 5u);
 }
