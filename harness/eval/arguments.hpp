@@ -41,6 +41,10 @@ struct EvalArguments {
   bool json = false;
   bool csv = false;
   std::string per_pose;  ///< output file; empty: none
+  std::string plot;      ///< prefix of figure files; empty: none
+  std::string report;    ///< HTML file; empty: none
+  std::string store;     ///< folder of a store for the results; empty: none
+  std::string sequence;  ///< label of the reference in the store; empty: from its file name
 };
 
 /// Throws InputError for an unknown protocol or malformed setting, OptionError for an invalid one.

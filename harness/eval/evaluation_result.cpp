@@ -115,6 +115,7 @@ EvaluationResult evaluate_estimate(const Trajectory& reference,
     out.other_body = metrics::other_body(*offset, options.body_from_reference);
   }
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
+  if (options.with_figures) out.drawn = {"", evaluation.reference, evaluation.estimate};
   const std::vector<metrics::MetricEntry> known = metrics::metrics();
   for (const MetricRequest& request : options.metric_requests) {
     for (const metrics::MetricEntry& entry : known) {

@@ -25,10 +25,18 @@ std::vector<MetricRequest> default_metrics(const metrics::Protocol& protocol);
 struct EvaluationOptions {
   std::vector<MetricRequest> metric_requests;
   bool with_poses = false;
+  bool with_figures = false;                       ///< keep the aligned poses
   double min_coverage = 0.0;                       ///< below it an evaluation is incomplete, 0..1
   const metrics::PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
   ReadFindings repaired = {};                      ///< findings of the readers for both files
   Pose body_from_reference = {};                   ///< offset that was applied to the reference
+};
+
+/// One estimate, paired and aligned.
+struct DrawnEvaluation {
+  std::string name;
+  Trajectory reference;  ///< paired with `estimate`
+  Trajectory estimate;   ///< aligned
 };
 
 struct EvaluatedMetric {
@@ -54,6 +62,7 @@ struct EvaluationResult {
   std::vector<std::string> notes;         ///< see evaluation_notes.hpp
   std::vector<EvaluatedMetric> metrics;
   std::vector<metrics::PoseError> poses;  ///< only on request
+  DrawnEvaluation drawn;                  ///< only on request, without name
   std::string why_failed;  ///< set if the evaluation failed: only names and protocol are set
 };
 

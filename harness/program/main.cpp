@@ -113,12 +113,13 @@ int main(int argc, char** argv) {
       "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
       "3 internal error, 4 the build lacks a required part, 130 interrupted.");
   int exit_code = kExitOk;
-  add_run(app, exit_code, {source_commit, source_state, code_hash});
+  const Source source{source_commit, source_state, code_hash};
+  add_run(app, exit_code, source);
   add_list(app, exit_code);
   add_table(app, exit_code);
   add_compare(app, exit_code);
   add_check(app, exit_code);
-  add_eval(app, exit_code);
+  add_eval(app, exit_code, source);
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
   add_merge(app, exit_code);
@@ -126,6 +127,8 @@ int main(int argc, char** argv) {
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);
+  add_traj(app, exit_code);
+  add_doctor(app, exit_code);
   add_verify(app, exit_code);
   add_get(app, exit_code);
   add_help(app, exit_code);

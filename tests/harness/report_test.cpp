@@ -183,20 +183,22 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
   Traces traces(folder_->path());
-  const SequenceFigures figures =
-      sequence_figures(content_->cells, traces, "b", {"straight", "broken", "<i>&"});
+  const SequenceFigures figures = sequence_figures(
+      content_->cells, traces, "b", {"straight", "broken", "<i>&"}, content_->methods);
   ASSERT_EQ(figures.trajectories.size(), 2u);
   ASSERT_EQ(figures.errors.size(), 4u);
   EXPECT_EQ(figures.trajectories[0].series.size(), 3u);  // the reference and two methods
   EXPECT_EQ(figures.errors[0].series.size(), 2u);
-  EXPECT_TRUE(sequence_figures(content_->cells, traces, "b", {"broken"}).errors.empty());
+  EXPECT_TRUE(
+      sequence_figures(content_->cells, traces, "b", {"broken"}, content_->methods).errors.empty());
   EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
   EXPECT_EQ(file_stem("..."), "");
 }
 
 TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
   Traces traces(folder_->path());
-  const SequenceFigures figures = sequence_figures(content_->cells, traces, kAwkward, {"<i>&"});
+  const SequenceFigures figures =
+      sequence_figures(content_->cells, traces, kAwkward, {"<i>&"}, content_->methods);
   for (const auto& [name, magic] : {std::pair{"f.svg", "<?xml"}, std::pair{"f.pdf", "%PDF-"}}) {
     const std::filesystem::path file = folder_->path() / name;
     write_figure(file, figures.trajectories, 2);
