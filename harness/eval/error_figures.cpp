@@ -53,7 +53,7 @@ PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
     const DrawnEvaluation& e = all[k];
     const CurveStyle style = curve_style(k);
     PlotSeries reference{k == 0 ? "reference" : "", kReferenceColor, false, {}};
-    PlotSeries estimate{e.name, style.color, false, {}, style.dash};
+    PlotSeries estimate{e.name, style.color, false, {}, kLineWidth, style.dash};
     for (const std::size_t i : drawn_indices(e.estimate.size())) {
       reference.points.push_back(seen(e.reference[i].world_from_body, a, b));
       estimate.points.push_back(seen(e.estimate[i].world_from_body, a, b));
@@ -85,7 +85,7 @@ PlotPanel curves_of(const std::vector<DrawnEvaluation>& all,
   out.y_label = y_label;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const CurveStyle style = curve_style(k);
-    PlotSeries series{all[k].name, style.color, false, {}, style.dash};
+    PlotSeries series{all[k].name, style.color, false, {}, kLineWidth, style.dash};
     const std::vector<double> x = along(all[k]);
     for (const std::size_t i : drawn_indices(all[k].estimate.size())) {
       series.points.emplace_back(x[i], value(all[k], i), 0.0);
@@ -134,7 +134,7 @@ PlotPanel histogram_of(const std::vector<DrawnEvaluation>& all) {
       ++counts[std::min(kBins - 1, static_cast<std::size_t>(bin))];
     }
     const CurveStyle style = curve_style(k);
-    PlotSeries series{e.name, style.color, false, {}, style.dash};
+    PlotSeries series{e.name, style.color, false, {}, kLineWidth, style.dash};
     if (all.size() == 1) series.mark = PlotMark::bars;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       series.points.emplace_back(

@@ -9,6 +9,8 @@
 
 namespace loopbench::harness {
 
+inline constexpr double kLineWidth = 1.4;  // [points]
+
 enum class PlotMark { line, points, bars, start, end };
 
 /// One curve of a panel. Points in metres; NaN breaks the line.
@@ -17,10 +19,10 @@ struct PlotSeries {
   std::string color;  ///< "#rrggbb"
   bool as_points = false;
   std::vector<Vector3> points;
+  double width = kLineWidth;        ///< of the line [points]
   int dash = 1;                     ///< dash type of gnuplot, 1 is solid
   PlotMark mark = PlotMark::line;   ///< start: circle, end: square at the last point
   std::vector<double> values = {};  ///< one per point: colours the line by value
-  double width = 1.4;               ///< of the line [points]
 };
 
 struct PlotPanel {

@@ -34,7 +34,7 @@ void add_errors(std::vector<PlotPanel>& panels,
                 const CurveStyle& style) {
   const std::vector<double> length = lengths(trace.samples);
   for (std::size_t axis = 0; axis < panels.size(); ++axis) {
-    PlotSeries series{method, style.color, false, {}, style.dash};
+    PlotSeries series{method, style.color, false, {}, kLineWidth, style.dash};
     for (std::size_t i = 0; i < trace.samples.size(); ++i) {
       const TraceSample& s = trace.samples[i];
       const double value = axis < 3 ? error(s)(static_cast<Eigen::Index>(axis)) : s.error_angle;
@@ -88,8 +88,12 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
     const auto index = std::ranges::find(all_methods, methods[m]) - all_methods.begin();
     const CurveStyle style = curve_style(static_cast<std::size_t>(index));
     for (PlotPanel& map : maps) {
-      map.series.push_back(
-          {methods[m], style.color, false, thinned(estimate, kMostPlotted), style.dash});
+      map.series.push_back({methods[m],
+                            style.color,
+                            false,
+                            thinned(estimate, kMostPlotted),
+                            kLineWidth,
+                            style.dash});
     }
     add_errors(errors, *trace, methods[m], style);
   }

@@ -26,6 +26,7 @@ PlotSeries series_of(const Drawn& drawn, std::vector<Vector3> points, bool is_na
           drawn.style.color,
           false,
           thinned(points, kMostDrawn),
+          kLineWidth,
           drawn.style.dash};
 }
 
