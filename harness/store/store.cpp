@@ -72,8 +72,8 @@ void check_size(Database& database, const std::filesystem::path& file) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size >= whole) return;
   throw InputError(fmt::format(
-      "{}: is damaged ({} bytes of {}); --fresh keeps it as previous-N.sqlite and starts "
-      "a new store",
+      "{}: is damaged ({} bytes of {}); 'loopbench salvage' copies its intact cells, and --fresh "
+      "starts a new store",
       file.string(),
       size,
       whole));
