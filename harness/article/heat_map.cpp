@@ -89,12 +89,12 @@ void write_heat_maps(const std::filesystem::path& file, const std::vector<HeatMa
     width = std::max(width, kLeft + static_cast<int>(map.columns.size()) * kCellWidth + 16);
   }
   write_result(file,
-             fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-                         "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
-                         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-                         width,
-                         height) +
-                 body + "</svg>\n");
+               fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+                           "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
+                           "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
+                           width,
+                           height) +
+                   body + "</svg>\n");
 }
 
 }  // namespace loopbench::harness

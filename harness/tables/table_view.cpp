@@ -14,8 +14,7 @@ namespace {
 std::string shown(const TableEntry& entry, int digits) {
   const std::string over =
       entry.possible == 0 ? "" : fmt::format(" ({} of {})", entry.records, entry.possible);
-  const std::string deviation =
-      entry.deviation ? " \u00b1 " + fixed(*entry.deviation, digits) : "";
+  const std::string deviation = entry.deviation ? " \u00b1 " + fixed(*entry.deviation, digits) : "";
   if (entry.value) return fixed(*entry.value, digits) + deviation + over;
   if (entry.status == kNoCommonRun) return "-" + over;
   return entry.status.empty() ? "-" : entry.status;
