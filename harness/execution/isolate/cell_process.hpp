@@ -3,10 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/result_area.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/model/result.hpp"
 
 namespace loopbench::harness {
 
