@@ -66,7 +66,7 @@ set(order
   "harness/tables"
   "harness/gate harness/profile harness/plot harness/get harness/pages"
   "harness/trajectory"
-  "harness/report harness/article harness/calibrate"
+  "harness/report harness/article harness/calibrate harness/correct"
   "harness/eval"
   "harness/commands"
   "harness/program"
@@ -85,7 +85,7 @@ set(folder_re2 "harness/text/pattern\\.")
 set(header_cli "CLI/")
 set(folder_cli "harness/(program|commands)/")
 set(header_json "nlohmann/")
-set(folder_json "harness/(commands|tables|gate|trajectory|eval|report)/")
+set(folder_json "harness/(commands|tables|gate|trajectory|eval|report|correct)/")
 set(header_opencv "opencv2/")
 set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")

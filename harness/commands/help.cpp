@@ -64,6 +64,26 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench merge results/a results/b -o results/all\n"
      "  loopbench table results/all\n"
      "  loopbench compare results/all\n"},
+    {"salvage",
+     "  loopbench salvage results/damaged -o results/saved\n"
+     "  loopbench table results/saved\n"
+     "  loopbench run mine.yaml --out results/saved\n"},
+    {"correct",
+     "  loopbench correct graph.g2o --method pose_graph -o corrected.g2o\n"
+     "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
+     "  loopbench correct graph.g2o --method uniform:weights=distance -o corrected.txt --json\n"},
+    {"export",
+     "  loopbench run configs/quickstart.yaml --save-trajectories\n"
+     "  loopbench export results/quickstart --what trajectories -o estimates\n"
+     "  loopbench export results/quickstart --what rows -o rows.csv\n"},
+    {"traj",
+     "  loopbench traj info *.txt\n"
+     "  loopbench traj convert run.bag --all-topics --to tum -o out/\n"
+     "  loopbench traj align estimate.txt --ref reference.txt --align sim3 -o aligned.txt\n"},
+    {"doctor",
+     "  loopbench doctor reference.txt estimate.txt\n"
+     "  loopbench doctor reference.txt estimate.txt --apply corrected/\n"
+     "  loopbench doctor graph.g2o\n"},
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"
      "  loopbench plot results/quickstart -o figures --methods raw,dual\n"

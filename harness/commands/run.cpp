@@ -15,6 +15,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
+#include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
@@ -39,6 +40,7 @@ struct RunArguments {
   bool fresh = false;
   bool in_process = false;
   bool no_sandbox = false;
+  bool save_trajectories = false;
   bool dry_run = false;
 };
 
@@ -115,6 +117,10 @@ int run(const RunArguments& arguments, const Source& source) {
   sandbox.unreachable = {out};
   if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
   std::map<std::string, std::string> made = provenance(source, sweep, known);
+  if (arguments.save_trajectories) {
+    set_estimate_folder(out / "trajectories");
+    sandbox.writable = {out / "trajectories"};
+  }
   made["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
   const Resumed resumed =
@@ -126,14 +132,22 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t incomplete = resumed.incomplete;
   std::size_t abandoned = 0;
   const StopRequests& interrupted = install_interrupt_handler();
+  if (arguments.save_trajectories && resumed.there > 0) {
+    print_error(
+        "loopbench: {} cells of earlier runs keep the trajectories saved then, if any; "
+        "--retry all recomputes them\n",
+        resumed.there);
+  }
   if (!missing.empty()) {
     Progress progress(missing.size());
+    const std::vector<InputFile> no_inputs;
     const auto finished = [&](const CellResult& r) {
       if (r.status == Status::interrupted) {
         ++abandoned;
         return;
       }
       store->write(r);
+      keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
       ++done;
       if (has_failure(r)) ++failed;
       if (r.status == Status::incomplete) ++incomplete;
@@ -207,6 +221,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       "--in-process",
       arguments->in_process,
       "Use threads instead of worker processes, for debugging: no limits, no sandbox");
+  command->add_flag("--save-trajectories",
+                    arguments->save_trajectories,
+                    "Save every cell's estimate at full length, see `export --what trajectories`");
   command->add_flag("--no-sandbox",
                     arguments->no_sandbox,
                     "Do not restrict what methods can reach (files, network, other processes)");

@@ -19,6 +19,8 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/correct.hpp"
+#include "harness/commands/export.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/program/counted_malloc.hpp"
 #include "harness/provenance/source_commit.hpp"
@@ -122,6 +124,8 @@ int main(int argc, char** argv) {
   add_eval(app, exit_code, source);
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
+  add_correct(app, exit_code);
+  add_export(app, exit_code);
   add_merge(app, exit_code);
   add_salvage(app, exit_code);
   add_plot(app, exit_code);

@@ -8,6 +8,7 @@
 
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
+#include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/method_guard.hpp"
 #include "harness/execution/run/oracle_method.hpp"
@@ -249,6 +250,7 @@ CellResult run_cell(const Cell& cell,
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
+    save_estimate(cell, sweep, sequence, *curve);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
       add_scores_without_reference(result, sweep, sequence, *curve, catalogue);

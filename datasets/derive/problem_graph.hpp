@@ -1,0 +1,40 @@
+/// The inverse of reading a pose graph: a problem as vertices and edges.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "datasets/formats/g2o.hpp"
+
+namespace loopbench {
+
+/// Returns one vertex per pose of `keyframes`, with `ids` (empty: 0, 1, ...), then the odometry
+/// edges and the closures of `problem`, unchanged. `keyframes` are those of the problem, before or
+/// after correction. Throws InputError if there is not one id per keyframe. O(keyframes + edges).
+inline PoseGraph problem_graph(const Problem& problem,
+                               const Trajectory& keyframes,
+                               std::vector<std::int64_t> ids = {}) {
+  PoseGraph out;
+  out.ids = std::move(ids);
+  if (out.ids.empty()) {
+    out.ids.resize(keyframes.size());
+    std::iota(out.ids.begin(), out.ids.end(), std::int64_t{0});
+  }
+  if (out.ids.size() != keyframes.size()) {
+    throw InputError("a graph of " + std::to_string(keyframes.size()) + " keyframes has " +
+                     std::to_string(out.ids.size()) + " ids, expected one per keyframe");
+  }
+  out.vertices.reserve(keyframes.size());
+  for (const StampedPose& pose : keyframes) out.vertices.push_back(pose.world_from_body);
+  out.edges = problem.odometry;
+  out.edges.insert(out.edges.end(), problem.closures.begin(), problem.closures.end());
+  out.planar = problem.planar;
+  out.similarity = std::ranges::any_of(out.edges, [](const Edge& e) { return e.scale != 1.0; });
+  return out;
+}
+
+}  // namespace loopbench

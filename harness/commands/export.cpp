@@ -1,0 +1,102 @@
+#include "harness/commands/export.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "datasets/core/fields.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/commands/write_output.hpp"
+#include "harness/execution/run/estimate_files.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/read.hpp"
+#include "harness/tables/all_records.hpp"
+#include "harness/tables/text.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/write_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// A file name for a cell: what is not a letter, digit, '.', '-' or '+' becomes '_'.
+std::string file_name(const CellRecord& cell, metrics::Times times) {
+  std::string out = cell.sequence + "-" + cell.method;
+  if (cell.repeat > 0) out += fmt::format("-repeat{}", cell.repeat);
+  for (char& c : out) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
+    if (!is_plain) c = '_';
+  }
+  return out + "-" + to_text(times) + ".txt";
+}
+
+int export_trajectories(const std::filesystem::path& store, const std::filesystem::path& out) {
+  if (out.empty()) throw InputError("export --what trajectories: expected -o FOLDER");
+  reject_standard_output("-o", out);
+  const std::filesystem::path saved = store_file(store).parent_path() / "trajectories";
+  std::set<std::string> names;
+  std::size_t without = 0;
+  for (const CellRecord& cell : read_cells(store)) {
+    bool has_file = false;
+    for (const metrics::Times times : {metrics::Times::keyframes, metrics::Times::dense}) {
+      std::ifstream in(estimate_file(saved, cell.key, times), std::ios::binary);
+      if (!in) continue;
+      has_file = true;
+      std::string name = file_name(cell, times);
+      if (names.contains(name)) name = fmt::format("{}-{}", cell.position, name);
+      names.insert(name);
+      const std::string poses{std::istreambuf_iterator<char>(in), {}};
+      write_file(out / name,
+                 fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
+                             printable(cell.sequence),
+                             cell.repeat,
+                             printable(cell.method),
+                             to_text(times),
+                             cell.key) +
+                     poses);
+    }
+    if (!has_file) ++without;
+  }
+  if (names.empty()) {
+    throw InputError(store.string() +
+                     ": has no saved trajectories; compute its cells with `run "
+                     "CONFIG --save-trajectories --retry all`");
+  }
+  fmt::print("{} files in {}\n", names.size(), out.string());
+  if (without > 0) fmt::print("{} cells have no saved trajectory\n", without);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, int& exit_code) {
+  struct Arguments {
+    std::filesystem::path store;
+    std::string what = "rows";
+    std::filesystem::path out;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("export", "Write the rows or trajectories of a store");
+  command->add_option("store", a->store, "Folder of results, or its results.sqlite")->required();
+  command
+      ->add_option("--what",
+                   a->what,
+                   "rows: every score, as CSV; trajectories: TUM files of the estimates, see `run "
+                   "--save-trajectories`")
+      ->check(CLI::IsMember({"rows", "trajectories"}))
+      ->capture_default_str();
+  command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");
+  command->callback([a, &exit_code] {
+    if (a->what == "trajectories") {
+      exit_code = export_trajectories(a->store, a->out);
+      return;
+    }
+    write_output(csv(all_records(a->store)), ExportFormat::csv, "rows", a->store, a->out.string());
+    exit_code = kExitOk;
+  });
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,172 @@
+#include "harness/correct/correct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "datasets/derive/problem_graph.hpp"
+#include "datasets/formats/formats.hpp"
+#include "harness/config/choices.hpp"
+#include "harness/execution/run/run_cell.hpp"
+#include "harness/text/write_file.hpp"
+#include "metrics/correction/closure_residual.hpp"
+#include "metrics/correction/graph_cost.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
+
+YamlNode text_node(const std::string& text) {
+  YamlNode out;
+  out.type = YamlNode::Type::scalar;
+  out.scalar = text;
+  out.text = text;
+  return out;
+}
+
+/// The entry that a config would have for these files.
+YamlNode dataset_entry(const CorrectArguments& a, bool graph) {
+  YamlNode out;
+  out.type = YamlNode::Type::map;
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) out.map.push_back({key, text_node(value)});
+  };
+  add("dataset", graph ? "pose_graph" : "trajectory");
+  add(graph ? "path" : "estimate", a.estimate);
+  if (graph && !(a.loops.empty() && a.frames.empty())) {
+    throw InputError(a.estimate +
+                     ": is a g2o graph, which contains its closures and has no "
+                     "frames, expected no --loops and no --frames");
+  }
+  add("frames", a.frames);
+  add("closures.file", a.loops);
+  if (!a.loops.empty()) add("closures.source", "file");
+  for (const std::string& setting : a.settings) {
+    const std::size_t equals = std::min(setting.find('='), setting.size());
+    if (equals == setting.size()) {
+      throw InputError("--set: found '" + setting + "', expected OPTION=VALUE");
+    }
+    YamlNode value = parse_yaml(setting.substr(equals + 1), "--set");
+    value.line = 0;
+    out.map.push_back({setting.substr(0, equals), std::move(value)});
+  }
+  return out;
+}
+
+Sequence loaded(const CorrectArguments& a, const Catalogue& catalogue, bool graph) {
+  const DatasetChoice choice =
+      dataset_choices(dataset_entry(a, graph), "--set", catalogue, {}).front();
+  const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+  Sequence out = entry.load(choice.dataset.options, DataRoot{{"."}});
+  check(out.problem, a.estimate);
+  return out;
+}
+
+std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
+  metrics::Evaluation evaluation;
+  evaluation.context.problem = &problem;
+  evaluation.context.estimate = &keyframes;
+  Residuals out;
+  try {
+    if (!problem.closures.empty()) {
+      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation, {});
+      out.translation_rms = scores.at(0).statistics.rmse;
+      out.translation_max = scores.at(0).statistics.max;
+      out.rotation_rms = scores.at(1).statistics.rmse;
+      out.rotation_max = scores.at(1).statistics.max;
+    }
+    const std::vector<metrics::Score> cost = metrics::graph_cost(evaluation, {});
+    out.chi2_odometry = cost.at(1).statistics.rmse;
+    out.chi2_closures = cost.at(2).statistics.rmse;
+  } catch (const std::runtime_error&) {  // an edge changes the scale
+    return std::nullopt;
+  }
+  return out;
+}
+
+/// Stamps of the output that are inside the curve's time span, ascending.
+std::vector<double> output_stamps(const CorrectArguments& a,
+                                  const Problem& problem,
+                                  const Curve& curve,
+                                  std::size_t& outside) {
+  std::vector<double> wanted = stamps(problem.keyframes);
+  if (!a.at.empty()) {
+    wanted = stamps(read_trajectory(a.at));
+  } else if (a.dense) {
+    for (const StampedPose& frame : problem.frames) wanted.push_back(frame.stamp);
+    std::ranges::sort(wanted);
+    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  }
+  const std::size_t all = wanted.size();
+  std::erase_if(wanted, [&](double t) { return t < curve.start() || t > curve.end(); });
+  outside = all - wanted.size();
+  if (wanted.empty()) {
+    throw InputError(fmt::format("{}: none of the {} stamps is between {} and {} s, the keyframes",
+                                 a.at,
+                                 all,
+                                 to_text(curve.start()),
+                                 to_text(curve.end())));
+  }
+  return wanted;
+}
+
+void write(const CorrectArguments& a, const Correction& done, bool graph) {
+  if (!a.out.ends_with(".g2o")) {
+    return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
+  }
+  if (a.dense || !a.at.empty()) {
+    throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
+  }
+  std::vector<std::int64_t> ids;
+  if (graph) ids = read_g2o(a.estimate).ids;
+  if (ids.size() != done.keyframes.size()) ids.clear();  // some poses are frames
+  write_g2o(a.out, problem_graph(done.problem, done.keyframes, std::move(ids)));
+}
+
+std::optional<std::size_t> rejected_closures(const Correction& done) {
+  for (const methods::Count& count : done.report.counts) {
+    if (count.name == "closures_kept" || count.name == "closures_consistent") {
+      return done.problem.closures.size() - static_cast<std::size_t>(count.value);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
+  reject_standard_output("-o", a.out);
+  if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
+  const MethodChoice choice = parse_method(a.method, catalogue);
+  for (const Choice& stage : choice.stages) {
+    if (find_oracle(catalogue, stage.name) != nullptr) {
+      throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
+    }
+  }
+  const bool graph = is_graph(a);
+  Correction out;
+  out.problem = loaded(a, catalogue, graph).problem;
+  out.estimate = a.estimate;
+  out.method = a.method;
+  const auto method = make_method(choice, catalogue, {});
+  if (const auto why = method->declines(out.problem)) {
+    throw InputError(a.estimate + ": " + a.method + " declines: " + *why);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.keyframes = curve->sample(stamps(out.problem.keyframes));
+  check(out.keyframes, a.method);
+  out.output = curve->sample(output_stamps(a, out.problem, *curve, out.outside));
+  check(out.output, a.method);
+  out.before = residuals(out.problem, out.problem.keyframes);
+  out.after = residuals(out.problem, out.keyframes);
+  out.rejected = rejected_closures(out);
+  if (!a.out.empty()) write(a, out, graph);
+  out.out = a.out;
+  return out;
+}
+
+}  // namespace loopbench::harness

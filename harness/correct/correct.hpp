@@ -1,0 +1,69 @@
+/// Corrects one trajectory or pose graph with one method, without a sweep.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/sweep.hpp"
+#include "methods/report.hpp"
+
+namespace loopbench::harness {
+
+struct CorrectArguments {
+  std::string estimate;               ///< trajectory in any known format, or a g2o graph
+  std::string method;                 ///< NAME[:option=value,...][ + NAME[:...]]
+  std::string loops;                  ///< closure file for a trajectory; empty: none
+  std::string frames;                 ///< all tracked poses of the run; empty: none
+  std::vector<std::string> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
+  std::string at;                     ///< trajectory file whose stamps are used; empty: keyframes
+  bool dense = false;                 ///< output keyframes and frames
+  std::string out;                    ///< .g2o: a graph; any other name: TUM; empty: no file
+};
+
+/// Disagreement of poses with the edges of their problem.
+struct Residuals {
+  double translation_rms = 0.0;  ///< of the closures [m]
+  double translation_max = 0.0;  ///< [m]
+  double rotation_rms = 0.0;     ///< [deg]
+  double rotation_max = 0.0;     ///< [deg]
+  double chi2_odometry = 0.0;
+  double chi2_closures = 0.0;
+};
+
+struct Correction {
+  std::string estimate;
+  std::string method;  ///< label with all given options
+  Problem problem;
+  Trajectory keyframes;  ///< corrected, stamps and order of `problem.keyframes`
+  Trajectory output;     ///< at the requested stamps, ascending; the corrected keyframes by default
+  std::size_t outside = 0;  ///< requested stamps outside the keyframes' time span, not in `output`
+  std::optional<Residuals> before;  ///< unset if an edge changes the scale
+  std::optional<Residuals> after;
+  std::optional<std::size_t> rejected;  ///< closures; unset: the method rejects none
+  double seconds = 0.0;                 ///< wall time of the method
+  methods::Report report;
+  std::string out;  ///< file that was written; empty: none
+};
+
+/// The choice of a method as in a config. Throws InputError, also for a text with several methods.
+MethodChoice parse_method(const std::string& text, const Catalogue& catalogue);
+
+/// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, runs the method and
+/// writes the output file. Numbers are written so that reading them is bit-identical. Throws
+/// InputError, also if the method declines; other exceptions of the method are not caught.
+Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
+
+/// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
+std::string text(const Correction& correction);
+
+/// Object with keys estimate, method, keyframes, odometry, closures, rejected, seconds, before,
+/// after {translation_rms, translation_max, rotation_rms, rotation_max, chi2_odometry,
+/// chi2_closures} or null, counts {name: value}, phases [{name, seconds}], notes [text], output
+/// {file, poses, outside}.
+std::string json(const Correction& correction);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,177 @@
+// `loopbench correct`: the file that it writes has the score of the same cell in a sweep.
+#include "harness/correct/correct.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "datasets/derive/problem_graph.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "datasets/trajectory_dataset.hpp"
+#include "harness/store/read.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench::correct_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// One line of a closure file, with every digit.
+std::string closure_line(const Edge& edge, const Trajectory& keyframes) {
+  std::string out = to_text(keyframes[edge.from].stamp) + " " + to_text(keyframes[edge.to].stamp);
+  for (const double x : edge.from_from_to.translation) out += " " + to_text(x);
+  for (const double x : edge.from_from_to.rotation.coeffs()) out += " " + to_text(x);
+  return out + " 0.02 0.01\n";
+}
+
+/// A drifting drive along a loop: est.txt, gt.txt, loops.txt and a config with the given methods.
+class Correct : public testing::Test {
+ protected:
+  Correct() {
+    const Trajectory truth = test::hand_held_truth(40);
+    const Problem problem =
+        test::drifting(truth, twist({0.01, 0.0, 0.004}, {0.0, 0.002, 0.01}), {{0, 38}, {1, 39}});
+    write_tum(folder_.path() / "est.txt", problem.keyframes);
+    write_tum(folder_.path() / "gt.txt", truth);
+    write_loops(problem);
+  }
+
+  void write_loops(const Problem& problem) {
+    std::string text;
+    for (const Edge& edge : problem.closures) text += closure_line(edge, problem.keyframes);
+    folder_.file("loops.txt", text);
+  }
+
+  /// RMSE [m] of the ATE that a sweep stores for this method.
+  double in_sweep(const std::string& method, const std::string& times, const std::string& dataset) {
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: trajectory, " + dataset +
+                     ", closures: {source: file, file: loops.txt}}]\nmethods: [" + method +
+                     "]\nmetrics: [ate]\ntimes: " + times + "\n");
+    const CommandResult ran = loopbench_command("run c.yaml --fresh --out r", folder_);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    for (const Record& record : read_records(folder_.path() / "r")) {
+      if (record.metric == "ate" && record.relation == "translation") return record.statistics.rmse;
+    }
+    ADD_FAILURE() << "no ate";
+    return 0.0;
+  }
+
+  /// The same of a file, by `eval`.
+  double evaluated(const std::string& reference, const std::string& file) {
+    const CommandResult ran =
+        loopbench_command("eval " + reference + " " + file + " --json", folder_);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    const Json metrics = Json::parse(ran.out).at(0).at("metrics");
+    for (const Json& metric : metrics) {
+      if (metric["metric"] == "ate" && metric["relation"] == "translation") return metric["rmse"];
+    }
+    ADD_FAILURE() << "no ate";
+    return 0.0;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Correct, ItsFileHasTheScoreOfTheSweepsCell) {
+  const std::string files = "estimate: est.txt, reference: gt.txt";
+  for (const std::string method : {"uniform", "dual + cubic_spline"}) {
+    const CommandResult done = loopbench_command(
+        "correct --method '" + method + "' est.txt --loops loops.txt -o out.txt", folder_);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("closure residual, rms [m]"));
+    EXPECT_THAT(done.out, HasSubstr("40 poses in out.txt"));
+    EXPECT_EQ(evaluated("gt.txt", "out.txt"), in_sweep(method, "keyframes", files)) << method;
+    loopbench_command(
+        "correct --method '" + method + "' est.txt --loops loops.txt --at gt.txt -o dense.txt",
+        folder_);
+    EXPECT_EQ(evaluated("gt.txt", "dense.txt"), in_sweep(method, "dense", files)) << method;
+  }
+}
+
+TEST_F(Correct, TheOpenRunOfFr1RoomHasTheScoreOfTheSweepsCell) {
+  const char* data = std::getenv("LOOPBENCH_DATA");
+  if (data == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
+  const std::string room = std::string(data) + "/tum_rgbd/fr1_room/";
+  if (!std::filesystem::exists(room)) GTEST_SKIP() << room << " is absent";
+  TrajectoryOptions options;
+  options.estimate = room + "orbslam2_rgbd_open_keyframes.txt";
+  options.closures = ClosureSource::estimate;
+  options.closures_file = room + "orbslam2_rgbd_closed_frames_run1.txt";
+  write_loops(load_trajectory(options, DataRoot{{"/"}}).problem);
+  const std::string files =
+      "estimate: " + options.estimate + ", reference: " + room + "groundtruth.txt";
+  const CommandResult done = loopbench_command(
+      "correct --method uniform " + options.estimate + " --loops loops.txt -o out.txt", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(evaluated(room + "groundtruth.txt", "out.txt"),
+            in_sweep("uniform", "keyframes", files));
+}
+
+TEST_F(Correct, JsonStatesResidualsBeforeAndAfter) {
+  const CommandResult done = loopbench_command(
+      "correct --method pose_graph:loss=huber est.txt --loops loops.txt --json", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json json = Json::parse(done.out);
+  EXPECT_EQ(json["keyframes"], 40);
+  EXPECT_EQ(json["closures"], 2);
+  EXPECT_EQ(json["rejected"], nullptr);
+  EXPECT_GT(json["counts"]["iterations"], 0.0);
+  EXPECT_LT(json["after"]["translation_rms"], json["before"]["translation_rms"]);
+  EXPECT_NEAR(json["before"]["chi2_odometry"], 0.0, 1e-12) << "a trajectory agrees with itself";
+}
+
+TEST_F(Correct, RejectedClosuresAreCounted) {
+  const CommandResult done =
+      loopbench_command("correct --method dual_pcm est.txt --loops loops.txt --json", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json json = Json::parse(done.out);
+  EXPECT_EQ(json["rejected"], 2.0 - json["counts"]["closures_consistent"].get<double>());
+}
+
+TEST_F(Correct, AGraphKeepsItsIdsAndEdges) {
+  const Trajectory truth = test::hand_held_truth(12);
+  const Problem problem =
+      test::drifting(truth, twist({0.02, 0.0, 0.0}, {0.0, 0.0, 0.01}), {{0, 11}});
+  std::vector<std::int64_t> ids(12);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 100 + static_cast<std::int64_t>(i);
+  write_g2o(folder_.path() / "in.g2o", problem_graph(problem, problem.keyframes, ids));
+  const CommandResult done = loopbench_command("correct --method dual in.g2o -o out.g2o", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const PoseGraph before = read_g2o(folder_.path() / "in.g2o");
+  const PoseGraph after = read_g2o(folder_.path() / "out.g2o");
+  EXPECT_EQ(after.ids, ids);
+  ASSERT_EQ(after.edges.size(), before.edges.size());
+  for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    EXPECT_EQ(after.edges[i].information, before.edges[i].information);
+    EXPECT_EQ(after.edges[i].from_from_to.translation, before.edges[i].from_from_to.translation);
+  }
+  EXPECT_NE(after.vertices.back().translation, before.vertices.back().translation);
+}
+
+TEST_F(Correct, BadArgumentsAreNamed) {
+  const auto error = [&](const std::string& arguments) {
+    const CommandResult done = loopbench_command("correct " + arguments, folder_);
+    EXPECT_EQ(done.exit_code, 2) << done.out;
+    return done.err;
+  };
+  EXPECT_THAT(error("--method unifrom est.txt"), HasSubstr("did you mean 'uniform'?"));
+  EXPECT_THAT(error("--method uniform:wights=time est.txt"), HasSubstr("wights: unknown option"));
+  EXPECT_THAT(error("--method uniform:weights est.txt"), HasSubstr("expected NAME:option=value"));
+  EXPECT_THAT(error("--method uniform est.txt"), HasSubstr("declines: "));
+  EXPECT_THAT(error("--method uniform absent.txt"), HasSubstr("absent.txt"));
+  EXPECT_THAT(error("--method dual est.txt --loops loops.txt -o est.txt"), HasSubstr("est.txt"));
+  EXPECT_THAT(error("--method dual est.txt --loops loops.txt --set a=1"), HasSubstr("a: unknown"));
+}
+
+}  // namespace
+}  // namespace loopbench::correct_test
