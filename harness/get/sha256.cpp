@@ -70,7 +70,7 @@ void Sha256::add(std::string_view bytes) {
   }
 }
 
-std::string Sha256::hex() {
+std::string Sha256::digest() {
   const std::uint64_t bits = 8 * total_;
   add("\x80");
   while (pending_size_ != 56) add(std::string_view("\0", 1));
@@ -80,7 +80,17 @@ std::string Sha256::hex() {
   }
   add(length);
   std::string out;
-  for (const std::uint32_t word : state_) out += fmt::format("{:08x}", word);
+  for (const std::uint32_t word : state_) {
+    for (unsigned shift = 32; shift > 0; shift -= 8) {
+      out += static_cast<char>(static_cast<unsigned char>(word >> (shift - 8)));
+    }
+  }
+  return out;
+}
+
+std::string Sha256::hex() {
+  std::string out;
+  for (const char byte : digest()) out += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// SHA-256 of files, for downloads.
+/// SHA-256 of downloads and of the parts of a page.
 ///
 /// Source: FIPS 180-4.
 #pragma once
@@ -14,7 +14,9 @@ namespace loopbench::harness {
 class Sha256 {
  public:
   void add(std::string_view bytes);
-  /// 64 lower-case hexadecimal digits. Call it once, after the last `add`.
+  /// The 32 bytes of the hash. Call it once, after the last `add`.
+  std::string digest();
+  /// digest() as 64 lower-case hexadecimal digits.
   std::string hex();
 
  private:

@@ -1,6 +1,6 @@
 /// SHA-256 for the Content-Security-Policy of a page.
 ///
-/// Source: FIPS 180-4; base64 of RFC 4648.
+/// Source: base64 of RFC 4648.
 #pragma once
 
 #include <string>
