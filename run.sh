@@ -5,6 +5,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/build/release
 source "$here/cmake/setup.sh"
+export LOOPBENCH_NAME=$0  # for the commands that the program prints
 (($#)) || set -- run "$here/configs/quickstart.yaml"
 
 configure() { (cd "$here" && cmake --preset release -DLOOPBENCH_BUILD_TESTS=OFF >&2); }
@@ -19,8 +20,11 @@ build_program() {
   fi
 }
 
-install_missing "${packages[@]}"
-case $1 in plot | reproduce) install_missing "${plot_packages[@]}" ;; esac
+install_missing "${packages[@]}" "${compression_packages[@]}"
+case $1 in
+  plot | reproduce) install_missing "${plot_packages[@]}" ;;
+  get) install_missing "${get_packages[@]}" ;;
+esac
 [[ -f $build/build.ninja ]] || configure
 build_program
 

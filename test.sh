@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, all tests
 # ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
-# ./test.sh NAME...    only these (lint, or a preset: release, debug, tsan, clang)
+# ./test.sh NAME...    only these (lint, package, or a preset: release, debug, tsan, clang)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 (($#)) || set -- release
 [[ $* == all ]] && set -- lint tsan debug release
-install_missing "${packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" "${test_packages[@]}"
+install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" clang "* ]] && install_missing clang-14
 
-# clang-format for all files; clang-tidy for the product, each library as one source.
+# Runs shellcheck for all scripts, clang-format for all files; clang-tidy for the product, each library as one source.
 lint() {
-  install_missing clang-format clang-tidy
+  install_missing "${lint_packages[@]}"
+  shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh .ci/*
   find datasets methods metrics harness tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint >/dev/null
   find build/lint/CMakeFiles -path '*/Unity/*.cxx' -print0 |
@@ -26,6 +27,12 @@ for preset in "$@"; do
   if [[ $preset == lint ]]; then
     lint
     counts+=("lint: clean")
+    continue
+  fi
+  if [[ $preset == package ]]; then
+    install_missing "${package_packages[@]}"
+    harness/package/test_package.sh
+    counts+=("package: installed and run in a bare Debian")
     continue
   fi
   cmake --preset "$preset" -DLOOPBENCH_BUILD_TESTS=ON >/dev/null

@@ -48,6 +48,7 @@ function(loopbench_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE loopbench_warnings GTest::gtest_main GTest::gmock ${ARG_LINK})
   target_precompile_headers(${name} REUSE_FROM loopbench_test_headers)
+  target_compile_options(${name} PRIVATE ${LOOPBENCH_TEST_OPTIONS})
   target_compile_definitions(${name} PRIVATE
     LOOPBENCH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   foreach(shard RANGE 1 ${ARG_SHARDS})

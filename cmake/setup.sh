@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034  # the lists are used by the scripts that source this
 # Sourced by run.sh and test.sh: install_missing PACKAGE... installs missing packages and prints their names.
 # Needs Debian 12 (or a derivative with the same package names).
 
@@ -6,10 +7,15 @@ packages=(
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
   libstb-dev
 )
+# Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4).
+compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)
-test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev
+get_packages=(curl ca-certificates)
+lint_packages=(clang-format clang-tidy shellcheck)
+package_packages=(dpkg-dev file lintian debootstrap)
+test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
   python3-numpy python3-scipy)
 
 install_missing() {

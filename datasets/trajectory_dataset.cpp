@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "datasets/bags/bag_name.hpp"
 #include "datasets/disabled_options.hpp"
 
 namespace loopbench {
@@ -47,7 +48,8 @@ std::size_t keyframe_index(const std::vector<std::size_t>& kept, std::size_t pos
 }
 
 std::string default_name(const std::string& estimate) {
-  const std::filesystem::path path(estimate);
+  const std::filesystem::path path(file_of(estimate));
+  if (names_bag(estimate)) return path.stem().string() + "_" + bag_name(estimate).topic;
   const std::string folder = path.parent_path().filename().string();
   return (folder.empty() ? "" : folder + "_") + path.stem().string();
 }
@@ -183,7 +185,8 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   check_combination(o, {});
   Sequence sequence;
   const auto open = [&](const std::string& path, const std::string& option) {
-    return sequence.provenance.inputs.emplace_back(InputPath{root.find(path), option}).path;
+    return sequence.provenance.inputs.emplace_back(InputPath{root.find(file_of(path)), option})
+        .path;
   };
   ReadOptions options;
   options.period = o.period;
@@ -192,7 +195,15 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const auto read = [&](const std::string& path, const std::string& option, Format format) {
     if (path.empty()) return Trajectory();
     options.format = format;
-    return read_trajectory(open(path, option), options);
+    std::filesystem::path file = open(path, option);
+    if (names_bag(path)) file = to_text(BagName{file.string(), bag_name(path).topic});
+    ReadFindings findings;
+    options.findings = &findings;
+    Trajectory out = read_trajectory(file, options);
+    if (!findings.damage.empty()) {
+      sequence.provenance.notes.push_back(path + ": " + findings.damage);
+    }
+    return out;
   };
 
   TrajectoryInputs in;

@@ -12,6 +12,7 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
+#include "methods/smoothers/manifold/paper_literal.hpp"
 #include "methods/smoothers/polyline.hpp"
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
@@ -22,21 +23,6 @@
 
 namespace loopbench::methods {
 namespace {
-
-/// The article's equations y = f(x) and z = q(x, y) in world axes, without guards, and pieces that
-/// are not joined.
-Dm::Options paper_literal(const manifold::SegmentRule& thresholds) {
-  return {.planar = 4,
-          .spatial = 7,
-          .segment = thresholds,
-          .chord_above = std::nullopt,
-          .up = manifold::UpDirection::world_z,
-          .height_guard = false,
-          .frame = manifold::Axes::world,
-          .guard = false,
-          .quadric_cut = 1e-12,  // rounding only: a full-rank system is solved without truncation
-          .joint = {.kind = manifold::JointKind::none}};
-}
 
 /// Best variant on training sequences that are not in the article (results/paper/training.md). It
 /// fits curves where the speed is steady for a while and straight lines elsewhere. Rotation never
@@ -93,7 +79,7 @@ std::vector<MethodEntry> methods() {
                           "motion_drift_rotation, variances also grow with speed",
                           {.model = MotionDrift::Model::speed}),
       method<MotionDrift>("motion_drift",
-                          "motion_drift_rotation with steady drift, averaged over noise models "
+                          "motion_drift_rotation with drift, averaged over noise models "
                           "drawn from their posterior"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
@@ -155,12 +141,14 @@ std::vector<MethodEntry> methods() {
       method<Dm>("dm_robust",
                  "dm with options chosen on training sequences, configs/dm_training.yaml",
                  robust()),
-      method<Dm>("paper_literal_fr1",
-                 "the article's method unchanged, thresholds for fr1_room: world axes, no guards",
-                 paper_literal({.speed_band = 0.33, .turn_max = 0.75})),
-      method<Dm>("paper_literal_fr3",
-                 "the article's method unchanged, thresholds for fr3_office: world axes, no guards",
-                 paper_literal({.speed_band = 0.25, .turn_max = 0.42})),
+      method<PaperLiteral>(
+          "paper_literal_fr1",
+          "the article's equations alone, thresholds for fr1_room: world axes, no guards",
+          {manifold::paper_equations({.speed_band = 0.33, .turn_max = 0.75})}),
+      method<PaperLiteral>(
+          "paper_literal_fr3",
+          "the article's equations alone, thresholds for fr3_office: world axes, no guards",
+          {manifold::paper_equations({.speed_band = 0.25, .turn_max = 0.42})}),
 
       // Joint methods.
       method<SplineFit>("spline_fit",

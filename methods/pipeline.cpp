@@ -1,20 +1,28 @@
 #include "methods/pipeline.hpp"
 
-#include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
+#include "datasets/core/pose_rule.hpp"
 
 namespace loopbench::methods {
 namespace {
 
 void require_same_stamps(const Trajectory& before, const Trajectory& after) {
-  const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
-  if (!std::equal(before.begin(), before.end(), after.begin(), after.end(), same)) {
-    throw std::runtime_error("the corrector changed the number or the stamps of the keyframes");
+  if (after.size() != before.size()) {
+    throw std::runtime_error("the corrector returned " + std::to_string(after.size()) +
+                             " poses, expected " + std::to_string(before.size()) +
+                             ", one per keyframe");
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (after[i].stamp == before[i].stamp) continue;
+    throw std::runtime_error("the corrector changed the stamp of keyframe " +
+                             std::to_string(i + 1) + " from " + to_text(before[i].stamp) + " to " +
+                             to_text(after[i].stamp) + " s");
   }
 }
 
@@ -36,6 +44,7 @@ class Pipeline final : public Method {
     Trajectory keyframes =
         report.time("correct", [&] { return corrector_->correct(problem, report); });
     require_same_stamps(problem.keyframes, keyframes);
+    require_valid(keyframes, "corrected keyframe");
     if (!smoother_) return std::make_unique<Polyline>(std::move(keyframes));
     return smoothed(with_keyframes(problem, std::move(keyframes)), report);
   }

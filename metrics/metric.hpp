@@ -14,9 +14,9 @@
 namespace loopbench::metrics {
 
 struct Score {
-  std::string relation;  ///< "translation", "rotation"
-  std::string axis;      ///< "x", "y", "z", "3d"
-  std::string unit;      ///< "m", "deg"
+  std::string relation;  ///< what is measured: "translation", "rotation", "tracking_gap", ...
+  std::string axis;      ///< "x", "y", "z", "3d"; "all" over all lengths; "" without an axis
+  std::string unit;      ///< "m", "deg", "s"; "1" for ratios and numbers
   Statistics statistics;
   std::string why_undefined = {};  ///< set if the score is undefined; it has no statistics then
   Better better = Better::lower;

@@ -111,6 +111,10 @@ struct FieldType {
     if constexpr (NamedEnum<T>) {
       const std::string* word = std::get_if<std::string>(&given);
       const auto value = word ? from_text<T>(*word) : std::nullopt;
+      const std::string_view now = word ? replaced_value(name, *word) : std::string_view{};
+      if (!value && from_text<T>(std::string(now))) {
+        throw OptionError(name, name + " = " + *word + ": " + renamed_to(now));
+      }
       if (!value) throw mismatch("one of " + choice_list<T>());
       member = *value;
     } else if constexpr (std::same_as<T, bool>) {

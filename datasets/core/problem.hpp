@@ -41,7 +41,8 @@ inline void check(const Problem& problem, const std::string& name) {
   check(problem.frames, name + ": frames");
   if (!problem.shared_landmarks.empty() &&
       problem.shared_landmarks.size() + 1 != problem.keyframes.size()) {
-    throw InputError(name + ": common_view has " + std::to_string(problem.shared_landmarks.size()) +
+    throw InputError(name + ": shared_landmarks has " +
+                     std::to_string(problem.shared_landmarks.size()) +
                      " counts, expected one for each pair of consecutive keyframes");
   }
   const auto check_edges = [&](const std::vector<Edge>& edges, const std::string& kind) {

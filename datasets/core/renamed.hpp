@@ -1,4 +1,5 @@
-/// Names of options and metrics that were replaced. An old name is rejected and the new one named.
+/// Names of options, their values and metrics that were replaced. An old name is rejected and the
+/// new one named.
 #pragma once
 
 #include <array>
@@ -28,6 +29,25 @@ inline constexpr std::array kRenamedNames{
     RenamedName{"motion_drift", "prior.stated_spread", "prior.stated_dispersion"},
     RenamedName{"motion_drift", "prior.closures_spread", "prior.closures_dispersion"},
 };
+
+/// Value `before` of the option became `now`, for every owner of the option.
+struct RenamedValue {
+  std::string_view option;
+  std::string_view before;
+  std::string_view now;
+};
+
+inline constexpr std::array kRenamedValues{
+    RenamedValue{"overlap", "whole", "all"},
+};
+
+/// The value that replaced `value` of the option, or nothing. O(values).
+constexpr std::string_view replaced_value(std::string_view option, std::string_view value) {
+  for (const RenamedValue& renamed : kRenamedValues) {
+    if (renamed.option == option && renamed.before == value) return renamed.now;
+  }
+  return {};
+}
 
 /// The name in `known` that replaced `name`, or nothing. O(names).
 template <class Names>

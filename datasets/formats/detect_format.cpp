@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/messages.hpp"
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/csv.hpp"
 
 namespace loopbench {
 namespace {
@@ -31,7 +34,7 @@ std::optional<std::int64_t> integer_stamp(std::string_view word) {
 
 bool has_small_nanoseconds(const TextFile& file) {
   constexpr std::int64_t kMinStep = 100'000;  // [ns]
-  TextFile reopened(file.name());
+  TextFile reopened = file.reopened();
   std::optional<std::int64_t> previous;
   for (int i = 0; i < 2; ++i) {
     Line line;
@@ -64,6 +67,7 @@ Line first_line(TextFile& file) {
 
 Format detect_format(TextFile& file) {
   const Line line = first_line(file);
+  if (csv_columns(file.header())) return Format::csv;
   const std::string_view stamp = Columns(file, line).word();
   const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
   const bool is_small = is_integer && has_small_nanoseconds(file);
@@ -88,7 +92,9 @@ Format detect_format(TextFile& file) {
 }
 
 Format detect_format(const std::filesystem::path& file) {
+  if (names_bag(file.string()) || bag_kind(open_input(file)) != BagKind::none) return Format::bag;
   TextFile text(file);
+  text.skip_header();
   return detect_format(text);
 }
 

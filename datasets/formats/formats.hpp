@@ -14,14 +14,17 @@ namespace loopbench {
 
 /// `automatic` detects the format from the content, not from the file extension. Stamps of tum are
 /// seconds, or nanoseconds if they are 1e16 or more or if the first two are whole numbers at least
-/// 1e5 apart (clocks of simulators start at 0).
-enum class Format { automatic, tum, kitti, euroc, g2o };
+/// 1e5 apart (clocks of simulators start at 0). A header row is skipped; csv is a table whose
+/// header names time, position and quaternion, in any order. bag is a ROS bag (datasets/bags).
+enum class Format { automatic, tum, kitti, euroc, g2o, csv, bag };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},
                     std::pair{"tum", Format::tum},
                     std::pair{"kitti", Format::kitti},
                     std::pair{"euroc", Format::euroc},
-                    std::pair{"g2o", Format::g2o}};
+                    std::pair{"g2o", Format::g2o},
+                    std::pair{"csv", Format::csv},
+                    std::pair{"bag", Format::bag}};
 }
 
 /// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
@@ -34,10 +37,11 @@ inline auto choices(Repeats) {
                     std::pair{"keep_last", Repeats::keep_last}};
 }
 
-/// Corrections made by the readers of tum and euroc.
+/// Corrections made by the readers of tum, euroc, csv and bags.
 struct ReadFindings {
   double off_unit = 0.0;     ///< maximum | |q| - 1 | before normalisation
   std::size_t repeated = 0;  ///< poses dropped because of a repeated stamp
+  std::string damage = {};   ///< what is missing of a damaged bag; empty: intact
 };
 
 struct ReadOptions {
@@ -50,9 +54,11 @@ struct ReadOptions {
   ReadFindings* findings = nullptr;  ///< written unless null
 };
 
-/// Reads a trajectory in any known format. For g2o these are the vertices, or the composed edges of
-/// a file without vertices, with stamp = id * period. Quaternions within 1e-2 of unit norm are
-/// normalised. Throws InputError `file:line: what was found, what was expected`. O(n).
+/// Reads a trajectory in any known format. The file can be compressed, a pipe, or `-` for standard
+/// input; a trajectory in a bag is `bag:FILE#/topic`, `bag:FILE#tf:PARENT.CHILD`, or the bag's file
+/// if it has only one. For g2o these are the vertices, or the composed edges of a file without
+/// vertices, with stamp = id * period. Quaternions within 1e-2 of unit norm are normalised. Throws
+/// InputError `file:line: what was found, what was expected`. O(n).
 Trajectory read_trajectory(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Detects the format from the content. Throws InputError if it is unknown.

@@ -8,7 +8,6 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/text_writer.hpp"
 
 namespace loopbench {
 namespace {
@@ -102,24 +101,6 @@ std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
   std::vector<PoseMatrix> out;
   each_row(file, [&](const PoseMatrix& matrix) { out.push_back(matrix); });
   return out;
-}
-
-void write_kitti(const std::filesystem::path& file,
-                 const Trajectory& trajectory,
-                 const std::optional<std::filesystem::path>& times) {
-  check(trajectory, file.string());
-  TextWriter poses, stamps;
-  for (const auto& [stamp, pose] : trajectory) {
-    const Matrix3 R = pose.rotation.toRotationMatrix();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) poses.number(R(i, j));
-      poses.number(pose.translation[i]);
-    }
-    poses.end_line();
-    stamps.row({stamp});
-  }
-  poses.save(file);
-  if (times) stamps.save(*times);
 }
 
 }  // namespace loopbench

@@ -1,9 +1,17 @@
+#include <cmath>
+#include <optional>
+
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/chain.hpp"
+#include "datasets/formats/columns.hpp"
+#include "datasets/formats/csv.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/euroc.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/kitti.hpp"
+#include "datasets/formats/stamps.hpp"
+#include "datasets/formats/trajectory_file.hpp"
 #include "datasets/formats/tum.hpp"
 
 namespace loopbench {
@@ -22,22 +30,140 @@ Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double
   return out;
 }
 
-}  // namespace
+bool is_same_pose(const PoseMessage& a, const PoseMessage& b) {
+  return a.nanoseconds == b.nanoseconds &&
+         a.frame_from_child.translation == b.frame_from_child.translation &&
+         a.frame_from_child.rotation.coeffs() == b.frame_from_child.rotation.coeffs();
+}
 
-Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
-  if (!GreaterThan{0.0}.holds(options.period)) {
-    throw OptionError("period", "period = " + to_text(options.period) + ": expected period > 0");
+TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
+  BagTrajectory bag = read_bag_trajectory(bag_name(name));
+  TrajectoryFile out{.poses = {}, .format = Format::bag};
+  ReadFindings findings{bag.off_unit, 0, bag.damage};
+  bool has_covariances = true;
+  const PoseMessage* last = nullptr;
+  for (const PoseMessage& pose : bag.poses) {
+    const double stamp = seconds_of(pose.nanoseconds);
+    const bool repeats = !out.poses.empty() && stamp == out.poses.back().stamp;
+    if (repeats && is_same_pose(*last, pose)) continue;
+    if (repeats) {
+      if (options.repeats == Repeats::refuse) {
+        throw InputError(name + ": stamp " + seconds_text(pose.nanoseconds) +
+                         " has two poses, expected increasing stamps (or repeats: keep_first, "
+                         "keep_last)");
+      }
+      ++findings.repeated;
+      if (options.repeats == Repeats::keep_first) continue;
+      out.poses.pop_back();
+      out.nanoseconds.pop_back();
+      if (has_covariances) out.covariances.pop_back();
+    }
+    last = &pose;
+    out.poses.push_back({stamp, pose.frame_from_child});
+    out.nanoseconds.push_back(pose.nanoseconds);
+    has_covariances &= pose.covariance.has_value() && pose.covariance->allFinite();
+    if (has_covariances) out.covariances.push_back(*pose.covariance);
   }
+  if (!has_covariances) out.covariances.clear();
+  if (options.findings) *options.findings = findings;
+  return out;
+}
+
+bool is_bag(const std::filesystem::path& path, Format format) {
+  if (names_bag(path.string()) || format == Format::bag) return true;
+  return format == Format::automatic && bag_kind(open_input(path)) != BagKind::none;
+}
+
+/// Rejects options that do not fit, then reads a text file.
+TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& options) {
   TextFile file(path);
+  file.skip_header();
   const Format format = options.format == Format::automatic ? detect_format(file) : options.format;
   if (options.times && format != Format::kitti) {
     throw file.error(
         0, "has format " + to_text(format) + ", which contains stamps, expected no times file");
   }
-  if (format == Format::kitti) return read_kitti(file, options);
-  if (format == Format::g2o) return trajectory_of(read_g2o(path), file.name(), options.period);
-  Trajectory out = format == Format::euroc ? read_euroc(file, options) : read_tum(file, options);
+  TrajectoryFile out{.poses = {}, .format = format};
+  if (format == Format::kitti) {
+    out.poses = read_kitti(file, options);
+    out.has_stamps = options.times.has_value();
+    return out;
+  }
+  if (format == Format::g2o) {
+    out.poses = trajectory_of(read_g2o(path), file.name(), options.period);
+    out.has_stamps = false;
+    return out;
+  }
+  out.poses = format == Format::euroc ? read_euroc(file, options)
+              : format == Format::csv ? read_csv(file, options)
+                                      : read_tum(file, options);
   if (options.findings) *options.findings = {file.repaired.off_unit, file.repaired.repeated};
+  return out;
+}
+
+/// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.
+std::vector<std::int64_t> exact_stamps(const std::filesystem::path& path,
+                                       const TrajectoryFile& file) {
+  TextFile text(path);
+  text.skip_header();
+  const bool is_csv = file.format == Format::csv;
+  const CsvColumns csv = is_csv ? csv_columns(text.header()).value_or(CsvColumns{}) : CsvColumns{};
+  const bool small = file.format == Format::tum ? has_small_nanoseconds(text) : csv.nanoseconds;
+  std::vector<std::int64_t> out;
+  for (Line line; text.next(line) && out.size() < file.poses.size();) {
+    Columns columns(text, line);
+    for (std::size_t i = 0; i < csv.index[0]; ++i) columns.word();
+    const std::string_view word = columns.peek();
+    const double number = columns.number("stamp");
+    std::optional<std::int64_t> exact = exact_nanoseconds(word);
+    const bool is_whole =
+        file.format == Format::euroc || seconds_of_stamp(word, number, small) != number;
+    if (is_whole && exact) {
+      exact = *exact % 1'000'000'000 == 0 ? std::optional(*exact / 1'000'000'000) : std::nullopt;
+    }
+    if (is_whole && !exact) {
+      std::int64_t whole = 0;
+      const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
+      if (error == std::errc{}) exact = whole;
+    }
+    if (!exact) return {};
+    // A repeated stamp belongs to the pose that was kept.
+    const double stamp = is_whole ? seconds_of(*exact) : number;
+    if (stamp == file.poses[out.size()].stamp) out.push_back(*exact);
+  }
+  if (out.size() != file.poses.size()) out.clear();
+  return out;
+}
+
+void check_period(const ReadOptions& options) {
+  if (GreaterThan{0.0}.holds(options.period)) return;
+  throw OptionError("period", "period = " + to_text(options.period) + ": expected period > 0");
+}
+
+}  // namespace
+
+Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
+  check_period(options);
+  if (is_bag(path, options.format)) return from_bag(path.string(), options).poses;
+  return from_text(path, options).poses;
+}
+
+TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const ReadOptions& options) {
+  check_period(options);
+  if (is_bag(path, options.format)) return from_bag(path.string(), options);
+  TrajectoryFile out = from_text(path, options);
+  const bool has_text_stamps = out.format != Format::kitti && out.format != Format::g2o;
+  if (has_text_stamps) out.nanoseconds = exact_stamps(path, out);
+  return out;
+}
+
+TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices) {
+  TrajectoryFile out{.poses = {}, .format = file.format, .has_stamps = file.has_stamps};
+  for (const std::size_t i : indices) {
+    out.poses.push_back(file.poses[i]);
+    if (!file.nanoseconds.empty()) out.nanoseconds.push_back(file.nanoseconds[i]);
+    if (!file.covariances.empty()) out.covariances.push_back(file.covariances[i]);
+  }
   return out;
 }
 

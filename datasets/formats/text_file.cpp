@@ -3,56 +3,60 @@
 #include <sys/types.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <system_error>
 
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kMaxSize = std::size_t{8} << 30;   // [bytes]; 1e6 poses need 0.1 GB
 constexpr std::size_t kWindow = std::size_t{256} << 10;  // [bytes], fits into the L2 cache
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-std::size_t size_of_plain_file(const std::filesystem::path& file, const std::string& name) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw input_error(name, 0, "no such file");
+bool is_number(std::string_view word) {
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && rest == word.data() + word.size();
+}
+
+/// The words of a line, separated by blanks, tabs or commas.
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  while (true) {
+    const std::size_t first = text.find_first_not_of(" \t,");
+    if (first == text.npos) return out;
+    text.remove_prefix(first);
+    const std::size_t end = std::min(text.find_first_of(" \t,"), text.size());
+    out.push_back(text.substr(0, end));
+    text.remove_prefix(end);
   }
-  if (error) throw input_error(name, 0, "cannot be read: " + error.message());
-  if (std::filesystem::is_directory(status)) {
-    throw input_error(name, 0, "is a directory, expected a text file");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw input_error(name, 0, "is not a regular file, expected a text file");
-  }
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw input_error(name, 0, "cannot be read: " + error.message());
-  if (size == 0) throw input_error(name, 0, "is empty");
-  if (size > kMaxSize) {
-    throw input_error(
-        name,
-        0,
-        "has " + std::to_string(size) + " bytes, expected at most " + std::to_string(kMaxSize));
-  }
-  return static_cast<std::size_t>(size);
+}
+
+bool names_columns(std::string_view text) {
+  constexpr std::size_t kFewest = 3;
+  const std::vector<std::string_view> words = words_of(text);
+  const bool starts_with_letter =
+      !words.empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0;
+  // A number that is not finite is an invalid pose, not a name.
+  return starts_with_letter && words.size() >= kFewest && std::ranges::none_of(words, is_number);
 }
 
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& file)
-    : TextFile(file.string(), size_of_plain_file(file, file.string()), 0, kMaxSize) {}
+    : TextFile(open_input(file), 0, std::numeric_limits<std::size_t>::max()) {}
 
-TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin, std::size_t end)
-    : name_(name),
-      size_(size),
+TextFile::TextFile(OpenedFile file, std::size_t begin, std::size_t end)
+    : file_(std::move(file)),
       begin_(begin),
       unread_(begin),
-      end_(std::min(size, end)),
+      end_(std::min(file_.size, end)),
       capacity_(std::min(kWindow, end_ - begin)),
-      handle_(std::fopen(name.c_str(), "rb")) {
+      handle_(std::fopen(file_.path.c_str(), "rb")) {
   if (!handle_) throw error(0, std::string("cannot be read: ") + std::strerror(errno));
   std::setvbuf(handle_.get(), nullptr, _IONBF, 0);
   if (fseeko(handle_.get(), static_cast<off_t>(begin), SEEK_SET) != 0) {
@@ -63,6 +67,25 @@ TextFile::TextFile(const std::string& name, std::size_t size, std::size_t begin,
   if (begin == 0 && std::string_view(window_.get(), filled_).starts_with(kByteOrderMark)) {
     position_ = kByteOrderMark.size();
   }
+}
+
+TextFile TextFile::part(std::size_t begin, std::size_t end) const {
+  TextFile out(file_, begin, end);
+  out.header_ = header_;
+  out.is_first_ = is_first_ && begin == begin_;
+  return out;
+}
+
+void TextFile::skip_header() {
+  TextFile probe = reopened();
+  Line line;
+  if (!probe.next(line) || !names_columns(line.text)) return;
+  std::string header(line.text);
+  const std::size_t end = probe.offset();
+  if (!probe.next(line) || !is_number(words_of(line.text)[0])) return;
+  next(line);
+  header_ = std::move(header);
+  begin_ = end;
 }
 
 /// Reads the next bytes into the window. Drops the lines already read, or doubles the window if a
@@ -128,15 +151,15 @@ void TextFile::put_back(const Line& line) {
 
 std::vector<TextFile> TextFile::cut(std::size_t count) const {
   std::vector<TextFile> out;
-  std::size_t begin = 0;
-  for (std::size_t k = 1; k <= count && begin < size_; ++k) {
-    std::size_t end = size_;
+  std::size_t begin = begin_;
+  for (std::size_t k = 1; k <= count && begin < end_; ++k) {
+    std::size_t end = end_;
     if (k < count) {
       // Reading one line from an arbitrary offset ends at the start of a line.
-      TextFile rest(name_, size_, std::max(begin, size_ / count * k), size_);
-      if (Line line; rest.next(line)) end = rest.unread_ - rest.filled_ + rest.position_;
+      TextFile rest = part(std::max(begin, end_ / count * k), end_);
+      if (Line line; rest.next(line)) end = rest.offset();
     }
-    out.push_back(TextFile(name_, size_, begin, end));
+    out.push_back(part(begin, end));
     begin = end;
   }
   return out;

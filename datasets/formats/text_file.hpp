@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
@@ -21,9 +22,9 @@ struct Line {
 };
 
 /// Reads a file through a small window, which grows to the longest line. Unix and Windows line
-/// endings and a UTF-8 byte order mark are accepted. Throws InputError for a file that is missing,
-/// not a regular file, unreadable, empty, larger than 8 GiB or binary (contains a NUL byte, which
-/// is detected when the window reaches it).
+/// endings and a UTF-8 byte order mark are accepted, and files as open_input() accepts them. Throws
+/// InputError like open_input(), and for a file that is binary (contains a NUL byte, which is
+/// detected when the window reaches it).
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& file);
@@ -35,6 +36,16 @@ class TextFile {
   /// Puts back the last line returned by next().
   void put_back(const Line& line);
 
+  /// Skips the first line of data if it names columns: three or more words with letters, none a
+  /// number, followed by a line that starts with a number. Only before the first call of next().
+  void skip_header();
+
+  /// The line skipped by skip_header(); empty: none.
+  const std::string& header() const { return header_; }
+
+  /// The same file from its start, or after the header if that was skipped.
+  TextFile reopened() const { return part(begin_, end_); }
+
   /// Splits the file at line endings into at most `count` parts of similar size. Each part counts
   /// its lines from 1.
   std::vector<TextFile> cut(std::size_t count) const;
@@ -42,12 +53,12 @@ class TextFile {
   /// Number of lines read, including blank lines and comments.
   std::size_t lines() const { return line_; }
 
-  const std::string& name() const { return name_; }
-  std::size_t bytes() const { return size_; }
+  const std::string& name() const { return file_.name; }
+  std::size_t bytes() const { return file_.size; }
 
   /// Error `file:line: what`.
   InputError error(std::size_t line, const std::string& what) const {
-    return input_error(name_, line, what);
+    return input_error(file_.name, line, what);
   }
 
   /// Corrections made by the readers in this part.
@@ -60,7 +71,7 @@ class TextFile {
   /// Estimated number of lines, assuming that all are as long as `line`; a hint for reserve(). The
   /// first part counts the complete file, because the results of other parts are appended to it.
   std::size_t estimated_lines(const Line& line) const {
-    return (begin_ == 0 ? size_ : end_ - begin_) / (line.text.size() + 1) + 1;
+    return (is_first_ ? file_.size : end_ - begin_) / (line.text.size() + 1) + 1;
   }
 
  private:
@@ -68,12 +79,15 @@ class TextFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  TextFile(const std::string& name, std::size_t size, std::size_t begin, std::size_t end);
+  TextFile(OpenedFile file, std::size_t begin, std::size_t end);
+  TextFile part(std::size_t begin, std::size_t end) const;
+  std::size_t offset() const { return unread_ - filled_ + position_; }  ///< of the next line
   void refill();
 
-  std::string name_;
-  std::size_t size_ = 0;      ///< of the complete file [bytes]
-  std::size_t begin_ = 0;     ///< file offset of the start of this part
+  OpenedFile file_;
+  std::string header_;
+  bool is_first_ = true;      ///< the part with the first line of data
+  std::size_t begin_ = 0;     ///< file offset of the first line of this part after the header
   std::size_t unread_ = 0;    ///< file offset of the next bytes to read into the window
   std::size_t end_ = 0;       ///< file offset of the end of this part
   std::size_t capacity_ = 0;  ///< of the window [bytes]

@@ -7,11 +7,12 @@
 #include <cstring>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/replace_file.hpp"
 
 namespace loopbench {
 
 void TextWriter::separate() {
-  if (!text_.empty() && text_.back() != '\n') text_ += ' ';
+  if (!text_.empty() && text_.back() != '\n') text_ += separator_;
 }
 
 void TextWriter::comment(std::string_view text) {
@@ -51,15 +52,10 @@ void TextWriter::row(std::initializer_list<double> values) {
 }
 
 void TextWriter::save(const std::filesystem::path& file) const {
-  const std::string name = file.string();
-  const auto failure = [&] {
-    return input_error(name, 0, std::string("cannot be written: ") + std::strerror(errno));
-  };
-  std::FILE* const handle = std::fopen(name.c_str(), "wb");
-  if (handle == nullptr) throw failure();
-  const bool written = std::fwrite(text_.data(), 1, text_.size(), handle) == text_.size();
-  // A full disk may be reported only when the last buffer is flushed.
-  if (std::fclose(handle) != 0 || !written) throw failure();
+  if (file != "-") return replace_file(file, text_, Target::named);
+  if (std::fwrite(text_.data(), 1, text_.size(), stdout) != text_.size()) {
+    throw input_error("-", 0, std::string("cannot be written: ") + std::strerror(errno));
+  }
 }
 
 }  // namespace loopbench

@@ -12,6 +12,9 @@ namespace loopbench {
 
 class TextWriter {
  public:
+  /// `separator` stands between the words of a line.
+  explicit TextWriter(char separator = ' ') : separator_(separator) {}
+
   /// Appends a `# ` line; line breaks in `text` start further comment lines.
   void comment(std::string_view text);
 
@@ -23,12 +26,13 @@ class TextWriter {
   /// Appends one line of numbers.
   void row(std::initializer_list<double> values);
 
-  /// Writes the file. Throws InputError if it cannot be written completely.
+  /// Writes the file; `-` is standard output. Throws InputError if it cannot be written completely.
   void save(const std::filesystem::path& file) const;
 
  private:
   void separate();
 
+  char separator_;
   std::string text_;
 };
 

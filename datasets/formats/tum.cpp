@@ -2,10 +2,9 @@
 
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/euroc.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/text_writer.hpp"
+#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 namespace {
@@ -21,21 +20,6 @@ InputError wrong_row(const TextFile& file, const Line& line) {
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
-/// Converts to seconds. Nanoseconds, as written by ORB-SLAM3, are whole numbers or have zero
-/// decimals.
-double stamp_of(const TextFile& file, const Line& line, double number, bool small_nanoseconds) {
-  constexpr double kNanoseconds = 1e16, kMaxNanoseconds = 9e18;  // 1970 + 115 days, + 285 years
-  if (number > kMaxNanoseconds || (number < kNanoseconds && !small_nanoseconds)) return number;
-  const std::string_view word = Columns(file, line).word();
-  std::int64_t integer = 0;
-  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), integer);
-  const bool is_integer =
-      error == std::errc{} &&
-      std::string_view(rest, word.data() + word.size()).find_first_not_of(".0") ==
-          std::string_view::npos;
-  return is_integer ? seconds_of(integer) : 1e-9 * number;
-}
-
 Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds) {
   Trajectory out;
   out.reserve(file.estimated_lines(first_line(file)));
@@ -43,12 +27,13 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds
   std::array<double, kTumColumns.size()> v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
+    const std::string_view stamp = columns.peek();
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (columns.done()) throw wrong_row(file, line);
       v[i] = columns.number(kTumColumns[i]);
     }
     if (!columns.done()) throw wrong_row(file, line);
-    v[0] = stamp_of(file, line, v[0], small_nanoseconds);
+    v[0] = seconds_of_stamp(stamp, v[0], small_nanoseconds);
     const Rotation rotation = normalized_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
     order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
@@ -63,20 +48,6 @@ Trajectory read_tum(TextFile& file, const ReadOptions& options) {
       file,
       [&](TextFile& part) { return read_tum_part(part, options.repeats, small_nanoseconds); },
       [](const Trajectory& a, const Trajectory& b) { return a.back().stamp < b.front().stamp; }));
-}
-
-void write_tum(const std::filesystem::path& file,
-               const Trajectory& trajectory,
-               const std::vector<std::string>& comments) {
-  check(trajectory, file.string());
-  TextWriter out;
-  for (const std::string& comment : comments) out.comment(comment);
-  for (const auto& [stamp, pose] : trajectory) {
-    const Vector3& t = pose.translation;
-    const Rotation& q = pose.rotation;
-    out.row({stamp, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
-  }
-  out.save(file);
 }
 
 }  // namespace loopbench

@@ -5,54 +5,54 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
-
+#include "datasets/core/error.hpp"
+#include "datasets/formats/regular_file.hpp"
+#include "datasets/formats/replace_file.hpp"
 #include "datasets/hash.hpp"
 
 namespace loopbench::rgbd {
 namespace {
 
-// Seed of the checksum; change it with the file layout.
-constexpr std::uint64_t kChecksumSeed = 0x6c6f6f7062656e63u;
-constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
+// Seed of the seal; change it with the file layout.
+constexpr std::uint64_t kSealSeed = 0x6c6f6f7062656e64u;
+constexpr std::size_t kSealBytes = sizeof(std::uint64_t);
+constexpr std::size_t kLargestEntry = std::size_t{4} << 30;  // [bytes]
 
-std::string checksum(const std::string& bytes) {
-  const std::uint64_t sum = mixed(kChecksumSeed, bytes);
-  std::string out(kChecksumBytes, '\0');
-  std::memcpy(out.data(), &sum, kChecksumBytes);
+std::string seal(const CacheEntry& entry, std::string_view bytes) {
+  const std::uint64_t sum = mixed(mixed(mixed(kSealSeed, entry.build), entry.name), bytes);
+  std::string out(kSealBytes, '\0');
+  std::memcpy(out.data(), &sum, kSealBytes);
   return out;
 }
 
 }  // namespace
 
-std::optional<std::string> load_cached(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::string all((std::istreambuf_iterator<char>(in)), {});
-  if (all.size() < kChecksumBytes) return std::nullopt;
-  std::string bytes = all.substr(kChecksumBytes);
-  if (all.compare(0, kChecksumBytes, checksum(bytes)) != 0) return std::nullopt;
-  return bytes;
-}
-
-void store_cached(const std::filesystem::path& file, const std::string& bytes) {
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  const std::filesystem::path temporary = fmt::format("{}.{}.tmp", file.string(), getpid());
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << checksum(bytes) << bytes;
-    if (!out.flush()) error = std::make_error_code(std::errc::io_error);
+std::optional<std::string> load_cached(const CacheEntry& entry) {
+  try {
+    std::string all = read_regular_file(entry.file(), kLargestEntry, "file");
+    if (all.size() < kSealBytes) return std::nullopt;
+    const std::string_view bytes = std::string_view(all).substr(kSealBytes);
+    if (all.compare(0, kSealBytes, seal(entry, bytes)) != 0) return std::nullopt;
+    return all.substr(kSealBytes);
+  } catch (const InputError&) {  // missing or unreadable: recompute
+    return std::nullopt;
   }
-  if (!error) std::filesystem::rename(temporary, file, error);
-  if (error) std::filesystem::remove(temporary, error);
 }
 
-CacheLock::CacheLock(const std::filesystem::path& file) {
+void store_cached(const CacheEntry& entry, const std::string& bytes) {
   std::error_code ignored;
-  std::filesystem::create_directories(file.parent_path(), ignored);
-  handle_ = open((file.string() + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  std::filesystem::create_directories(entry.file().parent_path(), ignored);
+  try {
+    replace_file(entry.file(), seal(entry, bytes) + bytes, Target::own);
+  } catch (const InputError&) {  // a result that is not cached is computed again
+  }
+}
+
+CacheLock::CacheLock(const CacheEntry& entry) {
+  std::error_code ignored;
+  std::filesystem::create_directories(entry.file().parent_path(), ignored);
+  const std::string file = entry.file().string() + ".lock";
+  handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (handle_ >= 0) flock(handle_, LOCK_EX);
 }
 
@@ -60,10 +60,8 @@ CacheLock::~CacheLock() {
   if (handle_ >= 0) close(handle_);
 }
 
-std::filesystem::path cached_path(const std::filesystem::path& folder,
-                                  const std::string& stage,
-                                  std::uint64_t key) {
-  return folder / fmt::format("{}-{:016x}", stage, key);
+std::string cache_name(const std::string& stage, std::uint64_t key) {
+  return fmt::format("{}-{:016x}", stage, key);
 }
 
 }  // namespace loopbench::rgbd

@@ -1,4 +1,4 @@
-/// File cache of intermediate results, with atomic writes and checksums.
+/// File cache of intermediate results, with atomic writes and seals.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,29 @@
 
 namespace loopbench::rgbd {
 
-/// Returns the bytes stored in `file`, or nothing if it is missing, truncated or corrupt.
-std::optional<std::string> load_cached(const std::filesystem::path& file);
+/// A cache entry: its file is `folder / name`. The seal of the stored bytes covers the name and the
+/// build, so that an entry that was moved, exchanged or written by other code is not read.
+struct CacheEntry {
+  std::filesystem::path folder;
+  std::string name;   ///< contains the key, see cache_name()
+  std::string build;  ///< identifies the code that computes the content
 
-/// Writes to a temporary file and renames it, so that an interrupted run leaves no partial file.
-/// Write errors (full or read-only disk) are ignored.
-void store_cached(const std::filesystem::path& file, const std::string& bytes);
+  std::filesystem::path file() const { return folder / name; }
+};
 
-/// Exclusive lock for work on `file` between processes of one machine; blocks until it is acquired.
-/// If locking fails, work may be done twice with bit-identical results.
+/// Returns the bytes stored for `entry`, or nothing if they are missing, not in a regular file,
+/// truncated, corrupt, or sealed for another name or build.
+std::optional<std::string> load_cached(const CacheEntry& entry);
+
+/// Replaces the file of `entry` with replace_file(), so that an interrupted run leaves no partial
+/// file and links are not followed. Write errors (full or read-only disk) are ignored.
+void store_cached(const CacheEntry& entry, const std::string& bytes);
+
+/// Exclusive lock for work on `entry` between processes of one machine; blocks until it is
+/// acquired. If locking fails, work may be done twice with bit-identical results.
 class CacheLock {
  public:
-  explicit CacheLock(const std::filesystem::path& file);
+  explicit CacheLock(const CacheEntry& entry);
   ~CacheLock();
   CacheLock(const CacheLock&) = delete;
   CacheLock& operator=(const CacheLock&) = delete;
@@ -28,9 +39,7 @@ class CacheLock {
   int handle_;
 };
 
-/// Path `folder / stage-KEY`, with KEY in hexadecimal.
-std::filesystem::path cached_path(const std::filesystem::path& folder,
-                                  const std::string& stage,
-                                  std::uint64_t key);
+/// "STAGE-KEY", with KEY in hexadecimal.
+std::string cache_name(const std::string& stage, std::uint64_t key);
 
 }  // namespace loopbench::rgbd

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,8 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
 }
+
+constexpr int kMostPixelsAcross = 8192;  // wider images are beyond the limit of pixels
 
 struct Entry {
   std::string_view key;
@@ -57,6 +60,17 @@ class Reader {
                       fmt::format("{} = {}: expected {} > 0", entry.key, value, entry.key));
   }
 
+  int pixels(const Entry& entry) const {
+    const double value = number(entry);
+    if (value >= 1.0 && value <= kMostPixelsAcross && value == std::floor(value)) {
+      return static_cast<int>(value);
+    }
+    throw file_.error(
+        line_.number,
+        fmt::format(
+            "{} = {}: expected a whole number from 1 to {}", entry.key, value, kMostPixelsAcross));
+  }
+
   std::vector<double> list(const Entry& entry) const {
     std::string_view rest = entry.value;
     if (rest.size() < 2 || rest.front() != '[' || rest.back() != ']') {
@@ -92,8 +106,8 @@ Camera read_camera(const std::filesystem::path& path) {
       throw file.error(line.number,
                        fmt::format("key {} is repeated, expected each key once", entry.key));
     }
-    if (entry.key == "width") camera.width = static_cast<int>(reader.positive(entry));
-    if (entry.key == "height") camera.height = static_cast<int>(reader.positive(entry));
+    if (entry.key == "width") camera.width = reader.pixels(entry);
+    if (entry.key == "height") camera.height = reader.pixels(entry);
     if (entry.key == "fx") camera.fx = reader.positive(entry);
     if (entry.key == "fy") camera.fy = reader.positive(entry);
     if (entry.key == "cx") camera.cx = reader.positive(entry);

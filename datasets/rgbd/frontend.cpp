@@ -207,7 +207,7 @@ Sequence run_frontend(const RgbdSource& source,
                       const FrontendOptions& options,
                       const FrontendHooks& hooks) {
   run_opencv_on_one_thread();
-  const StageCache cache(hooks.cache, source, options);
+  const StageCache cache(hooks, source, options);
   std::optional<CacheLock> lock;  // workers of one sweep may load the same sequence concurrently
   if (!hooks.cache.empty()) lock.emplace(cache.tracked());
   StageTimes seconds;

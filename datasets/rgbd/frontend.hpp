@@ -39,6 +39,8 @@ struct FrontendHooks {
   std::function<void(const std::string&, std::size_t, std::size_t)> progress = {};
   /// Folder for the results of stages (see StageCache); empty: no cache.
   std::filesystem::path cache = {};
+  /// Identifies the code of the front end; cached results of another build are recomputed.
+  std::string build = {};
 };
 
 /// Runs the front end on all frames of `source`. Images are read and features detected on all

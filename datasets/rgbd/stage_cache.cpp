@@ -5,30 +5,23 @@
 #include "datasets/hash.hpp"
 
 namespace loopbench::rgbd {
-namespace {
 
-// Increment with any change of the result of a stage for the same input.
-constexpr std::uint64_t kCacheVersion = 2;
-
-}  // namespace
-
-StageCache::StageCache(const std::filesystem::path& folder,
+StageCache::StageCache(const FrontendHooks& hooks,
                        const RgbdSource& source,
                        const FrontendOptions& options)
-    : folder_(folder) {
-  if (folder.empty()) return;
-  const std::uint64_t features =
-      mixed(mixed(source.content(), kCacheVersion), to_text(echo(options.features)));
+    : folder_(hooks.cache), build_(hooks.build) {
+  if (folder_.empty()) return;
+  const std::uint64_t features = mixed(source.content(), to_text(echo(options.features)));
   const std::uint64_t track = mixed(features, to_text(echo(options.track)));
-  frames_ = cached_path(folder, "features", features);
-  tracked_ = cached_path(folder, "track", track);
+  frames_ = cache_name("features", features);
+  tracked_ = cache_name("track", track);
   const std::uint64_t loops = mixed(track, to_text(echo(options.loops)));
-  loops_ = cached_path(folder, "loops", loops);
-  refined_ = cached_path(folder, "refined", mixed(loops, to_text(echo(options.refine))));
+  loops_ = cache_name("loops", loops);
+  refined_ = cache_name("refined", mixed(loops, to_text(echo(options.refine))));
 }
 
-std::filesystem::path StageCache::frame(std::size_t index) const {
-  return frames_ / fmt::format("{:06}", index);
+CacheEntry StageCache::frame(std::size_t index) const {
+  return entry(fmt::format("{}/{:06}", frames_, index));
 }
 
 }  // namespace loopbench::rgbd

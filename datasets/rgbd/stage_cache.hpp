@@ -10,27 +10,26 @@
 namespace loopbench::rgbd {
 
 /// The key of a stage depends on the images and on the options of this and all previous stages:
-/// features, tracking, loops, refinement by depth. An empty folder disables the cache.
+/// features, tracking, loops, refinement by depth. Entries of another build are recomputed. An
+/// empty folder disables the cache.
 class StageCache {
  public:
-  StageCache(const std::filesystem::path& folder,
-             const RgbdSource& source,
-             const FrontendOptions& options);
+  StageCache(const FrontendHooks& hooks, const RgbdSource& source, const FrontendOptions& options);
 
-  std::filesystem::path frame(std::size_t index) const;
-  const std::filesystem::path& tracked() const { return tracked_; }
-  const std::filesystem::path& loops() const { return loops_; }
-  const std::filesystem::path& refined() const { return refined_; }
+  CacheEntry frame(std::size_t index) const;
+  CacheEntry tracked() const { return entry(tracked_); }
+  CacheEntry loops() const { return entry(loops_); }
+  CacheEntry refined() const { return entry(refined_); }
 
   /// Returns unpack(content of `file`) if it is valid; otherwise calls make() and stores its
   /// result.
   template <class Unpack, class Make, class Pack>
-  auto get(const std::filesystem::path& file, Unpack unpack, Make make, Pack pack) const {
+  auto get(const CacheEntry& file, Unpack unpack, Make make, Pack pack) const {
     if (folder_.empty()) return make();
     if (const std::optional<std::string> bytes = load_cached(file)) {
       try {
         return unpack(*bytes);
-      } catch (const std::runtime_error&) {  // layout of another build: recompute
+      } catch (const std::runtime_error&) {  // invalid content: recompute
       }
     }
     auto out = make();
@@ -39,11 +38,14 @@ class StageCache {
   }
 
  private:
+  CacheEntry entry(std::string name) const { return {folder_, std::move(name), build_}; }
+
   std::filesystem::path folder_;
-  std::filesystem::path frames_;
-  std::filesystem::path tracked_;
-  std::filesystem::path loops_;
-  std::filesystem::path refined_;
+  std::string build_;
+  std::string frames_;
+  std::string tracked_;
+  std::string loops_;
+  std::string refined_;
 };
 
 }  // namespace loopbench::rgbd

@@ -1,8 +1,8 @@
 #include "harness/article/paper_run.hpp"
 
+#include <cctype>
 #include <cmath>
 
-#include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
@@ -27,9 +27,14 @@ PaperCell named(const Sweep& sweep, const Cell& cell) {
     out.variant = method;
     return out;
   }
-  std::tie(out.reading, out.variant) = split_label(method);
-  if (out.variant.size() != 2 || (out.variant[0] != 'N' && out.variant[0] != 'M')) {
-    throw InputError("method label '" + method + "' is not ORB_SLAM2 or READING and N3..M8");
+  out.reading = method;  // of a row without N or M
+  for (std::size_t k = 0; k + 2 < method.size(); ++k) {
+    const bool is_window = method[k] == ' ' && (method[k + 1] == 'N' || method[k + 1] == 'M') &&
+                           std::isdigit(static_cast<unsigned char>(method[k + 2])) != 0;
+    if (!is_window) continue;
+    out.reading = method.substr(0, k);
+    out.variant = method.substr(k + 1);
+    break;
   }
   return out;
 }
@@ -50,25 +55,26 @@ double roughness(const Trajectory& poses) {
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
 }
 
+}  // namespace
+
 const metrics::Statistics* find_score(const PaperCell& cell,
-                                      const std::string& metric,
+                                      const std::string& label,
                                       const std::string& axis,
-                                      metrics::Times times) {
+                                      metrics::Times times,
+                                      const std::string& relation) {
   for (const ScoreResult& s : cell.result.scores) {
-    if (s.status == Status::ok && s.times == times && s.metric == metric && s.score.axis == axis &&
-        s.score.relation == "translation") {
+    if (s.status == Status::ok && s.times == times && s.label == label && s.score.axis == axis &&
+        s.score.relation == relation) {
       return &s.score.statistics;
     }
   }
   return nullptr;
 }
 
-}  // namespace
-
 std::vector<PaperCell> run_paper(const Sweep& sweep,
                                  const Catalogue& catalogue,
                                  const DataRoot& root,
-                                 const std::function<void(const PaperCell&)>& finished) {
+                                 const std::function<void(PaperCell&)>& finished) {
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, catalogue), "");
   Sequences sequences(sweep, catalogue, root, planned);
   std::vector<PaperCell> out;
@@ -119,7 +125,7 @@ const PaperCell* find_cell(const std::vector<PaperCell>& cells,
   for (const PaperCell& cell : cells) {
     const bool reads = variant == kPaperBaseline || cell.reading == reading;
     if (cell.sequence == like.sequence && cell.input == like.input && reads &&
-        cell.variant == variant) {
+        cell.variant.starts_with(variant)) {
       return &cell;
     }
   }

@@ -11,16 +11,19 @@
 
 namespace loopbench::harness {
 
-/// One method on one input, identified by config labels: "fr1_room closed", "robust N4".
+/// One method on one run, identified by config labels: "fr1_room closed", "text N4 parabola".
 struct PaperCell {
   std::string sequence;  ///< first word of the dataset's label: fr1_room | fr3_office
-  std::string input;     ///< the other words: closed, open, ...
-  std::string reading;   ///< interpretation of the article: literal, robust; empty for ORB_SLAM2
-  std::string variant;   ///< ORB_SLAM2, N3..N5, M6..M8
+  std::string input;     ///< the other words, the run: closed, open, ...
+  std::string reading;   ///< interpretation of the article, or the whole label without N or M;
+                         ///< empty for ORB_SLAM2
+  std::string variant;   ///< ORB_SLAM2, or N or M with the curve: "N4 parabola", "M6"; or empty
   CellResult result;
-  Trajectory keyframes;       ///< keyframes of the input, aligned to the reference like `dense`
+  Trajectory keyframes;       ///< keyframes of the run, aligned to the reference like `dense`
   metrics::Evaluation dense;  ///< at the reference's stamps; empty if the cell failed
   double roughness = 0;       ///< RMS second difference of the dense positions over dt^2 [m/s^2]
+
+  bool is_baseline() const { return variant == "ORB_SLAM2"; }
 };
 
 /// One axis of the article's tables; all in metres.
@@ -32,12 +35,19 @@ struct AxisNumbers {
   double rpe = 0.0;  ///< rmse over one keyframe, in the world frame
 };
 
-/// Runs all cells and calls `finished` after each. Throws InputError for labels it cannot parse and
+/// Runs all cells and calls `finished` after each, which may free parts of it. Throws InputError
 /// for missing data.
 std::vector<PaperCell> run_paper(const Sweep& sweep,
                                  const Catalogue& catalogue,
                                  const DataRoot& root,
-                                 const std::function<void(const PaperCell&)>& finished);
+                                 const std::function<void(PaperCell&)>& finished);
+
+/// Statistics of a metric with this label, or null.
+const metrics::Statistics* find_score(const PaperCell& cell,
+                                      const std::string& label,
+                                      const std::string& axis,
+                                      metrics::Times times,
+                                      const std::string& relation = "translation");
 
 /// nullopt if the cell has no such scores.
 std::optional<AxisNumbers> axis_numbers(const PaperCell& cell,
@@ -47,8 +57,8 @@ std::optional<AxisNumbers> axis_numbers(const PaperCell& cell,
 /// 3-D rmse at `times` [m], or nullopt.
 std::optional<double> ate_3d(const PaperCell& cell, metrics::Times times);
 
-/// The cell of the same input with this reading and variant, or null. The reading is ignored for
-/// ORB_SLAM2.
+/// The cell of the same run with this reading and variant, or null. The reading is ignored for
+/// ORB_SLAM2; "N4" stands for the first variant of that N.
 const PaperCell* find_cell(const std::vector<PaperCell>& cells,
                            const PaperCell& like,
                            const std::string& reading,

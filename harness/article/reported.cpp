@@ -31,9 +31,10 @@ std::string contradiction(const ReportedRow& row) {
   std::string out;
   if (row.mean > row.ate) out += fmt::format("mean {} exceeds ATE {}", row.mean, row.ate);
   if (row.rpe > 2.0 * row.ate) {
-    out += fmt::format("{}RPE is {:.2f} times the ATE, at most 2 is possible",
-                       out.empty() ? "" : "; ",
-                       row.rpe / row.ate);
+    out += fmt::format(
+        "{}RPE is {:.2f} times the ATE, at most 2 is possible for errors of the same axis",
+        out.empty() ? "" : "; ",
+        row.rpe / row.ate);
   }
   return out;
 }

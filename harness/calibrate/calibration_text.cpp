@@ -51,7 +51,7 @@ std::string calibration_yaml(const Calibration& c) {
   out +=
       "# Root mean square errors over groups of this many edges, and the powers of the group "
       "length\n"
-      "# with which they grow from the row above: 0.5 is noise, 1 is steady drift.\n";
+      "# with which they grow from the row above: 0.5 is noise, 1 is drift.\n";
   for (std::size_t i = 0; i < c.group_errors.size(); ++i) {
     const Calibration::GroupErrors& s = c.group_errors[i];
     out += fmt::format("# {:4} edges {:.3g} m {:.3g} rad", s.edges, s.rms[0], s.rms[1]);

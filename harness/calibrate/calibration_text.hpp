@@ -17,7 +17,7 @@ struct Calibration {
   std::vector<NestedModel> models;
   std::vector<std::vector<RateInterval>> intervals;  ///< by model, as options_of()
   /// Root mean square errors for several group lengths: growth proportional to the length, not to
-  /// its square root, indicates steady drift.
+  /// its square root, indicates drift.
   struct GroupErrors {
     std::size_t edges;
     double rms[2];  ///< [m], [rad]

@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "harness/text/print_error.hpp"
+#include "harness/text/printable.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -22,8 +25,8 @@ std::filesystem::path cache_folder() {
 void draw(const std::string& stage, std::size_t done, std::size_t total) {
   const std::size_t step = std::max<std::size_t>(1, total / 100);
   if (done % step != 0 && done != total) return;
-  fmt::print(stderr, "\r\033[K{}", loading_line(stage, done, total));
-  if (done == total) fmt::print(stderr, "\r\033[K");
+  print_error("\r\033[K{}", loading_line(stage, done, total));
+  if (done == total) print_error("\r\033[K");
   std::fflush(stderr);
 }
 
@@ -33,6 +36,7 @@ rgbd::FrontendHooks loading_hooks() {
   rgbd::FrontendHooks out;
   if (isatty(STDERR_FILENO) == 1) out.progress = draw;
   out.cache = cache_folder();
+  out.build = front_end_hash;
   return out;
 }
 
@@ -45,8 +49,10 @@ std::string loading_line(const std::string& stage, std::size_t done, std::size_t
 
 void print_notes(const std::string& label, const std::vector<std::string>& notes) {
   std::string out;
-  for (const std::string& note : notes) out += fmt::format("{}: {}\n", label, note);
-  fmt::print(stderr, "{}", out);
+  for (const std::string& note : notes) {
+    out += fmt::format("{}: {}\n", printable(label), printable(note));
+  }
+  print_error("{}", out);
 }
 
 }  // namespace loopbench::harness

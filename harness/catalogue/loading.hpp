@@ -6,6 +6,8 @@
 
 #include "datasets/rgbd/frontend.hpp"
 
+extern char front_end_hash[];  ///< of the library of the image front end; defined by the build
+
 namespace loopbench::harness {
 
 /// Progress bar on stderr if that is a terminal. Stages are cached in $LOOPBENCH_CACHE (empty: no

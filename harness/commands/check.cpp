@@ -8,6 +8,8 @@
 #include "harness/gate/formats.hpp"
 #include "harness/gate/snapshot.hpp"
 #include "harness/store/open.hpp"
+#include "harness/text/print_error.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -23,6 +25,15 @@ struct CheckArguments {
   bool allow_dirty = false;
   std::optional<double> time;  ///< relative limit on times, written by --update
 };
+
+/// To standard error if standard output is the output file.
+void print_summary(bool is_output_taken, const std::string& text) {
+  if (is_output_taken) {
+    print_error("{}", text);
+  } else {
+    fmt::print("{}", text);
+  }
+}
 
 /// --update keeps the limits, which are set by hand.
 int update(const CheckArguments& arguments) {
@@ -43,10 +54,10 @@ int update(const CheckArguments& arguments) {
   }
   reject_overwriting({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
-  fmt::print(is_dash(arguments.baseline) ? stderr : stdout,
-             "{}: {} cells written\n",
-             arguments.baseline,
-             baseline.snapshot.cells.size());
+  print_summary(
+      is_dash(arguments.baseline),
+      fmt::format(
+          "{}: {} cells written\n", printable(arguments.baseline), baseline.snapshot.cells.size()));
   return kExitOk;
 }
 
@@ -74,7 +85,7 @@ int check_store(const CheckArguments& arguments) {
   if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));
   const bool is_taken = is_dash(arguments.junit) || is_dash(arguments.markdown);
-  fmt::print(is_taken ? stderr : stdout, "{}", text);
+  print_summary(is_taken, text);
   return report.passes() ? kExitOk : kExitRegression;
 }
 

@@ -56,7 +56,9 @@ std::string unknown_word(const CLI::App& app, const CLI::ParseError& error) {
   if (!is_option && !given.empty()) return "";
   std::vector<std::string> known = long_options(is_top ? app : command);
   if (!is_option) {
-    for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
+    for (const CLI::App* each : app.get_subcommands({})) {
+      if (!each->get_group().empty()) known.push_back(each->get_name());  // not hidden
+    }
   }
   const std::string kind = !is_option ? "subcommand"
                            : is_top   ? "option"

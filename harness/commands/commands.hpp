@@ -24,13 +24,17 @@ void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
-void add_eval(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code, const Source& source = {});
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
+void add_get(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
+void add_salvage(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_profile(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_traj(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 
 }  // namespace loopbench::harness

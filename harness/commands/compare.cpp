@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/text.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -15,11 +18,13 @@ struct CompareArguments {
   std::string metric = "ate";
   std::vector<std::string> where;
   CompareOptions options;
-  ExportFormat format = ExportFormat::markdown;
+  std::optional<ExportFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
   std::string out;
 };
 
-std::string text(const std::vector<Comparison>& comparisons, ExportFormat format) {
+std::string text(const std::vector<Comparison>& comparisons,
+                 ExportFormat format,
+                 const TerminalStyle& style) {
   if (format == ExportFormat::csv) return csv(comparisons);
   if (format == ExportFormat::json) return json(comparisons);
   std::string out;
@@ -27,7 +32,7 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
     const TableView shown = table_view(comparison);
     out += out.empty() ? "" : "\n";
     out += format == ExportFormat::latex      ? latex(shown)
-           : format == ExportFormat::terminal ? terminal(shown)
+           : format == ExportFormat::terminal ? terminal(shown, style)
                                               : markdown(shown);
   }
   return out;
@@ -36,11 +41,13 @@ std::string text(const std::vector<Comparison>& comparisons, ExportFormat format
 int print_comparison(const CompareArguments& arguments) {
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
-  write_output(text(comparisons, arguments.format),
-               arguments.format,
-               "comparisons",
-               arguments.store,
-               arguments.out);
+  const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
+  const bool has_terminal = is_printed && prints_to_terminal();
+  const ExportFormat format =
+      arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
+  const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
+  write_output(
+      text(comparisons, format, style), format, "comparisons", arguments.store, arguments.out);
   return kExitOk;
 }
 
@@ -92,7 +99,10 @@ void add_compare(CLI::App& app, int& exit_code) {
                                                     {"latex", ExportFormat::latex},
                                                     {"csv", ExportFormat::csv},
                                                     {"json", ExportFormat::json}};
-  command->add_option("--format", arguments->format, "Output format")
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "Output format; default: terminal on a terminal, otherwise markdown")
       ->transform(one_of("format", formats));
   command
       ->add_option("-o,--out",

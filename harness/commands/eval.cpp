@@ -6,39 +6,102 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
+#include "harness/eval/error_figures.hpp"
+#include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
+#include "harness/eval/recorded_store.hpp"
+#include "harness/eval/run_summary.hpp"
+#include "harness/store/read.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
+#include "harness/trajectory/named_trajectory.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-int eval(const EvalArguments& a) {
+/// Statistics over runs and the verdict; empty if the files have no distinct labels.
+std::string verdict_of(const EvalArguments& a, const std::vector<EvaluationResult>& results) {
+  std::vector<RecordedRun> runs;
+  try {
+    runs = recorded_runs(file_pairs(a), a.sequence);
+  } catch (const InputError&) {
+    return "";
+  }
+  return run_report(records_of(results, runs));
+}
+
+/// Figures and report of the estimates under the first protocol.
+void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
+  if (a.plot.empty() && a.report.empty()) return;
+  std::vector<DrawnEvaluation> drawn;
+  for (const EvaluationResult& each : all) {
+    if (!each.why_failed.empty() || each.protocol.label() != all.front().protocol.label()) continue;
+    drawn.push_back(each.drawn);
+    drawn.back().name = output_stem(each.estimate);
+  }
+  if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
+  reject_standard_output("--report", a.report);
+  if (!a.report.empty()) {
+    const std::string table = all.size() == 1 ? text(all.front()) : comparison(all);
+    write_eval_report(a.report, all.front().reference, table + verdict_of(a, all), drawn);
+    fmt::print(stderr, "{}\n", printable(a.report));
+  }
+  if (a.plot.empty()) return;
+  for (const std::string& file : write_error_figures(a.plot, drawn)) {
+    fmt::print(stderr, "{}\n", printable(file));
+  }
+}
+
+int eval_to_store(const EvalArguments& a, const Source& source) {
+  reject_standard_output("--store", a.store);
+  const RecordedSweep stored =
+      store_runs(recorded_runs(file_pairs(a), a.sequence), a, a.store, source);
+  for (const std::string& note : stored.notes) {
+    fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
+  }
+  fmt::print("{}\n{} runs in {}{}{}{}\n",
+             printable(run_report(read_records(a.store))),
+             stored.cells,
+             printable((std::filesystem::path(a.store) / "results.sqlite").string()),
+             stored.stored == 0 ? "" : fmt::format(" ({} stored before)", stored.stored),
+             stored.failed == 0 ? "" : fmt::format(", {} failed", stored.failed),
+             stored.incomplete == 0 ? ""
+                                    : fmt::format(", {} with coverage below {:g}",
+                                                  stored.incomplete,
+                                                  a.min_coverage.value_or(kUsualMinCoverage)));
+  return stored.failed == 0 ? kExitOk : kExitSomeCellsFailed;
+}
+
+int eval(const EvalArguments& a, const Source& source) {
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }
+  if (!a.store.empty()) return eval_to_store(a, source);
   std::vector<EvaluationResult> all = evaluate_files(a);
   if (!a.min_coverage) compare_coverage(all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
+  write_pictures(a, all);
   if (a.json) {
     fmt::print("{}", json(all));
   } else if (a.csv) {
     fmt::print("{}", csv(all));
   } else {
-    fmt::print("{}", printable(all.size() == 1 ? text(all.front()) : comparison(all)));
+    fmt::print(
+        "{}",
+        printable(all.size() == 1 ? text(all.front()) : comparison(all) + verdict_of(a, all)));
   }
-  const bool all_ok =
-      std::ranges::all_of(all, [](const EvaluationResult& j) { return status(j) == "ok"; });
+  const bool all_ok = std::ranges::all_of(
+      all, [](const EvaluationResult& result) { return status(result) == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace
 
-void add_eval(CLI::App& app, int& exit_code) {
+void add_eval(CLI::App& app, int& exit_code, const Source& source) {
   auto a = std::make_shared<EvalArguments>();
   CLI::App* command = app.add_subcommand("eval", "Evaluate trajectory files against a reference");
   declare(*command, *a);
-  command->callback([a, &exit_code] { exit_code = eval(*a); });
+  command->callback([a, source, &exit_code] { exit_code = eval(*a, source); });
 }
 
 }  // namespace loopbench::harness

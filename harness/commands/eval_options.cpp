@@ -123,6 +123,28 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_option(
           "--per-pose", a.per_pose, "CSV file for the error of every pose; - is standard output")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--plot,--save_plot",
+          a.plot,
+          "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png")
+      ->type_name("PREFIX");
+  command
+      .add_option("--report", a.report, "HTML page with the table and all figures, needs gnuplot")
+      ->type_name("FILE");
+  command
+      .add_option("--store",
+                  a.store,
+                  "Folder for a store of the results, for compare, table, report, plot and check: "
+                  "NAME_3.txt and NAME/3.txt are run 3 of method NAME. Later calls add runs")
+      ->type_name("DIR")
+      ->excludes("--json")
+      ->excludes("--csv")
+      ->excludes("--per-pose");
+  command
+      .add_option("--sequence", a.sequence, "Label of REF in the store (default: from its name)")
+      ->type_name("NAME")
+      ->needs("--store");
 }
 
 }  // namespace loopbench::harness

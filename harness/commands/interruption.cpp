@@ -1,21 +1,46 @@
 #include "harness/commands/interruption.hpp"
 
 #include <csignal>
+#include <cstdlib>
+#include <ctime>
+
+#include "harness/commands/commands.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-std::atomic<bool> interruption = false;
+StopRequests stop_requests = 0;
+timespec last_interrupt{};
 
-void note_interruption(int) { interruption = true; }
+/// One interrupt can arrive twice: at the process and at its group.
+bool is_repeated(const timespec& now) {
+  const double seconds = static_cast<double>(now.tv_sec - last_interrupt.tv_sec) +
+                         1e-9 * static_cast<double>(now.tv_nsec - last_interrupt.tv_nsec);
+  return seconds < 0.2;
+}
+
+void note_interruption(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (stop_requests == 0) {
+    stop_requests = 1;
+  } else if (signal != SIGINT || is_repeated(now)) {
+    return;
+  } else if (stop_requests == 1) {
+    stop_requests = 2;
+  } else {
+    std::_Exit(kExitInterrupted);
+  }
+  last_interrupt = now;
+}
 
 }  // namespace
 
-const std::atomic<bool>& install_interrupt_handler() {
+const StopRequests& install_interrupt_handler() {
   std::signal(SIGINT, note_interruption);
   std::signal(SIGTERM, note_interruption);
   std::signal(SIGHUP, note_interruption);
-  return interruption;
+  return stop_requests;
 }
 
 }  // namespace loopbench::harness

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -6,7 +7,9 @@
 #include "datasets/core/renamed.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/text/suggest.hpp"
+#include "harness/text/wrap.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
@@ -18,6 +21,8 @@ const std::vector<std::string> kSubjects{"datasets", "methods", "metrics", "prot
 
 struct ListArguments {
   std::string subject;
+  std::string name;
+  bool options = false;
   std::vector<std::filesystem::path> plugins;
   bool json = false;
 };
@@ -67,42 +72,48 @@ Json to_json(const Item& item, bool is_protocol) {
   return out;
 }
 
+/// Kind and summary in one line; on a terminal, cut to its width.
 void print_line(const Item& item) {
-  fmt::print(
-      "{:<18} {}{}\n",
-      item.name,
-      item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : ""),
-      item.summary);
+  const std::string kind =
+      item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : "");
+  const std::string line = fmt::format("{:<21} {}{}", item.name, kind, item.summary);
+  const std::size_t columns = standard_output_style().width;
+  fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
 }
 
 void print_options(const Item& item) {
   for (const OptionInfo& o : item.options) {
-    fmt::print("    {} = {}{}  {}\n",
-               o.name,
-               to_text(o.value),
-               o.rule.empty() ? "" : fmt::format("  ({})", o.rule),
-               o.help);
+    const std::string rule = o.rule.empty() ? "" : fmt::format("  ({})", o.rule);
+    const std::string line = fmt::format("{} = {}{}  {}", o.name, to_text(o.value), rule, o.help);
+    const std::size_t columns = standard_output_style().width;
+    const std::vector<std::string> lines = wrapped(line, columns == 0 ? 0 : columns - 8);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      fmt::print("{}{}\n", l == 0 ? "    " : "        ", lines[l]);
+    }
   }
 }
 
-/// Protocols share their settings: one line for each protocol, then the settings.
-void print(const std::string& subject, const std::vector<Item>& all) {
+/// One line for each entry, followed by its options if `with_options`. Protocols share theirs.
+void print(const std::string& subject, const std::vector<Item>& all, bool with_options) {
   const bool is_shared = subject == "protocols";
   for (const Item& item : all) {
     print_line(item);
-    if (!is_shared) print_options(item);
+    if (with_options && !is_shared) print_options(item);
   }
-  if (!is_shared) return;
+  if (!with_options || !is_shared) return;
   fmt::print("settings with the defaults of {} (usage: protocol: {{base: NAME, SETTING: VALUE}})\n",
              all.front().name);
   print_options(all.front());
 }
 
-/// One line for each old name and the name that replaced it.
+/// One line for each old name or value and the one that replaced it.
 std::string renamed_names() {
   std::string out = "Renamed (old names are rejected):\n";
   for (const auto& [owner, before, now] : kRenamedNames) {
     out += fmt::format("  {}{}{} -> {}\n", owner, owner.empty() ? "metric " : ": ", before, now);
+  }
+  for (const auto& [option, before, now] : kRenamedValues) {
+    out += fmt::format("  {0}: {1} -> {0}: {2}\n", option, before, now);
   }
   return out;
 }
@@ -110,40 +121,66 @@ std::string renamed_names() {
 struct ItemList {
   std::string subject;
   std::vector<Item> items;
+  bool is_selected = false;  ///< by name or pattern, not as a complete list
 };
 
-/// All lists, one of them, or the entries of that name.
-std::vector<ItemList> wanted_lists(const Catalogue& known, const std::string& wanted) {
-  const bool is_name = !wanted.empty() && std::ranges::count(kSubjects, wanted) == 0;
+bool is_pattern(const std::string& word) { return word.find_first_of("*?[") != std::string::npos; }
+
+bool matches(const std::string& name, const std::string& wanted) {
+  return fnmatch(wanted.c_str(), name.c_str(), 0) == 0;
+}
+
+/// The lists that the words name: all, one of them, or the entries with that name or pattern.
+std::vector<ItemList> wanted_lists(const Catalogue& known, const ListArguments& arguments) {
+  const bool has_subject = std::ranges::count(kSubjects, arguments.subject) > 0;
+  const std::string wanted = has_subject ? arguments.name : arguments.subject;
+  if (!has_subject && !arguments.name.empty()) {
+    throw InputError(unknown_name("list", arguments.subject, kSubjects));
+  }
   std::vector<ItemList> out;
-  std::vector<std::string> names = kSubjects;
+  std::vector<std::string> names;
+  if (!has_subject) names = kSubjects;
   for (const std::string& subject : kSubjects) {
-    ItemList one{subject, items(known, subject)};
+    if (has_subject && subject != arguments.subject) continue;
+    ItemList one{subject, items(known, subject), !wanted.empty()};
     for (const Item& item : one.items) names.push_back(item.name);
-    if (is_name) std::erase_if(one.items, [&](const Item& item) { return item.name != wanted; });
-    if (is_name ? !one.items.empty() : wanted.empty() || wanted == subject) out.push_back(one);
+    if (one.is_selected) {
+      std::erase_if(one.items, [&](const Item& item) { return !matches(item.name, wanted); });
+    }
+    if (!one.items.empty()) out.push_back(std::move(one));
   }
   if (!out.empty()) return out;
+  if (is_pattern(wanted)) throw InputError("list: no name matches '" + wanted + "'");
   const bool is_close = !closest(wanted, names).empty();
-  throw InputError(unknown_name("list or entry", wanted, is_close ? names : kSubjects));
+  throw InputError(unknown_name(has_subject ? "entry" : "list or entry",
+                                wanted,
+                                is_close || has_subject ? names : kSubjects));
 }
 
 int list(const ListArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
-  Json json;
-  for (const ItemList& one : wanted_lists(known, arguments.subject)) {
-    if (arguments.json) {
+  const std::vector<ItemList> lists = wanted_lists(known, arguments);
+  if (arguments.json) {
+    Json json;
+    for (const ItemList& one : lists) {
       json[one.subject] = Json::array();
       for (const Item& item : one.items) {
         json[one.subject].push_back(to_json(item, one.subject == "protocols"));
       }
-      continue;
     }
-    if (arguments.subject.empty()) fmt::print("== {} ==\n", one.subject);
-    print(one.subject, one.items);
-    if (arguments.subject.empty()) fmt::print("\n");
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    return kExitOk;
   }
-  if (arguments.json) fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const bool has_title = lists.size() > 1;
+    if (has_title) fmt::print("{}== {} ==\n", i == 0 ? "" : "\n", lists[i].subject);
+    print(lists[i].subject, lists[i].items, lists[i].is_selected || arguments.options);
+  }
+  if (!lists.front().is_selected && !arguments.options) {
+    fmt::print("\noptions: {} list NAME, or a pattern: {} list methods 'dm*'\n",
+               program_name(),
+               program_name());
+  }
   return kExitOk;
 }
 
@@ -151,11 +188,13 @@ int list(const ListArguments& arguments) {
 
 void add_list(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command =
-      app.add_subcommand("list", "List datasets, methods, metrics or protocols with their options");
+  CLI::App* command = app.add_subcommand(
+      "list", "List datasets, methods, metrics and protocols, or the options of one");
   command->add_option("subject",
                       arguments->subject,
-                      "datasets, methods, metrics, protocols, or the name of one entry");
+                      "datasets, methods, metrics, protocols, or the name or pattern of entries");
+  command->add_option("name", arguments->name, "name or pattern ('dm*') of entries of that list");
+  command->add_flag("--options", arguments->options, "Print the options of all entries");
   command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print JSON");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
@@ -8,6 +9,7 @@
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/content.hpp"
 #include "harness/tables/store_provenance.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/suggest.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -23,15 +25,25 @@ struct PlotArguments {
   std::vector<std::string> methods;
 };
 
-/// The baseline and the best-ranked methods, or the first of the sweep without a ranking.
+/// The baseline and the best-ranked methods with different results, or the first of the sweep
+/// without a ranking. Curves of methods whose medians differ by less than 3 % coincide in a figure.
 std::vector<std::string> usual_methods(const ReportContent& content) {
   std::vector<std::string> out;
   const auto add = [&](const std::string& name) {
     if (out.size() < kUsualMethods && std::ranges::count(out, name) == 0) out.push_back(name);
   };
+  constexpr double kSame = 0.03;
   if (const Comparison* headline = content.headline()) {
     add(headline->options.baseline);
-    for (const MethodVerdict& m : headline->methods) add(m.method);
+    std::vector<double> drawn;
+    for (const MethodVerdict& m : headline->methods) {
+      const bool coincides = std::ranges::any_of(
+          drawn, [&](double median) { return std::abs(m.median - median) <= kSame * median; });
+      if (coincides) continue;
+      drawn.push_back(m.median);
+      add(m.method);
+    }
+    return out;
   }
   for (const std::string& name : content.methods) add(name);
   return out;
@@ -64,9 +76,10 @@ int write_figures(const PlotArguments& arguments) {
   std::size_t written = 0;
   for (std::size_t s = 0; s < content.sequences.size(); ++s) {
     const std::string& sequence = content.sequences[s];
-    const SequenceFigures figures = sequence_figures(content.cells, traces, sequence, methods);
+    const SequenceFigures figures =
+        sequence_figures(content.cells, traces, sequence, methods, content.methods);
     if (figures.errors.empty()) {
-      fmt::print("{}: has no stored trajectories of these methods\n", sequence);
+      fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
     }
     for (const std::string& format : arguments.formats) {
@@ -75,7 +88,7 @@ int write_figures(const PlotArguments& arguments) {
       const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
         const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
         write_figure(file, panels, 2);
-        fmt::print("{}\n", file.string());
+        fmt::print("{}\n", printable(file.string()));
         ++written;
       };
       write("trajectories", figures.trajectories);
@@ -83,7 +96,7 @@ int write_figures(const PlotArguments& arguments) {
     }
   }
   if (written == 0) throw InputError(arguments.store + ": has no stored trajectories to plot");
-  write_file(folder / "provenance.json", json(read_store_provenance(arguments.store)));
+  write_result(folder / "provenance.json", json(read_store_provenance(arguments.store)));
   return kExitOk;
 }
 

@@ -7,6 +7,8 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/store/open.hpp"
+#include "harness/text/print_error.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -36,10 +38,13 @@ void add_report(CLI::App& app, int& exit_code) {
     const std::string html = report_html(read_report_content(arguments->store),
                                          static_cast<std::size_t>(1e6 * arguments->megabytes));
     write_file(arguments->out, html);
-    fmt::print(is_dash(arguments->out) ? stderr : stdout,
-               "{}: {:.2f} MB\n",
-               arguments->out,
-               1e-6 * static_cast<double>(html.size()));
+    const std::string written = fmt::format(
+        "{}: {:.2f} MB\n", printable(arguments->out), 1e-6 * static_cast<double>(html.size()));
+    if (is_dash(arguments->out)) {
+      print_error("{}", written);
+    } else {
+      fmt::print("{}", written);
+    }
     exit_code = kExitOk;
   });
 }

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/commands/run_output.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
@@ -17,13 +18,12 @@
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
-#include "harness/model/where.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/external/external_methods.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/build_summary.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/store_provenance.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -40,8 +40,9 @@ struct RunArguments {
   std::string retry = "none";
   bool fresh = false;
   bool in_process = false;
-  bool dry_run = false;
+  bool no_sandbox = false;
   bool save_trajectories = false;
+  bool dry_run = false;
 };
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
@@ -49,9 +50,9 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
     const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
     fmt::print("{:5}  {}{} / {}\n",
                cell.index,
-               sweep.datasets[cell.dataset].label,
+               printable(sweep.datasets[cell.dataset].label),
                repeat,
-               sweep.methods[cell.method].label);
+               printable(sweep.methods[cell.method].label));
   }
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
@@ -60,11 +61,10 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
 int report_bad_inputs(const std::vector<std::string>& reasons) {
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {
-    fmt::print(stderr, "loopbench: {}\n", printable(reason));
+    print_error("loopbench: {}\n", printable(reason));
   }
-  fmt::print(stderr,
-             "loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
-             reasons.size());
+  print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
+              reasons.size());
   return kExitBadInput;
 }
 
@@ -83,47 +83,22 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-/// Writes the tables next to the store; returns the table to print.
-std::string write_tables(const std::filesystem::path& store,
-                         const Sweep& sweep,
-                         const std::filesystem::path& out) {
-  std::vector<Record> records = all_records(store);
-  write_file(out / "rows.csv", csv(records));
-  keep_where(records, sweep.table.where);
-  const std::vector<Table> tables = pivot(records, sweep.table);
-  const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
-  const StoreProvenance provenance = read_store_provenance(store);
-  write_file(out / "table.md", text + "\n" + provenance_comment(provenance));
-  write_file(out / "provenance.json", json(provenance));
-  write_file(out / "table.csv", csv(tables));
-  return text;
-}
-
-/// The stored table without the comment at its end.
-std::string printed_tables(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return text.substr(0, text.rfind("\n<!-- "));
-}
-
 void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
   if (!resumed.damaged.empty()) {
-    fmt::print(
-        stderr,
+    print_error(
         "loopbench: {}: damaged cells are recomputed: {}{}\n",
         store.string(),
-        resumed.damaged.front(),
+        printable(resumed.damaged.front()),
         resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
   } else if (resumed.lost) {
-    fmt::print(stderr,
-               "loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
-               store.string());
+    print_error("loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
+                store.string());
   }
 }
 
 int run(const RunArguments& arguments, const Source& source) {
   const Catalogue known = catalogue(arguments.plugins);
-  const Sweep sweep = read_sweep(arguments.config, known);
+  const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
   const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
@@ -138,8 +113,21 @@ int run(const RunArguments& arguments, const Source& source) {
   const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
   const std::filesystem::path file = out / "results.sqlite";
   CellKeys keys(sweep, known, root, build_id(source.code));
-  std::optional<Store> store(
-      std::in_place, file, keys, provenance(source, sweep, known), arguments.fresh);
+  SandboxOptions sandbox;
+  sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
+  sandbox.unreachable = {out};
+  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
+  std::map<std::string, std::string> made = provenance(source, sweep, known);
+  if (arguments.save_trajectories) {
+    set_estimate_folder(out / "trajectories");
+    sandbox.writable.push_back(out / "trajectories");
+  }
+  if (uses_programs(sweep)) {
+    sandbox.writable.push_back(std::filesystem::temp_directory_path());
+    sandbox.pid_namespace = false;  // serving programs outlive cells, and are spared by number
+  }
+  made["sandbox"] = sandbox_summary(sandbox);
+  std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
   const Resumed resumed =
       store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
   report_damage(resumed, file);
@@ -147,20 +135,22 @@ int run(const RunArguments& arguments, const Source& source) {
   std::size_t done = 0;
   std::size_t failed = resumed.failed;
   std::size_t incomplete = resumed.incomplete;
-  if (arguments.save_trajectories) {
-    set_estimate_folder(out / "trajectories");
-    if (resumed.there > 0) {
-      fmt::print(stderr,
-                 "loopbench: {} cells of earlier runs keep the trajectories saved then, if any; "
-                 "--retry all recomputes them\n",
-                 resumed.there);
-    }
+  std::size_t abandoned = 0;
+  const StopRequests& interrupted = install_interrupt_handler();
+  if (arguments.save_trajectories && resumed.there > 0) {
+    print_error(
+        "loopbench: {} cells of earlier runs keep the trajectories saved then, if any; "
+        "--retry all recomputes them\n",
+        resumed.there);
   }
-  const std::atomic<bool>& interrupted = install_interrupt_handler();
   if (!missing.empty()) {
     Progress progress(missing.size());
     const std::vector<InputFile> no_inputs;
     const auto finished = [&](const CellResult& r) {
+      if (r.status == Status::interrupted) {
+        ++abandoned;
+        return;
+      }
       store->write(r);
       keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
       ++done;
@@ -174,31 +164,42 @@ int run(const RunArguments& arguments, const Source& source) {
       const int jobs = sweep.serial ? 1 : arguments.jobs;
       run_sweep(sweep, missing, known, sequences, jobs, interrupted, finished);
     } else {
-      run_isolated(sweep, missing, known, root, arguments.jobs, interrupted, finished);
+      run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
     }
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 
   // Writing the tables of many cells takes longer than checking that none is missing.
-  const bool is_up_to_date =
-      resumed.exported && done == 0 && std::filesystem::exists(out / "table.md") &&
-      std::filesystem::exists(out / "table.csv") && std::filesystem::exists(out / "rows.csv");
-  const std::string text =
-      is_up_to_date ? printed_tables(out / "table.md") : write_tables(file, sweep, out);
-  if (!is_up_to_date) store->exported();
+  const auto is_there = [&](const char* name) {  // links are replaced, not followed
+    return std::filesystem::is_regular_file(std::filesystem::symlink_status(out / name));
+  };
+  const bool is_up_to_date = resumed.exported && done == 0 && is_there("table.md") &&
+                             is_there("table.csv") && is_there("rows.csv");
+  const std::vector<Record> records = all_records(file);
+  if (!is_up_to_date) {
+    write_tables(file, sweep, records, out);
+    store->exported();
+  }
   store.reset();
-  fmt::print("{}\n{} of {} cells done{}, {} failed{}; value: {}; protocol: {}\n{}\n",
-             text,
-             done + resumed.there,
-             planned.size(),
-             resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there),
-             failed,
-             incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
-             sweep.table.value,
-             protocol_names(sweep),
-             (out / "{results.sqlite,table.md,table.csv,rows.csv}").string());
-  if (interrupted) {
-    fmt::print(stderr, "loopbench: interrupted; finished cells are kept\n");
+  const std::string earlier =
+      resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there);
+  const std::string status =
+      fmt::format("{} of {} cells done{}, {} failed{}; value: {}; protocol: {}",
+                  done + resumed.there,
+                  planned.size(),
+                  earlier,
+                  failed,
+                  incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
+                  sweep.table.value,
+                  protocol_names(sweep));
+  fmt::print("{}{}\n{}\n{}",
+             summary_text(records, sweep),
+             fitted(status),
+             printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()),
+             next_commands(out));
+  if (interrupted > 0) {
+    print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
+                abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
     return kExitInterrupted;
   }
   return failed > 0 ? kExitSomeCellsFailed : kExitOk;
@@ -208,8 +209,11 @@ int run(const RunArguments& arguments, const Source& source) {
 
 void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print its tables");
-  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print a summary");
+  command
+      ->add_option(
+          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
+      ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_flag("--dry-run",
@@ -225,6 +229,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_flag("--save-trajectories",
                     arguments->save_trajectories,
                     "Save every cell's estimate at full length, see `export --what trajectories`");
+  command->add_flag("--no-sandbox",
+                    arguments->no_sandbox,
+                    "Do not restrict what methods can reach (files, network, other processes)");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/text.hpp"
+#include "harness/tables/usual_table.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -18,11 +22,11 @@ struct TableArguments {
   TableSpec spec;
   std::vector<std::string> where;
   RankingOptions ranking;
-  TableFormat format = TableFormat::markdown;
+  std::optional<TableFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
   std::string out;
 };
 
-std::string text(const std::vector<Table>& tables, TableFormat format) {
+std::string text(const std::vector<Table>& tables, TableFormat format, const TerminalStyle& style) {
   if (format == TableFormat::csv) return csv(tables);
   if (format == TableFormat::json) return json(tables);
   if (format == TableFormat::markdown) return markdown(tables);
@@ -30,7 +34,7 @@ std::string text(const std::vector<Table>& tables, TableFormat format) {
   for (const Table& table : tables) {
     const TableView shown = table_view(table);
     out += out.empty() ? "" : "\n";
-    out += format == TableFormat::latex ? latex(shown) : terminal(shown);
+    out += format == TableFormat::latex ? latex(shown) : terminal(shown, style);
   }
   return out;
 }
@@ -53,6 +57,11 @@ ExportFormat container_format(TableFormat format) {
 }
 
 int print_table(TableArguments arguments) {
+  const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
+  const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
+  const bool has_terminal = is_printed && prints_to_terminal();
+  const TableFormat format =
+      arguments.format.value_or(has_terminal ? TableFormat::terminal : TableFormat::markdown);
   std::vector<std::string> show;
   for (const std::string& word : arguments.spec.show) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
@@ -64,11 +73,18 @@ int print_table(TableArguments arguments) {
     throw InputError(arguments.store +
                      (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
   }
-  const std::string shown =
-      arguments.format == TableFormat::rows
-          ? csv(records)
-          : text(pivot(records, arguments.spec, arguments.ranking), arguments.format);
-  write_output(shown, container_format(arguments.format), "tables", arguments.store, arguments.out);
+  std::string shown;
+  if (format == TableFormat::rows) {
+    shown = csv(records);
+  } else {
+    const std::string note = make_usual(records, arguments.spec);
+    std::vector<Table> tables = pivot(records, arguments.spec, arguments.ranking);
+    for (Table& table : tables) {
+      if (!note.empty()) table.notes.insert(table.notes.begin(), note);
+    }
+    shown = text(tables, format, style);
+  }
+  write_output(shown, container_format(format), "tables", arguments.store, arguments.out);
   return kExitOk;
 }
 
@@ -80,19 +96,26 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   const std::string columns = "comma-separated fields of the long table";
-  command->add_option("--rows", arguments->spec.rows, "Rows: " + columns)
+  command
+      ->add_option(
+          "--rows", arguments->spec.rows, "Rows: " + columns + "; sequence: sequences by methods")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--columns", arguments->spec.columns, "Columns: " + columns)
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--split", arguments->spec.split, "One table for each: " + columns)
+  command
+      ->add_option(
+          "--split", arguments->spec.split, "One table for each: " + columns + "; '': one table")
       ->delimiter(',')
       ->capture_default_str();
   command
       ->add_option(
           "--value", arguments->spec.value, "Statistic: rmse mean median std min max sse count")
       ->capture_default_str();
+  command->add_flag("--plus-minus",
+                    arguments->spec.plus_minus,
+                    "Add the standard deviation over the averaged cells to each number");
   command->add_option("--show", arguments->spec.show, "Scores to show: ate,error x,gain,time");
   command->add_option("--where",
                       arguments->where,
@@ -117,7 +140,11 @@ void add_table(CLI::App& app, int& exit_code) {
                                                    {"csv", TableFormat::csv},
                                                    {"json", TableFormat::json},
                                                    {"rows", TableFormat::rows}};
-  command->add_option("--format", arguments->format, "Output format; rows is the long table")
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "Output format; rows is the long table. Default: terminal on a terminal, "
+                   "otherwise markdown")
       ->transform(one_of("format", formats));
   command
       ->add_option("-o,--out",

@@ -6,10 +6,12 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/progress.hpp"
+#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -23,7 +25,7 @@ struct VerifyArguments {
 
 int run_verify(const VerifyArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
-  Sweep sweep = read_sweep(arguments.config, known);
+  Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   sweep.timing = 1;  // times are not compared
   sweep.serial = false;
   sweep.traces = true;
@@ -33,20 +35,23 @@ int run_verify(const VerifyArguments& arguments) {
   // The first setting runs twice, because a method alone can differ from run to run.
   const std::vector<RunMode> modes{
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
-  const std::atomic<bool>& interrupted = install_interrupt_handler();
+  const StopRequests& interrupted = install_interrupt_handler();
+  SandboxOptions sandbox;
+  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
   std::vector<Difference> found;
   {
     Progress progress(planned.size() * modes.size());
-    found = verify(sweep, planned, known, root, modes, interrupted, [&](const std::string& label) {
-      progress.step(label);
-    });
+    found = verify(
+        sweep, planned, known, root, modes, sandbox, interrupted, [&](const std::string& label) {
+          progress.step(label);
+        });
   }
-  if (interrupted) return kExitInterrupted;
+  if (interrupted > 0) return kExitInterrupted;
   for (const Difference& difference : found) {
     const Cell& cell = planned[difference.cell];
     fmt::print("{} / {}{}: {} differs between {} and {}\n",
-               sweep.datasets[cell.dataset].label,
-               sweep.methods[cell.method].label,
+               printable(sweep.datasets[cell.dataset].label),
+               printable(sweep.methods[cell.method].label),
                cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "",
                difference.part,
                difference.mode,
@@ -67,7 +72,10 @@ void add_verify(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
       "verify", "Check that results are bit-identical for any number of workers");
-  command->add_option("config", arguments->config, "YAML file, see configs/")->required();
+  command
+      ->add_option(
+          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
+      ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_option("--data", arguments->data, "Folder with real datasets")

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "harness/commands/standard_output.hpp"
 #include "harness/provenance/build_summary.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/store_provenance.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -22,7 +24,8 @@ void write_output(const std::string& text,
   if (format == ExportFormat::json) {
     out = with_provenance(provenance, key, text);
   } else if (format == ExportFormat::terminal) {
-    out += "\n" + build_summary(provenance.provenance) + "\n";
+    const std::string summary = build_summary(provenance.provenance);
+    out += "\n" + (is_printed ? fitted(summary) : summary) + "\n";
   } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
     out += "\n" + provenance_comment(provenance);
   } else if (format == ExportFormat::latex && !is_read_by_a_person) {
@@ -37,10 +40,10 @@ void write_output(const std::string& text,
   if (format != ExportFormat::csv) return;
   // Standard output has no folder for a second file.
   if (!is_printed && std::filesystem::is_regular_file(file))
-    return write_file(provenance_file(file), json(provenance));
-  fmt::print(stderr,
-             "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",
-             build_summary(provenance.provenance));
+    return write_result(provenance_file(file), json(provenance));
+  print_error(
+      "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",
+      build_summary(provenance.provenance));
 }
 
 }  // namespace loopbench::harness

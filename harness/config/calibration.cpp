@@ -1,10 +1,9 @@
 #include "harness/config/calibration.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/regular_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -34,12 +33,11 @@ CalibratedSettings read_calibration(const std::string& calibration,
   };
   std::filesystem::path path = std::filesystem::path(config).parent_path() / calibration;
   if (!std::filesystem::is_regular_file(path)) path = calibration;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(path)) {
+  if (!std::filesystem::is_regular_file(path)) {
     throw refuse(calibration + ": file not found, neither relative to the config nor as given");
   }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const YamlNode root = parse_yaml(text, path.string());
+  constexpr std::size_t kLargest = std::size_t{16} << 20;  // [bytes]
+  const YamlNode root = parse_yaml(read_regular_file(path, kLargest, "calibration"), path.string());
 
   CalibratedSettings out;
   out.trained_on = {calibration,

@@ -53,6 +53,9 @@ std::string label_of(const std::string& name, const std::string& given, const Gr
     if (!given.empty() && std::ranges::count(point.swept, setting.name) == 0) continue;
     shown += (shown.empty() ? "" : ", ") + setting.name + "=" + to_text(setting.value);
   }
+  if (!given.empty()) {
+    for (const std::string& text : point.matched) shown += (shown.empty() ? "" : ", ") + text;
+  }
   const std::string& base = given.empty() ? name : given;
   return shown.empty() ? base : base + " (" + shown + ")";
 }
@@ -121,7 +124,8 @@ std::pair<std::size_t, std::string> stage_of(const Setting& setting,
 
 std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
                                            const std::string& file,
-                                           const Catalogue& catalogue) {
+                                           const Catalogue& catalogue,
+                                           const Folders& folders) {
   const auto [name, label] = named(entry, "dataset", file);
   const DatasetEntry& known = found(find_dataset, catalogue, name, file, entry.line);
   const YamlNode* group = entry.find("group");
@@ -129,7 +133,13 @@ std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
     throw input_error(file, group->line, "group: expected a string");
   }
   std::vector<DatasetChoice> out;
-  for (GridPoint& point : expand(entry, {"dataset", "label", "group"}, file)) {
+  std::vector<GridPoint> points;
+  for (const GridPoint& point : expand(entry, {"dataset", "label", "group"}, file)) {
+    for (GridPoint& each : expand_paths(point, known.options, folders, file)) {
+      points.push_back(std::move(each));
+    }
+  }
+  for (GridPoint& point : points) {
     restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
     located(file, entry.line, name, point.settings, known.options, [&] { known.check(options); });

@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/config/paths.hpp"
 #include "harness/config/yaml.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
-/// Each throws InputError `file:line:` for an unknown name or option, or an invalid value.
+/// Patterns in paths are searched in `folders`. Each throws InputError `file:line:` for an unknown
+/// name or option, or an invalid value.
 std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
                                            const std::string& file,
-                                           const Catalogue& catalogue);
+                                           const Catalogue& catalogue,
+                                           const Folders& folders);
 std::vector<MethodChoice> method_choices(const YamlNode& entry,
                                          const std::string& file,
                                          const Catalogue& catalogue);

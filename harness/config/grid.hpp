@@ -20,6 +20,7 @@ struct Setting {
 struct GridPoint {
   std::vector<Setting> settings;
   std::vector<std::string> swept;
+  std::vector<std::string> matched = {};  ///< texts of the wildcards in paths, see paths.hpp
 };
 
 /// Every combination of `entry`'s scalar keys (except those in `reserved`), its `sweep` (each key a

@@ -1,15 +1,14 @@
 #include "harness/config/read_sweep.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
+#include "datasets/formats/regular_file.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
+#include "harness/config/setting_reader.hpp"
 #include "harness/model/where.hpp"
-#include "harness/text/pattern.hpp"
 #include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
@@ -37,83 +36,59 @@ constexpr int kRunsWhenAlone = 5;
 constexpr std::size_t kMostChoices = 10'000;  // of datasets, of methods, of metrics
 constexpr std::size_t kMostRules = 1'000;     // exclusions
 
-/// Parses one config; messages name its file.
-class SweepReader {
+/// Parses one config; messages name its file. Collects its errors.
+class SweepReader : private SettingReader {
  public:
-  SweepReader(std::string file, const Catalogue& catalogue)
-      : file_(std::move(file)), catalogue_(catalogue) {}
+  SweepReader(std::string file, const Catalogue& catalogue, Folders folders)
+      : SettingReader(std::move(file)), catalogue_(catalogue), folders_(std::move(folders)) {}
 
   Sweep read(const YamlNode& root) const {
-    if (root.type != YamlNode::Type::map) {
-      throw input_error(file_, root.line, "expected a map with datasets, methods and metrics");
+    try {
+      return read_all(root);
+    } catch (const CollectedErrors& errors) {
+      throw InputError(errors.text);
     }
-    only_keys(root, kKeys);
-    Sweep sweep;
-    sweep.datasets = list<DatasetChoice>(root, "datasets", dataset_choices);
-    sweep.methods = list<MethodChoice>(root, "methods", method_choices);
-    if (const YamlNode* node = root.find("protocol"))
-      sweep.protocols = protocol_choices(*node, file_);
-    sweep.metrics = list<MetricChoice>(root, "metrics", [&](const auto&... entry) {
-      return metric_choices(entry..., sweep.protocols);
-    });
-    if (const YamlNode* node = root.find("times")) sweep.times = times(*node);
-    if (const YamlNode* node = root.find("description")) word(*node, "description");
-    if (const YamlNode* node = root.find("min_coverage"))
-      sweep.min_coverage = number(*node, "min_coverage", "a number from 0 to 1", Between{0.0, 1.0});
-    if (const YamlNode* node = root.find("repeats")) sweep.repeats = count(*node, "repeats");
-    if (const YamlNode* node = root.find("timing")) read_timing(*node, sweep);
-    if (const YamlNode* node = root.find("limits")) sweep.limits = limits(*node);
-    if (const YamlNode* node = root.find("traces")) sweep.traces = flag(*node, "traces");
-    if (const YamlNode* node = root.find("exclude")) sweep.exclude = exclusions(*node);
-    if (const YamlNode* node = root.find("table")) sweep.table = table(*node);
-    sweep.baseline = baseline(root.find("baseline"), sweep.methods);
-    return sweep;
   }
 
  private:
-  /// Settings for which only a map with the `known` keys is accepted.
-  void map_of(const YamlNode& node,
-              const std::string& key,
-              const std::vector<std::string>& known) const {
-    if (node.type != YamlNode::Type::map) {
-      std::string all;
-      for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-      const std::string found = node.type == YamlNode::Type::scalar ? "'" + node.text + "'"
-                                : node.type == YamlNode::Type::list ? "a list"
-                                                                    : "nothing";
-      throw input_error(file_, node.line, key + ": found " + found + ", expected a map of " + all);
+  Sweep read_all(const YamlNode& root) const {
+    if (root.type != YamlNode::Type::map) {
+      throw input_error(file(), root.line, "expected a map with datasets, methods and metrics");
     }
-    only_keys(node, known);
-  }
-
-  void only_keys(const YamlNode& node, const std::vector<std::string>& known) const {
-    for (const auto& [key, value] : node.map) {
-      if (std::ranges::count(known, key) == 0) {
-        throw input_error(file_, value.line, unknown_name("setting", key, known));
-      }
+    attempt([&] { only_keys(root, kKeys); });
+    Sweep sweep;
+    attempt([&] {
+      sweep.datasets = list<DatasetChoice>(root, "datasets", [&](const auto&... entry) {
+        return dataset_choices(entry..., folders_);
+      });
+    });
+    attempt([&] { sweep.methods = list<MethodChoice>(root, "methods", method_choices); });
+    optional(root, "protocol", [&](const YamlNode& node) {
+      sweep.protocols = protocol_choices(node, file());
+    });
+    attempt([&] {
+      sweep.metrics = list<MetricChoice>(root, "metrics", [&](const auto&... entry) {
+        return metric_choices(entry..., sweep.protocols);
+      });
+    });
+    optional(root, "times", [&](const YamlNode& node) { sweep.times = times(node); });
+    optional(root, "description", [&](const YamlNode& node) { word(node, "description"); });
+    optional(root, "min_coverage", [&](const YamlNode& node) {
+      sweep.min_coverage = number(node, "min_coverage", "a number from 0 to 1", Between{0.0, 1.0});
+    });
+    optional(
+        root, "repeats", [&](const YamlNode& node) { sweep.repeats = count(node, "repeats"); });
+    optional(root, "timing", [&](const YamlNode& node) { read_timing(node, sweep); });
+    optional(root, "limits", [&](const YamlNode& node) { sweep.limits = limits(node); });
+    optional(root, "traces", [&](const YamlNode& node) { sweep.traces = flag(node, "traces"); });
+    optional(root, "exclude", [&](const YamlNode& node) { sweep.exclude = exclusions(node); });
+    optional(root, "table", [&](const YamlNode& node) { sweep.table = table(node); });
+    // Without errors, because the labels of rejected methods are missing.
+    if (!has_errors()) {
+      attempt([&] { sweep.baseline = baseline(root.find("baseline"), sweep.methods); });
     }
-  }
-
-  std::string word(const YamlNode& node, const std::string& key) const {
-    if (node.type == YamlNode::Type::scalar) return node.text;
-    throw input_error(file_, node.line, key + ": expected a string");
-  }
-
-  /// A list of strings, or one string.
-  std::vector<std::string> words(const YamlNode& node, const std::string& key) const {
-    if (node.type != YamlNode::Type::list) return {word(node, key)};
-    std::vector<std::string> out;
-    for (const YamlNode& item : node.list) out.push_back(word(item, key));
-    return out;
-  }
-
-  int count(const YamlNode& node, const std::string& key) const {
-    const auto* integer = std::get_if<std::int64_t>(&node.scalar);
-    if (node.type != YamlNode::Type::scalar || integer == nullptr || *integer < 1 ||
-        *integer > 1000000) {
-      throw input_error(file_, node.line, key + ": expected a whole number, 1 to 1000000");
-    }
-    return static_cast<int>(*integer);
+    report_errors();
+    return sweep;
   }
 
   /// A number of runs; true for timing cells alone; or {runs: N, serial: true}.
@@ -132,60 +107,43 @@ class SweepReader {
   }
 
   Limits limits(const YamlNode& node) const {
-    map_of(node, "limits", {"seconds", "memory"});
+    map_of(node, "limits", {"seconds", "memory", "cells"});
     Limits out;
     if (const YamlNode* seconds = node.find("seconds")) {
       out.seconds = number(*seconds, "limits.seconds");
     }
     if (const YamlNode* memory = node.find("memory")) {
-      const auto bytes = parse_bytes(word(*memory, "limits.memory"));
+      const std::string text = word(*memory, "limits.memory");
+      const auto bytes = text == "none" ? 0 : parse_bytes(text);
       if (!bytes) {
-        throw input_error(file_, memory->line, "limits.memory: expected a size, for example 2GiB");
+        throw input_error(file(), memory->line, "limits.memory: expected a size (2GiB) or none");
       }
       out.memory = *bytes;
     }
+    if (const YamlNode* cells = node.find("cells"))
+      out.cells = integer(*cells, "limits.cells", 1'000'000'000);
     return out;
-  }
-
-  double number(const YamlNode& node,
-                const std::string& key,
-                const std::string& expected = "a number",
-                const Between& rule = Between{0.0}) const {
-    double out = 0.0;
-    try {
-      if (node.type != YamlNode::Type::scalar)
-        throw OptionError(key, key + ": expected " + expected);
-      FieldType<double>::assign(key, out, node.scalar);
-      detail::check_rule(key, out, rule);
-    } catch (const OptionError& error) {
-      throw input_error(file_, node.line, error.what());
-    }
-    return out;
-  }
-
-  bool flag(const YamlNode& node, const std::string& key) const {
-    const bool* value = std::get_if<bool>(&node.scalar);
-    if (node.type == YamlNode::Type::scalar && value != nullptr) return *value;
-    throw input_error(file_, node.line, key + ": expected true or false");
   }
 
   template <class Choice, class Read>
   std::vector<Choice> list(const YamlNode& root, const std::string& key, Read choices) const {
     const YamlNode* node = root.find(key);
-    if (node == nullptr) throw input_error(file_, root.line, "'" + key + "' is missing");
+    if (node == nullptr) throw input_error(file(), root.line, "'" + key + "' is missing");
     if (node->type != YamlNode::Type::list || node->list.empty()) {
-      throw input_error(file_, node->line, key + ": expected a list with at least one entry");
+      throw input_error(file(), node->line, key + ": expected a list with at least one entry");
     }
     std::vector<Choice> out;
     std::set<std::string> labels;
     for (const YamlNode& entry : node->list) {
-      for (Choice& choice : choices(entry, file_, catalogue_)) {
+      std::vector<Choice> expanded;
+      attempt([&] { expanded = choices(entry, file(), catalogue_); });
+      for (Choice& choice : expanded) {
         if (labels.size() == kMostChoices) {
-          throw input_error(file_, entry.line, key + ": expands to more than 10000 entries");
+          throw input_error(file(), entry.line, key + ": expands to more than 10000 entries");
         }
         if (!labels.insert(choice.label).second) {
           throw input_error(
-              file_,
+              file(),
               entry.line,
               "two entries of " + key + " have the label '" + choice.label + "'; set label in one");
         }
@@ -200,21 +158,22 @@ class SweepReader {
     for (const std::string& name : words(node, "times")) {
       const auto value = from_text<metrics::Times>(name);
       if (!value)
-        throw input_error(file_, node.line, "times: expected " + choice_list<metrics::Times>());
+        throw input_error(file(), node.line, "times: expected " + choice_list<metrics::Times>());
       if (std::ranges::count(out, *value) == 0) out.push_back(*value);
     }
     if (out.empty())
-      throw input_error(file_, node.line, "times: expected " + choice_list<metrics::Times>());
+      throw input_error(file(), node.line, "times: expected " + choice_list<metrics::Times>());
     return out;
   }
 
   std::vector<Exclusion> exclusions(const YamlNode& node) const {
     std::vector<Exclusion> out;
     if (node.type != YamlNode::Type::list) {
-      throw input_error(file_, node.line, "exclude: expected a list of {dataset, method} patterns");
+      throw input_error(
+          file(), node.line, "exclude: expected a list of {dataset, method} patterns");
     }
     if (node.list.size() > kMostRules) {
-      throw input_error(file_, node.line, "exclude: more than 1000 entries");
+      throw input_error(file(), node.line, "exclude: more than 1000 entries");
     }
     for (const YamlNode& entry : node.list) {
       map_of(entry, "exclude", {"dataset", "method"});
@@ -226,30 +185,21 @@ class SweepReader {
     return out;
   }
 
-  std::string pattern(const YamlNode& node, const std::string& key) const {
-    const std::string text = word(node, key);
-    try {
-      Pattern{text};
-    } catch (const InputError& error) {
-      throw input_error(file_, node.line, key + ": " + error.what());
-    }
-    return text;
-  }
-
   TableSpec table(const YamlNode& node) const {
-    map_of(node, "table", {"rows", "columns", "split", "value", "show", "where"});
+    map_of(node, "table", {"rows", "columns", "split", "value", "show", "where", "plus_minus"});
     TableSpec out;
     if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
     if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
     if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
     if (const YamlNode* show = node.find("show")) out.show = words(*show, "show");
     if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
+    if (const YamlNode* on = node.find("plus_minus")) out.plus_minus = flag(*on, "plus_minus");
     if (const YamlNode* rules = node.find("where")) {
       out.where = words(*rules, "where");
       try {
         where(out.where);
       } catch (const InputError& error) {
-        throw input_error(file_, rules->line, error.what());
+        throw input_error(file(), rules->line, error.what());
       }
     }
     return out;
@@ -266,34 +216,35 @@ class SweepReader {
     }
     const std::string name = word(*node, "baseline");
     if (std::ranges::count(labels, name) == 0) {
-      throw input_error(file_, node->line, "baseline: " + unknown_name("method", name, labels));
+      throw input_error(file(), node->line, "baseline: " + unknown_name("method", name, labels));
     }
     return name;
   }
 
-  std::string file_;
   const Catalogue& catalogue_;
+  Folders folders_;  // where relative paths are searched
 };
 
 }  // namespace
 
 Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
-                  const Catalogue& catalogue) {
-  Sweep sweep = SweepReader(file.string(), catalogue).read(parse_yaml(text, file.string()));
+                  const Catalogue& catalogue,
+                  const std::filesystem::path& data) {
+  Folders folders{file.parent_path().empty() ? "." : file.parent_path()};
+  if (!data.empty()) folders.push_back(data);
+  Sweep sweep =
+      SweepReader(file.string(), catalogue, folders).read(parse_yaml(text, file.string()));
   sweep.name = file.stem().string();
   sweep.config = file;
   sweep.text = text;
   return sweep;
 }
 
-Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read, expected a YAML config");
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return parse_sweep(text, file, catalogue);
+Sweep read_sweep(const std::filesystem::path& file,
+                 const Catalogue& catalogue,
+                 const std::filesystem::path& data) {
+  return parse_sweep(read_named_file(file, 16'000'000, "a YAML config"), file, catalogue, data);
 }
 
 }  // namespace loopbench::harness

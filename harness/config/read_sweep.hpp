@@ -8,12 +8,16 @@
 
 namespace loopbench::harness {
 
-/// Throws InputError `file:line: what` with a suggestion for misspelled names.
-Sweep read_sweep(const std::filesystem::path& file, const Catalogue& catalogue);
+/// Patterns in paths are searched in the config's folder, then in `data` if given. Throws one
+/// InputError with up to ten lines `file:line: what`, with suggestions for misspelled names.
+Sweep read_sweep(const std::filesystem::path& file,
+                 const Catalogue& catalogue,
+                 const std::filesystem::path& data = {});
 
 /// The same from text; `file` is used for messages and the sweep's name.
 Sweep parse_sweep(const std::string& text,
                   const std::filesystem::path& file,
-                  const Catalogue& catalogue);
+                  const Catalogue& catalogue,
+                  const std::filesystem::path& data = {});
 
 }  // namespace loopbench::harness

@@ -3,6 +3,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <set>
@@ -44,6 +45,25 @@ struct Budget {
   std::size_t levels = 100;
 };
 
+/// Replaces `<<: *base` (or a list of maps) by the entries of these maps that are not set. yaml-cpp
+/// leaves merge keys to the caller.
+void merge_keys(YamlNode& node, const std::string& file) {
+  const auto found = std::ranges::find(node.map, std::string("<<"), &YamlEntry::key);
+  if (found == node.map.end()) return;
+  const YamlNode merged = std::move(found->value);
+  node.map.erase(found);
+  const std::vector<YamlNode> bases =
+      merged.type == YamlNode::Type::list ? merged.list : std::vector<YamlNode>{merged};
+  for (const YamlNode& base : bases) {
+    if (base.type != YamlNode::Type::map) {
+      throw input_error(file, merged.line, "<<: expected an alias of a map, or a list of them");
+    }
+    for (const YamlEntry& entry : base.map) {
+      if (node.find(entry.key) == nullptr) node.map.push_back(entry);
+    }
+  }
+}
+
 YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) {
   YamlNode out;
   out.line = line_of(node);
@@ -80,6 +100,7 @@ YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) 
         out.map.push_back({key, convert(item.second, file, left)});
         out.map.back().value.line = line_of(item.first);
       }
+      merge_keys(out, file);
       break;
     case YAML::NodeType::Null:
     case YAML::NodeType::Undefined:
@@ -110,33 +131,64 @@ void expect_utf8(const std::string& text, const std::string& file) {
   if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
 }
 
-/// Detects a second document. LoadAll cannot be used: yaml-cpp 0.7 returns endless documents after
-/// a leading comma.
+/// Counts the documents and collects the keys of the first map whose values have an anchor. LoadAll
+/// cannot be used: yaml-cpp 0.7 returns endless documents after a leading comma.
 class Documents final : public YAML::EventHandler {
  public:
   std::size_t count = 0;
+  std::set<std::string> anchored;
 
   void OnDocumentStart(const YAML::Mark&) override { ++count; }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { scalar("", anchor); }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { scalar("", YAML::NullAnchor); }
   void OnScalar(const YAML::Mark&,
                 const std::string&,
-                YAML::anchor_t,
-                const std::string&) override {}
+                YAML::anchor_t anchor,
+                const std::string& text) override {
+    scalar(text, anchor);
+  }
   void OnSequenceStart(const YAML::Mark&,
                        const std::string&,
-                       YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
+                       YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    begin(anchor);
+  }
+  void OnSequenceEnd() override { end(); }
   void OnMapStart(const YAML::Mark&,
                   const std::string&,
-                  YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
+                  YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    begin(anchor);
+  }
+  void OnMapEnd() override { end(); }
+
+ private:
+  void note(YAML::anchor_t anchor) {
+    if (levels_ == 1 && has_key_ && anchor != YAML::NullAnchor) anchored.insert(key_);
+  }
+  void scalar(const std::string& text, YAML::anchor_t anchor) {
+    note(anchor);
+    if (levels_ != 1) return;
+    if (!has_key_) key_ = text;
+    has_key_ = !has_key_;
+  }
+  void begin(YAML::anchor_t anchor) {
+    note(anchor);
+    ++levels_;
+  }
+  void end() {
+    --levels_;
+    if (levels_ == 1) has_key_ = false;
+  }
+
+  std::size_t levels_ = 0;
+  bool has_key_ = false;  // the next event is the value of `key_`
+  std::string key_;
 };
 
-void expect_one_document(const std::string& text, const std::string& file) {
+/// Returns the keys at top level whose values have an anchor.
+std::set<std::string> expect_one_document(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   YAML::Parser parser(in);
   Documents documents;
@@ -144,6 +196,21 @@ void expect_one_document(const std::string& text, const std::string& file) {
   }
   if (documents.count == 0) throw InputError(file + ": is empty, expected a map of settings");
   if (documents.count > 1) throw InputError(file + ": has more than one YAML document");
+  return documents.anchored;
+}
+
+/// The first line that is indented with a tab; 0: none.
+std::size_t line_with_tab(const std::string& text) {
+  std::istringstream in(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin != std::string::npos && line.substr(0, begin).find('\t') != std::string::npos) {
+      return number;
+    }
+  }
+  return 0;
 }
 
 }  // namespace
@@ -156,10 +223,15 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
   }
   expect_utf8(text, file);
   try {
-    expect_one_document(text, file);
+    const std::set<std::string> anchored = expect_one_document(text, file);
     Budget budget;
-    return convert(YAML::Load(text), file, budget);
+    YamlNode out = convert(YAML::Load(text), file, budget);
+    for (YamlEntry& entry : out.map) entry.value.is_anchored = anchored.contains(entry.key);
+    return out;
   } catch (const YAML::Exception& error) {
+    if (const std::size_t line = line_with_tab(text); line > 0) {
+      throw input_error(file, line, "is indented with a tab; YAML accepts only spaces");
+    }
     const auto line = error.mark.is_null() ? 0 : static_cast<std::size_t>(error.mark.line + 1);
     throw input_error(file, line, "invalid YAML: " + error.msg);
   }

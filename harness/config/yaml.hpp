@@ -18,7 +18,8 @@ struct YamlNode {
   Type type = Type::null;
   std::size_t line = 0;  ///< counted from 1
   Param scalar;
-  std::string text;  ///< of a scalar, as written
+  std::string text;          ///< of a scalar, as written
+  bool is_anchored = false;  ///< value of a key at top level that has an anchor
   std::vector<YamlNode> list;
   std::vector<YamlEntry> map;
 
@@ -39,9 +40,9 @@ inline const YamlNode* YamlNode::find(const std::string& key) const {
 }
 
 /// Plain scalars become bool, integer, real number or text, in this order; quoted scalars remain
-/// text. Throws InputError `file:line:` for invalid YAML, a repeated key, a key that is not a
-/// string, more than one document, or more than 1 MB of text, 100000 values or 10 MB of text after
-/// expanding aliases.
+/// text. Merge keys (`<<: *base`) are replaced by the entries of the maps. Throws InputError
+/// `file:line:` for invalid YAML, a repeated key, a key that is not a string, more than one
+/// document, or more than 1 MB of text, 100000 values or 10 MB of text after expanding aliases.
 YamlNode parse_yaml(const std::string& text, const std::string& file);
 
 }  // namespace loopbench::harness

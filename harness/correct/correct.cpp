@@ -56,7 +56,8 @@ YamlNode dataset_entry(const CorrectArguments& a, bool graph) {
 }
 
 Sequence loaded(const CorrectArguments& a, const Catalogue& catalogue, bool graph) {
-  const DatasetChoice choice = dataset_choices(dataset_entry(a, graph), "--set", catalogue).front();
+  const DatasetChoice choice =
+      dataset_choices(dataset_entry(a, graph), "--set", catalogue, {}).front();
   const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
   Sequence out = entry.load(choice.dataset.options, DataRoot{{"."}});
   check(out.problem, a.estimate);

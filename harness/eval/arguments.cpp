@@ -120,8 +120,8 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   return out;
 }
 
-std::vector<MetricQuestion> requested_metrics(const EvalArguments& a,
-                                              const metrics::Protocol& protocol) {
+std::vector<MetricRequest> metric_requests(const EvalArguments& a,
+                                           const metrics::Protocol& protocol) {
   if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return default_metrics(protocol);
   metrics::Relation relation = metrics::Relation::usual;
   if (!a.relation.empty()) {
@@ -132,7 +132,7 @@ std::vector<MetricQuestion> requested_metrics(const EvalArguments& a,
     FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
   }
   Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
-  std::vector<MetricQuestion> out;
+  std::vector<MetricRequest> out;
   if (relation != metrics::Relation::usual) {
     motion["relation"] = to_text(relation);
     // point_distance_error_ratio is defined only for relative errors.

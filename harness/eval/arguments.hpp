@@ -41,6 +41,10 @@ struct EvalArguments {
   bool json = false;
   bool csv = false;
   std::string per_pose;  ///< output file; empty: none
+  std::string plot;      ///< prefix of figure files; empty: none
+  std::string report;    ///< HTML file; empty: none
+  std::string store;     ///< folder of a store for the results; empty: none
+  std::string sequence;  ///< label of the reference in the store; empty: from its file name
 };
 
 /// Throws InputError for an unknown protocol or malformed setting, OptionError for an invalid one.
@@ -48,8 +52,8 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
 /// rpe. Otherwise the default metrics. Throws OptionError.
-std::vector<MetricQuestion> requested_metrics(const EvalArguments& arguments,
-                                              const metrics::Protocol& protocol);
+std::vector<MetricRequest> metric_requests(const EvalArguments& arguments,
+                                           const metrics::Protocol& protocol);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);

@@ -5,6 +5,7 @@
 
 #include "datasets/formats/kitti.hpp"
 #include "harness/text/write_file.hpp"
+#include "metrics/doctor/diagnose.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -77,6 +78,21 @@ std::string why_two_clocks(const EvalArguments& a,
          "--period S or --association index";
 }
 
+/// Likely mistakes in the files, and what is missing of a damaged bag.
+std::vector<std::string> doctor_remarks(const FilePair& pair,
+                                        const Trajectory& reference,
+                                        const Loaded& estimate,
+                                        const std::string& unstamped) {
+  std::vector<std::string> out;
+  if (!estimate.repaired.damage.empty()) out.push_back(estimate.repaired.damage);
+  const bool has_stamps = unstamped.empty() && estimate.unstamped.empty();
+  for (const metrics::InputFinding& finding :
+       metrics::diagnose(reference, estimate.poses, pair.reference, pair.estimate, has_stamps)) {
+    out.push_back("doctor: " + text(finding));
+  }
+  return out;
+}
+
 std::vector<std::filesystem::path> all_files(const EvalArguments& a,
                                              const std::vector<FilePair>& files) {
   std::vector<std::filesystem::path> out{a.times};
@@ -89,7 +105,7 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
-    requested_metrics(a, protocol.rules);  // rejects invalid options before reading files
+    metric_requests(a, protocol.rules);  // rejects invalid options before reading files
   const ReferenceBody body = reference_body(a);
   const bool wants_digits =
       !has_offset(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
@@ -125,10 +141,12 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
+    const std::vector<std::string> remarks = doctor_remarks(pair, reference, loaded, unstamped);
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const metrics::NamedProtocol& protocol : rules) {
-      const EvaluationOptions options{requested_metrics(a, protocol.rules),
+      const EvaluationOptions options{metric_requests(a, protocol.rules),
                                       !a.per_pose.empty(),
+                                      !a.plot.empty() || !a.report.empty(),
                                       a.min_coverage.value_or(0.0),
                                       are_printed ? &printed : nullptr,
                                       {std::max(repaired.off_unit, loaded.repaired.off_unit),
@@ -142,6 +160,8 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       }
       try {
         out.push_back(evaluate_estimate(reference, loaded.poses, protocol, options));
+        std::vector<std::string>& notes = out.back().notes;
+        notes.insert(notes.end(), remarks.begin(), remarks.end());
       } catch (const std::runtime_error& error) {
         if (is_alone) {
           throw InputError(pair.estimate + " with reference " + pair.reference + ": " +

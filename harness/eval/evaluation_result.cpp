@@ -13,8 +13,8 @@
 
 namespace loopbench::harness {
 
-std::vector<MetricQuestion> default_metrics(const metrics::Protocol& protocol) {
-  std::vector<MetricQuestion> out;
+std::vector<MetricRequest> default_metrics(const metrics::Protocol& protocol) {
+  std::vector<MetricRequest> out;
   for (const metrics::MetricEntry& entry : metrics::metrics()) {
     if (entry.name == "rpe" && protocol.pairs == metrics::PairRule::tum_random) {
       out.push_back({entry.name, {}});
@@ -31,46 +31,59 @@ std::vector<MetricQuestion> default_metrics(const metrics::Protocol& protocol) {
   return out;
 }
 
-bool has_no_number(const EvaluationResult& j) {
-  return std::ranges::none_of(j.metrics, [](const EvaluatedMetric& metric) {
+bool has_no_number(const EvaluationResult& result) {
+  return std::ranges::none_of(result.metrics, [](const EvaluatedMetric& metric) {
     return std::ranges::any_of(
         metric.scores, [](const metrics::Score& score) { return score.why_undefined.empty(); });
   });
 }
 
-std::string status(const EvaluationResult& j) {
-  if (!j.why_failed.empty()) return "failed";
-  if (has_no_number(j)) return "undefined";
-  return j.incomplete_reason.empty() ? "ok" : "incomplete";
+namespace {
+
+bool has_failed_metric(const EvaluationResult& result) {
+  return std::ranges::any_of(
+      result.metrics, [](const EvaluatedMetric& metric) { return !metric.why_failed.empty(); });
+}
+
+}  // namespace
+
+std::string status(const EvaluationResult& result) {
+  if (!result.why_failed.empty()) return "failed";
+  if (has_no_number(result)) return has_failed_metric(result) ? "failed" : "undefined";
+  return result.incomplete_reason.empty() ? "ok" : "incomplete";
 }
 
 void compare_coverage(std::vector<EvaluationResult>& results) {
   constexpr double kMuchLess = 0.5;
-  const auto key = [](const EvaluationResult& j) {
-    return j.reference + "\n" + j.protocol.label();
+  const auto key = [](const EvaluationResult& result) {
+    return result.reference + "\n" + result.protocol.label();
   };
   std::map<std::string, double> most;
-  for (const EvaluationResult& j : results) {
-    double& best = most[key(j)];
-    best = std::max(best, j.coverage.least());
+  for (const EvaluationResult& result : results) {
+    double& best = most[key(result)];
+    best = std::max(best, result.coverage.least());
   }
-  for (EvaluationResult& j : results) {
-    const double best = most.at(key(j));
-    if (!j.why_failed.empty() || !j.incomplete_reason.empty()) continue;
-    if (j.coverage.least() >= kMuchLess * best) continue;
-    j.incomplete_reason = fmt::format(
+  for (EvaluationResult& result : results) {
+    const double best = most.at(key(result));
+    if (!result.why_failed.empty() || !result.incomplete_reason.empty()) continue;
+    if (result.coverage.least() >= kMuchLess * best) continue;
+    result.incomplete_reason = fmt::format(
         "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
         "{:.1f} % of another estimate",
-        j.coverage.pairs,
-        j.coverage.possible,
-        100.0 * j.coverage.span,
+        result.coverage.pairs,
+        result.coverage.possible,
+        100.0 * result.coverage.span,
         100.0 * best);
   }
 }
 
-std::string why_not_ok(const EvaluationResult& j) {
-  if (!j.why_failed.empty()) return j.why_failed;
-  return has_no_number(j) ? "none of the requested metrics is defined" : j.incomplete_reason;
+std::string why_not_ok(const EvaluationResult& result) {
+  if (!result.why_failed.empty()) return result.why_failed;
+  if (!has_no_number(result)) return result.incomplete_reason;
+  for (const EvaluatedMetric& metric : result.metrics) {
+    if (!metric.why_failed.empty()) return metric.why_failed;
+  }
+  return "none of the requested metrics is defined";
 }
 
 EvaluationResult evaluate_estimate(const Trajectory& reference,
@@ -102,16 +115,19 @@ EvaluationResult evaluate_estimate(const Trajectory& reference,
     out.other_body = metrics::other_body(*offset, options.body_from_reference);
   }
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
+  if (options.with_figures) out.drawn = {"", evaluation.reference, evaluation.estimate};
   const std::vector<metrics::MetricEntry> known = metrics::metrics();
-  for (const MetricQuestion& request : options.requested_metrics) {
+  for (const MetricRequest& request : options.metric_requests) {
     for (const metrics::MetricEntry& entry : known) {
       if (entry.name != request.metric) continue;
-      EvaluatedMetric& judged =
-          out.metrics.emplace_back(EvaluatedMetric{request.metric, request.options, {}, {}});
+      EvaluatedMetric& metric =
+          out.metrics.emplace_back(EvaluatedMetric{request.metric, request.options, {}, {}, {}});
       try {
-        judged.scores = entry.score(evaluation, request.options);
+        metric.scores = entry.score(evaluation, request.options);
+      } catch (const metrics::Undefined& reason) {
+        metric.why_undefined = reason.what();
       } catch (const std::runtime_error& error) {
-        judged.why_undefined = error.what();
+        metric.why_failed = error.what();
       }
     }
   }

@@ -11,7 +11,7 @@
 namespace loopbench::harness {
 
 /// A metric with its options.
-struct MetricQuestion {
+struct MetricRequest {
   std::string metric;
   Params options;  ///< options that differ from the metric's defaults
 };
@@ -20,22 +20,31 @@ struct MetricQuestion {
 /// the lengths), rpe over 1 frame, 1 s and 1 m (once for random pairs). Coverage and diagnostics
 /// are reported above the table. Metrics that need more than two files, or that need options, are
 /// available only in sweeps.
-std::vector<MetricQuestion> default_metrics(const metrics::Protocol& protocol);
+std::vector<MetricRequest> default_metrics(const metrics::Protocol& protocol);
 
 struct EvaluationOptions {
-  std::vector<MetricQuestion> requested_metrics;
+  std::vector<MetricRequest> metric_requests;
   bool with_poses = false;
+  bool with_figures = false;                       ///< keep the aligned poses
   double min_coverage = 0.0;                       ///< below it an evaluation is incomplete, 0..1
   const metrics::PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
   ReadFindings repaired = {};                      ///< findings of the readers for both files
   Pose body_from_reference = {};                   ///< offset that was applied to the reference
 };
 
+/// One estimate, paired and aligned.
+struct DrawnEvaluation {
+  std::string name;
+  Trajectory reference;  ///< paired with `estimate`
+  Trajectory estimate;   ///< aligned
+};
+
 struct EvaluatedMetric {
   std::string name;
   Params options;
   std::vector<metrics::Score> scores;
-  std::string why_undefined;  ///< set instead of scores
+  std::string why_undefined;  ///< set instead of scores if the metric is undefined
+  std::string why_failed;     ///< set instead of scores if the metric failed
 };
 
 struct EvaluationResult {
@@ -53,18 +62,20 @@ struct EvaluationResult {
   std::vector<std::string> notes;         ///< see evaluation_notes.hpp
   std::vector<EvaluatedMetric> metrics;
   std::vector<metrics::PoseError> poses;  ///< only on request
+  DrawnEvaluation drawn;                  ///< only on request, without name
   std::string why_failed;  ///< set if the evaluation failed: only names and protocol are set
 };
 
-/// The evaluation failed, or all requested metrics are undefined.
+/// The evaluation failed, or no requested metric has a score.
 bool has_no_number(const EvaluationResult& result);
 
-/// ok, incomplete, undefined (all requested metrics are) or failed; and the reason if not ok.
+/// ok, incomplete, undefined (all requested metrics are) or failed (the evaluation, or metrics
+/// while no other has a score); and the reason if not ok.
 std::string status(const EvaluationResult& result);
 std::string why_not_ok(const EvaluationResult& result);
 
-/// Uses the coverage limits of sweeps. Undefined metrics are recorded with the reason. Throws
-/// std::runtime_error if nothing can be evaluated.
+/// Uses the coverage limits of sweeps. Undefined and failed metrics are recorded with the
+/// reason. Throws std::runtime_error if nothing can be evaluated.
 EvaluationResult evaluate_estimate(const Trajectory& reference,
                                    const Trajectory& estimate,
                                    const metrics::NamedProtocol& protocol,
@@ -90,8 +101,8 @@ std::string comparison(const std::vector<EvaluationResult>& results);
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
 /// alignment {type, scale, rank, condition}, diagnosis {name: value}, notes [text], metrics
 /// [{metric, options, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined
-/// [{metric, options, why}], with relation and axis if only one score of a metric is undefined.
-/// Failed evaluations have empty metrics and undefined.
+/// [{metric, options, why}], with relation and axis if only one score of a metric is undefined,
+/// failed [{metric, options, why}]. Failed evaluations have empty metrics, undefined and failed.
 std::string json(const std::vector<EvaluationResult>& results);
 
 /// One line per score or failure, or one line per pose; doubles in full precision.

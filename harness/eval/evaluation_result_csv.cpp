@@ -6,9 +6,9 @@
 namespace loopbench::harness {
 namespace {
 
-std::string head(const EvaluationResult& j) {
-  return quoted(j.reference) + "," + quoted(j.estimate) + "," + quoted(j.protocol.label()) + "," +
-         quoted(j.protocol.version);
+std::string head(const EvaluationResult& result) {
+  return quoted(result.reference) + "," + quoted(result.estimate) + "," +
+         quoted(result.protocol.label()) + "," + quoted(result.protocol.version);
 }
 
 }  // namespace
@@ -17,15 +17,17 @@ std::string csv(const std::vector<EvaluationResult>& results) {
   std::string out =
       "reference,estimate,protocol,protocol_version,metric,options,relation,axis,unit,count,rmse,"
       "mean,median,std,min,max,sse,pairs,possible,scale,status,why,reference_body\n";
-  for (const EvaluationResult& j : results) {
-    const std::string body = quoted(j.reference_body);
-    if (!j.why_failed.empty()) {
-      out += head(j) + ",,,,,,,,,,,,,,,,,failed," + quoted(j.why_failed) + "," + body + "\n";
+  for (const EvaluationResult& result : results) {
+    const std::string body = quoted(result.reference_body);
+    if (!result.why_failed.empty()) {
+      out +=
+          head(result) + ",,,,,,,,,,,,,,,,,failed," + quoted(result.why_failed) + "," + body + "\n";
     }
-    const std::string tail =
-        fmt::format("{},{},{}", j.coverage.pairs, j.coverage.possible, j.alignment.scale);
-    for (const EvaluatedMetric& metric : j.metrics) {
-      const std::string front = head(j) + "," + metric.name + "," + quoted(to_text(metric.options));
+    const std::string tail = fmt::format(
+        "{},{},{}", result.coverage.pairs, result.coverage.possible, result.alignment.scale);
+    for (const EvaluatedMetric& metric : result.metrics) {
+      const std::string front =
+          head(result) + "," + metric.name + "," + quoted(to_text(metric.options));
       for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
         if (!why.empty()) {
           out += fmt::format("{},{},{},{},,,,,,,,,{},undefined,{},{}\n",
@@ -52,13 +54,15 @@ std::string csv(const std::vector<EvaluationResult>& results) {
                            s.max,
                            s.sse,
                            tail,
-                           j.incomplete_reason.empty() ? "ok" : "incomplete",
-                           quoted(j.incomplete_reason),
+                           result.incomplete_reason.empty() ? "ok" : "incomplete",
+                           quoted(result.incomplete_reason),
                            body);
       }
-      if (metric.why_undefined.empty()) continue;
-      out += fmt::format(
-          "{},,,,,,,,,,,,{},undefined,{},{}\n", front, tail, quoted(metric.why_undefined), body);
+      for (const auto& [status, why] :
+           {std::pair{"undefined", metric.why_undefined}, std::pair{"failed", metric.why_failed}}) {
+        if (why.empty()) continue;
+        out += fmt::format("{},,,,,,,,,,,,{},{},{},{}\n", front, tail, status, quoted(why), body);
+      }
     }
   }
   return out;
@@ -68,9 +72,9 @@ std::string pose_csv(const std::vector<EvaluationResult>& results) {
   std::string out =
       "reference,estimate,protocol,protocol_version,stamp,estimate_stamp,x_m,y_m,z_m,distance_m,"
       "rx_rad,ry_rad,rz_rad,angle_rad\n";
-  for (const EvaluationResult& j : results) {
-    const std::string front = head(j);
-    for (const auto& [stamp, estimate_stamp, e, r] : j.poses) {
+  for (const EvaluationResult& result : results) {
+    const std::string front = head(result);
+    for (const auto& [stamp, estimate_stamp, e, r] : result.poses) {
       out += fmt::format(
           "{},{},{},{},{},{},{}", front, stamp, estimate_stamp, e.x(), e.y(), e.z(), e.norm());
       out += r.hasNaN() ? std::string(",,,,\n")

@@ -31,12 +31,14 @@ Json to_json(const EvaluatedMetric& metric, const metrics::Score& score) {
           {"count", s.count}};
 }
 
-Json to_json(const EvaluationResult& j) {
+Json to_json(const EvaluationResult& result) {
   Json scores = Json::array();
   Json undefined = Json::array();
+  Json failed = Json::array();
   Json diagnosis = Json::object();
-  for (const metrics::Score& score : j.diagnosis) diagnosis[score.relation] = score.statistics.mean;
-  for (const EvaluatedMetric& metric : j.metrics) {
+  for (const metrics::Score& score : result.diagnosis)
+    diagnosis[score.relation] = score.statistics.mean;
+  for (const EvaluatedMetric& metric : result.metrics) {
     for (const metrics::Score& score : metric.scores) {
       if (score.why_undefined.empty()) {
         scores.push_back(to_json(metric, score));
@@ -48,36 +50,38 @@ Json to_json(const EvaluationResult& j) {
                              {"why", score.why_undefined}});
       }
     }
-    if (metric.why_undefined.empty()) continue;
-    undefined.push_back({{"metric", metric.name},
-                         {"options", to_json(metric.options)},
-                         {"why", metric.why_undefined}});
+    const auto without_scores = [&](const std::string& why) -> Json {
+      return {{"metric", metric.name}, {"options", to_json(metric.options)}, {"why", why}};
+    };
+    if (!metric.why_undefined.empty()) undefined.push_back(without_scores(metric.why_undefined));
+    if (!metric.why_failed.empty()) failed.push_back(without_scores(metric.why_failed));
   }
-  Json out{{"reference", j.reference},
-           {"estimate", j.estimate},
+  Json out{{"reference", result.reference},
+           {"estimate", result.estimate},
            {"protocol",
-            {{"name", j.protocol.name},
-             {"version", j.protocol.version},
-             {"changes", to_json(j.protocol.changes)},
-             {"rules", to_json(echo(j.protocol.rules))}}},
-           {"status", status(j)},
-           {"why", why_not_ok(j)}};
-  if (!j.reference_body.empty()) out["reference_body"] = j.reference_body;
-  if (!j.other_body.empty()) out["other_body"] = j.other_body;
-  if (j.why_failed.empty()) {
-    out["pairs"] = j.coverage.pairs;
-    out["possible"] = j.coverage.possible;
-    out["coverage"] = j.coverage.share();
-    out["span"] = j.coverage.span;
-    out["alignment"] = {{"type", to_text(j.alignment.type)},
-                        {"scale", j.alignment.scale},
-                        {"rank", j.alignment.rank},
-                        {"condition", j.alignment.condition}};
+            {{"name", result.protocol.name},
+             {"version", result.protocol.version},
+             {"changes", to_json(result.protocol.changes)},
+             {"rules", to_json(echo(result.protocol.rules))}}},
+           {"status", status(result)},
+           {"why", why_not_ok(result)}};
+  if (!result.reference_body.empty()) out["reference_body"] = result.reference_body;
+  if (!result.other_body.empty()) out["other_body"] = result.other_body;
+  if (result.why_failed.empty()) {
+    out["pairs"] = result.coverage.pairs;
+    out["possible"] = result.coverage.possible;
+    out["coverage"] = result.coverage.share();
+    out["span"] = result.coverage.span;
+    out["alignment"] = {{"type", to_text(result.alignment.type)},
+                        {"scale", result.alignment.scale},
+                        {"rank", result.alignment.rank},
+                        {"condition", result.alignment.condition}};
     out["diagnosis"] = std::move(diagnosis);
-    out["notes"] = j.notes;
+    out["notes"] = result.notes;
   }
   out["metrics"] = std::move(scores);
   out["undefined"] = std::move(undefined);
+  out["failed"] = std::move(failed);
   return out;
 }
 

@@ -10,8 +10,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// A cell with the value of one record.
-TableCell number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
+/// A table entry with the value of one record.
+TableEntry number(double value) { return {.value = value, .records = 1, .averaged = 1}; }
 
 std::string options_text(const Params& options) {
   std::string out;
@@ -24,8 +24,8 @@ double quoted_statistic(const metrics::Protocol& protocol, const metrics::Statis
   return protocol.statistic == metrics::Statistic::median ? s.median : s.rmse;
 }
 
-std::string body_text(const EvaluationResult& j) {
-  return j.reference_body.empty() ? "" : ", body offset " + j.reference_body;
+std::string body_text(const EvaluationResult& result) {
+  return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
 }
 
 std::string protocol_text(const metrics::NamedProtocol& protocol) {
@@ -52,10 +52,10 @@ struct Widths {
   std::size_t axis = 4;
   std::size_t unit = 4;
 
-  explicit Widths(const EvaluationResult& j) {
-    for (const EvaluatedMetric& judged : j.metrics) {
-      metric = std::max(metric, label(judged).size());
-      for (const metrics::Score& score : judged.scores) {
+  explicit Widths(const EvaluationResult& result) {
+    for (const EvaluatedMetric& evaluated : result.metrics) {
+      metric = std::max(metric, label(evaluated).size());
+      for (const metrics::Score& score : evaluated.scores) {
         relation = std::max(relation, score.relation.size());
         axis = std::max(axis, score.axis.size());
         unit = std::max(unit, score.unit.size());
@@ -71,12 +71,15 @@ struct Widths {
   }
 };
 
-/// Undefined scores, as notes of `row`.
-std::vector<Missing> undefined(const EvaluationResult& j, const std::string& row) {
+/// Undefined scores and failed metrics, as notes of `row`.
+std::vector<Missing> missing_scores(const EvaluationResult& result, const std::string& row) {
   std::vector<Missing> out;
-  for (const EvaluatedMetric& metric : j.metrics) {
+  for (const EvaluatedMetric& metric : result.metrics) {
     if (!metric.why_undefined.empty()) {
       out.push_back({row, label(metric), "undefined", metric.why_undefined});
+    }
+    if (!metric.why_failed.empty()) {
+      out.push_back({row, label(metric), "failed", metric.why_failed});
     }
     for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (why.empty()) continue;
@@ -103,29 +106,33 @@ std::string label(const EvaluatedMetric& metric) {
   return out + options_text(rest);
 }
 
-std::string text(const EvaluationResult& j) {
+std::string text(const EvaluationResult& result) {
   std::string out =
-      fmt::format("reference  {} ({} poses){}\n", j.reference, j.reference_poses, body_text(j)) +
-      fmt::format("estimate   {} ({} poses)\n", j.estimate, j.estimate_poses) +
-      fmt::format("protocol   {}\n", protocol_text(j.protocol)) +
+      fmt::format("reference  {} ({} poses){}\n",
+                  result.reference,
+                  result.reference_poses,
+                  body_text(result)) +
+      fmt::format("estimate   {} ({} poses)\n", result.estimate, result.estimate_poses) +
+      fmt::format("protocol   {}\n", protocol_text(result.protocol)) +
       fmt::format("pairs      {} of {} ({:.1f} %), over {:.1f} % of the reference's time\n",
-                  j.coverage.pairs,
-                  j.coverage.possible,
-                  100.0 * j.coverage.share(),
-                  100.0 * j.coverage.span) +
-      (j.incomplete_reason.empty() ? "" : "incomplete " + j.incomplete_reason + "\n") +
-      fmt::format("alignment  {}, scale {}\n", to_text(j.alignment.type), j.alignment.scale) +
-      diagnosis_text(j.diagnosis) +
-      (j.other_body.empty() ? "" : "other body " + j.other_body + "; see --ref-body\n");
-  for (const std::string& note : j.notes) out += "note       " + note + "\n";
+                  result.coverage.pairs,
+                  result.coverage.possible,
+                  100.0 * result.coverage.share(),
+                  100.0 * result.coverage.span) +
+      (result.incomplete_reason.empty() ? "" : "incomplete " + result.incomplete_reason + "\n") +
+      fmt::format(
+          "alignment  {}, scale {}\n", to_text(result.alignment.type), result.alignment.scale) +
+      diagnosis_text(result.diagnosis) +
+      (result.other_body.empty() ? "" : "other body " + result.other_body + "; see --ref-body\n");
+  for (const std::string& note : result.notes) out += "note       " + note + "\n";
   out += "\n";
-  const Widths widths(j);
+  const Widths widths(result);
   out += widths.line("metric", "relation", "axis", "unit");
   for (const char* name : {"rmse", "mean", "median", "std", "min", "max"}) {
     out += fmt::format(" {:>12}", name);
   }
   out += fmt::format(" {:>9}\n", "count");
-  for (const EvaluatedMetric& metric : j.metrics) {
+  for (const EvaluatedMetric& metric : result.metrics) {
     for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (!why.empty()) continue;
       out += widths.line(label(metric), relation, axis, unit);
@@ -135,7 +142,7 @@ std::string text(const EvaluationResult& j) {
       out += fmt::format(" {:>9}\n", s.count);
     }
   }
-  for (const std::string& note : grouped(undefined(j, ""))) out += note + "\n";
+  for (const std::string& note : grouped(missing_scores(result, ""))) out += note + "\n";
   return out;
 }
 
@@ -143,13 +150,13 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
   std::vector<Table> tables;
   std::vector<std::map<std::string, std::size_t>> columns;  // per table
   std::vector<std::vector<Missing>> missing;                // per table
-  for (const EvaluationResult& j : results) {
-    const metrics::Protocol& rules = j.protocol.rules;
+  for (const EvaluationResult& result : results) {
+    const metrics::Protocol& rules = result.protocol.rules;
     const std::string title = fmt::format("{}, {} against {}{}",
-                                          protocol_text(j.protocol),
+                                          protocol_text(result.protocol),
                                           to_text(rules.statistic),
-                                          j.reference,
-                                          body_text(j));
+                                          result.reference,
+                                          body_text(result));
     auto table = std::ranges::find(tables, title, &Table::title);
     if (table == tables.end()) {
       table = tables.insert(tables.end(), Table{title, "estimate", {}, {}, {}, {}});
@@ -157,34 +164,36 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
       missing.emplace_back();
     }
     auto& known = columns[static_cast<std::size_t>(table - tables.begin())];
-    std::vector<TableCell>& row = table->cells.emplace_back(table->columns.size());
-    table->rows.push_back(j.estimate);
-    const auto put = [&](const std::string& column, TableCell cell) {
-      const auto [entry, is_new] = known.emplace(column, table->columns.size());
+    std::vector<TableEntry>& row = table->entries.emplace_back(table->columns.size());
+    table->rows.push_back(result.estimate);
+    const auto put = [&](const std::string& column, TableEntry entry) {
+      const auto [index, is_new] = known.emplace(column, table->columns.size());
       if (is_new) table->columns.push_back(column);
       row.resize(table->columns.size());
-      row[entry->second] = std::move(cell);
+      row[index->second] = std::move(entry);
     };
-    const bool is_failed = !j.why_failed.empty();
+    const bool is_failed = !result.why_failed.empty();
     const auto percent = [&](double share) {
-      return is_failed ? TableCell{.status = "failed"} : number(100.0 * share);
+      return is_failed ? TableEntry{.status = "failed"} : number(100.0 * share);
     };
-    put("poses [%]", percent(j.coverage.share()));
-    put("time [%]", percent(j.coverage.span));
+    put("poses [%]", percent(result.coverage.share()));
+    put("time [%]", percent(result.coverage.span));
     std::vector<Missing>& notes = missing[static_cast<std::size_t>(table - tables.begin())];
-    if (!j.incomplete_reason.empty()) {
-      notes.push_back({j.estimate, "", "incomplete", j.incomplete_reason});
+    if (!result.incomplete_reason.empty()) {
+      notes.push_back({result.estimate, "", "incomplete", result.incomplete_reason});
     }
-    if (is_failed) notes.push_back({j.estimate, "", "failed", j.why_failed});
-    if (!j.other_body.empty()) notes.push_back({j.estimate, "", "other body", j.other_body});
-    for (const std::string& note : j.notes) notes.push_back({j.estimate, "", "note", note});
-    for (Missing& note : undefined(j, j.estimate)) notes.push_back(std::move(note));
-    for (const EvaluatedMetric& metric : j.metrics) {
+    if (is_failed) notes.push_back({result.estimate, "", "failed", result.why_failed});
+    if (!result.other_body.empty())
+      notes.push_back({result.estimate, "", "other body", result.other_body});
+    for (const std::string& note : result.notes)
+      notes.push_back({result.estimate, "", "note", note});
+    for (Missing& note : missing_scores(result, result.estimate)) notes.push_back(std::move(note));
+    for (const EvaluatedMetric& metric : result.metrics) {
       for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
         if (axis != "3d" && axis != "all") continue;
         if (!why.empty()) continue;
         const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
-        if (j.incomplete_reason.empty()) {
+        if (result.incomplete_reason.empty()) {
           put(column, number(quoted_statistic(rules, s)));
           if (metric.name == "rpe" && axis == "3d") {
             put(label(metric) + " pairs", number(static_cast<double>(s.count)));
@@ -197,7 +206,7 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
   }
   for (std::size_t t = 0; t < tables.size(); ++t) {
     tables[t].notes = grouped(missing[t]);
-    for (std::vector<TableCell>& row : tables[t].cells) {
+    for (std::vector<TableEntry>& row : tables[t].entries) {
       row.resize(tables[t].columns.size());
       if (row.front().status == "failed") std::ranges::fill(row, row.front());
     }

@@ -1,10 +1,9 @@
 #include "harness/eval/layout.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/regular_file.hpp"
 #include "harness/config/yaml.hpp"
 
 namespace loopbench::harness {
@@ -61,8 +60,8 @@ Params rpg_settings(const Path& folder) {
   const Path path = folder / "eval_cfg.yaml";
   if (!std::filesystem::is_regular_file(path)) return {};
   const std::string file = path.string();
-  std::ifstream in(path, std::ios::binary);
-  const YamlNode node = parse_yaml({std::istreambuf_iterator<char>(in), {}}, file);
+  constexpr std::size_t kLargest = std::size_t{1} << 20;  // [bytes]
+  const YamlNode node = parse_yaml(read_regular_file(path, kLargest, "file"), file);
   if (node.type != YamlNode::Type::map) {
     throw input_error(file, 1, "expected align_type and align_num_frames");
   }

@@ -46,6 +46,13 @@ CommandSetting command_setting(const Sweep& sweep) {
   return {folder.empty() ? "." : folder, sweep.limits.memory};
 }
 
+bool uses_programs(const Sweep& sweep) {
+  return std::ranges::any_of(sweep.methods, [](const MethodChoice& choice) {
+    return std::ranges::any_of(
+        choice.stages, [](const Choice& stage) { return find_external(stage.name) != nullptr; });
+  });
+}
+
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting) {
   for (const Choice& stage : choice.stages) {
     const ExternalMethod* external = find_external(stage.name);

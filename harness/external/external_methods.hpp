@@ -26,6 +26,9 @@ const ExternalMethod* find_external(const std::string& name);
 /// Programs of a sweep run in the folder of its config, under its memory limit.
 CommandSetting command_setting(const Sweep& sweep);
 
+/// Whether any of its methods runs programs, which need a folder to write to.
+bool uses_programs(const Sweep& sweep);
+
 /// prepare() of the stages of a method that are external.
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting);
 

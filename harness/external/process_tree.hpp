@@ -53,8 +53,10 @@ class ProcessTree {
   /// Whether the program has ended, without waiting.
   bool has_ended() const;
 
+  pid_t supervisor() const { return supervisor_; }
   int input() const { return input_; }    ///< socket to its standard input, -1 unless it serves
   int output() const { return output_; }  ///< its standard output; with its errors unless it serves
+  int status() const { return status_; }  ///< receives the ProgramEnd
   int errors() const { return errors_; }  ///< its standard error, -1 unless it serves
 
  private:

@@ -51,6 +51,13 @@ class Server {
 
   bool is_in_step() const { return turn_->asked == turn_->answered && !tree_.has_ended(); }
 
+  void append_to(RunningServers& out) const {
+    out.processes.push_back(tree_.supervisor());
+    for (const int descriptor : {tree_.input(), tree_.output(), tree_.errors(), tree_.status()}) {
+      out.descriptors.push_back(descriptor);
+    }
+  }
+
   Trajectory ask(const Problem& problem,
                  ResultPoses output,
                  std::int64_t memory,
@@ -123,8 +130,13 @@ struct KnownServer {
   std::unique_ptr<Server> server;
 };
 
-KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
+std::vector<KnownServer>& known_servers() {
   static thread_local std::vector<KnownServer> servers;
+  return servers;
+}
+
+KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
+  std::vector<KnownServer>& servers = known_servers();
   const std::string key = fmt::format(
       "{}\n{}\n{}\n{}", options.serve, options.shell, setting.folder.string(), setting.memory);
   const auto found = std::ranges::find(servers, key, &KnownServer::key);
@@ -139,6 +151,14 @@ Server& running_server(const CommandOptions& options, const CommandSetting& sett
 }
 
 }  // namespace
+
+RunningServers running_servers() {
+  RunningServers out;
+  for (const KnownServer& known : known_servers()) {
+    if (known.server) known.server->append_to(out);
+  }
+  return out;
+}
 
 void prepare_server(const CommandOptions& options, const CommandSetting& setting) {
   running_server(options, setting);

@@ -7,6 +7,10 @@
 /// hangs or writes something else costs one cell.
 #pragma once
 
+#include <sys/types.h>
+
+#include <vector>
+
 #include "harness/external/command.hpp"
 
 namespace loopbench::harness {
@@ -15,6 +19,13 @@ namespace loopbench::harness {
 /// others to ask questions calls it first; otherwise each of them starts its own program. Throws
 /// std::runtime_error.
 void prepare_server(const CommandOptions& options, const CommandSetting& setting);
+
+/// What a cell in a copy of this process needs to keep: the servers that run in this thread.
+struct RunningServers {
+  std::vector<pid_t> processes;  ///< their supervisors, children of this process
+  std::vector<int> descriptors;  ///< their streams
+};
+RunningServers running_servers();
 
 /// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
 /// fails, MemoryLimitExceeded, and Undefined if it declines.

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/regular_file.hpp"
 #include "harness/gate/formats.hpp"
 #include "harness/model/where.hpp"
 
@@ -259,11 +258,8 @@ Json parsed(const std::string& text, const std::string& file) {
 }
 
 std::string baseline_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read, expected a baseline (--update writes one)");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
+  constexpr std::size_t kLargest = std::size_t{1} << 30;  // [bytes]
+  return read_named_file(file, kLargest, "a baseline (--update writes one)");
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ std::string markdown(const GateReport& report, const std::string& sweep) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
   }
   if (!out.lines.empty()) return markdown(out);
-  std::string text = "### " + out.title + "\n\n";
-  for (const std::string& note : out.notes) text += "- " + note + "\n";
+  std::string text = "### " + one_line(out.title) + "\n\n";
+  for (const std::string& note : out.notes) text += "- " + one_line(note) + "\n";
   return text;
 }
 

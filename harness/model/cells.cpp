@@ -1,14 +1,46 @@
 #include "harness/model/cells.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+
+#include "datasets/core/error.hpp"
 #include "harness/text/pattern.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+void expect_few_cells(const Sweep& sweep, const std::vector<bool>& seeded) {
+  const std::size_t count = count_cells(sweep, seeded);
+  if (count <= static_cast<std::size_t>(sweep.limits.cells)) return;
+  throw InputError(
+      fmt::format("{}: {} datasets, {} methods and {} repeats of seeded datasets give {} cells, "
+                  "expected at most {}; 'limits: {{cells: N}}' accepts more",
+                  sweep.config.string(),
+                  sweep.datasets.size(),
+                  sweep.methods.size(),
+                  sweep.repeats,
+                  count,
+                  sweep.limits.cells));
+}
+
+}  // namespace
+
+std::size_t count_cells(const Sweep& sweep, const std::vector<bool>& seeded) {
+  std::size_t sequences = 0;
+  for (std::size_t d = 0; d < sweep.datasets.size(); ++d) {
+    const auto repeats = static_cast<std::size_t>(seeded[d] ? sweep.repeats : 1);
+    if (__builtin_add_overflow(sequences, repeats, &sequences)) return SIZE_MAX;
+  }
+  std::size_t out = 0;
+  return __builtin_mul_overflow(sequences, sweep.methods.size(), &out) ? SIZE_MAX : out;
+}
 
 std::vector<Cell> cells(const Sweep& sweep,
                         const std::vector<bool>& seeded,
                         const std::string& only) {
+  expect_few_cells(sweep, seeded);
   const Pattern wanted = Pattern::of_option("--only", only);
   std::vector<std::pair<Pattern, Pattern>> exclusions;
   for (const Exclusion& rule : sweep.exclude)

@@ -17,9 +17,13 @@ struct Cell {
   int repeat = 0;
 };
 
+/// Number of cells of the sweep before exclusions; the largest std::size_t if there are more.
+std::size_t count_cells(const Sweep& sweep, const std::vector<bool>& seeded);
+
 /// Datasets x repeats x methods without exclusions, and without cells whose "SEQUENCE / METHOD"
 /// does not contain a match of `only` (empty: all). `seeded[d]`: whether dataset d has a seed;
-/// datasets without a seed have one repeat. Throws InputError for an invalid regex.
+/// datasets without a seed have one repeat. Throws InputError for an invalid regex, and
+/// before anything is built if count_cells() exceeds Limits::cells.
 std::vector<Cell> cells(const Sweep& sweep,
                         const std::vector<bool>& seeded,
                         const std::string& only);

@@ -24,6 +24,7 @@ enum class Status {
   crashed,        ///< its worker process was ended by a signal
   timeout,        ///< it exceeded the sweep's time limit
   out_of_memory,  ///< it exceeded the sweep's memory limit, or an allocation failed
+  interrupted,    ///< the user abandoned it: not an error, not stored, and so run again
 };
 inline auto choices(Status) {
   return std::array{std::pair{"ok", Status::ok},
@@ -32,10 +33,11 @@ inline auto choices(Status) {
                     std::pair{"incomplete", Status::incomplete},
                     std::pair{"crashed", Status::crashed},
                     std::pair{"timeout", Status::timeout},
-                    std::pair{"out_of_memory", Status::out_of_memory}};
+                    std::pair{"out_of_memory", Status::out_of_memory},
+                    std::pair{"interrupted", Status::interrupted}};
 }
 
-/// Whether the status is an error, that is, not merely declined or incomplete.
+/// Whether the status is an error, that is, not merely declined, incomplete or interrupted.
 inline bool is_failure(Status status) {
   return status == Status::failed || status == Status::crashed || status == Status::timeout ||
          status == Status::out_of_memory;

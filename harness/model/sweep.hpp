@@ -56,12 +56,16 @@ struct TableSpec {
   std::string value = "rmse";
   std::vector<std::string> show;   ///< scores to show, by their short names; empty: all
   std::vector<std::string> where;  ///< filters of rows, see model/where; empty: all rows
+  bool plus_minus = false;         ///< standard deviations next to means
 };
 
-/// Resource limits of one cell.
+/// Resource limits of one cell, and the size of the sweep. The default memory limit is the same on
+/// all machines, so that verdicts are, and several times what the largest cells of this repository
+/// need.
 struct Limits {
-  double seconds = 600.0;   ///< wall time of all timed runs and the evaluation [s]; 0: no limit
-  std::int64_t memory = 0;  ///< resident size of the process [bytes]; 0: no limit
+  double seconds = 600.0;  ///< wall time of all timed runs and the evaluation [s]; 0: no limit
+  std::int64_t memory = std::int64_t{8} << 30;  ///< resident size [bytes]; 0: no limit
+  std::int64_t cells = 1'000'000;  ///< of the sweep before exclusions; more are rejected
 };
 
 struct Sweep {

@@ -1,5 +1,6 @@
 #include "harness/oracle/oracle.hpp"
 #include "harness/oracle/paper_oracle.hpp"
+#include "methods/smoothers/manifold/paper_literal.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -19,6 +20,11 @@ OracleEntry oracle(std::string name, std::string summary, typename T::Options de
           make};
 }
 
+methods::DmOptions in_reference_axes(methods::DmOptions options) {
+  options.fit_axes = methods::manifold::FitAxes::reference;
+  return options;
+}
+
 }  // namespace
 
 std::vector<OracleEntry> oracles() {
@@ -31,6 +37,22 @@ std::vector<OracleEntry> oracles() {
                           {.dm = {.families = "poly2 poly3 sin1 rat02"},
                            .reference_abscissa = false,
                            .reference_families = true}),
+      oracle<PaperLiteralOracle>(
+          "paper_oracle_overwrite",
+          "dm without curves, x' of each window overwritten by the reference's; quantifies what "
+          "copying alone gives",
+          {{.reference_abscissa = false, .overwrite = true}}),
+      oracle<PaperLiteralOracle>(
+          "paper_reference_axes",
+          "the article's equations alone in the reference's axes: uses the rotation of an "
+          "alignment, not the reference's positions",
+          {{.dm = in_reference_axes(methods::manifold::paper_equations({})),
+            .reference_abscissa = false}}),
+      oracle<PaperLiteralOracle>(
+          "paper_text",
+          "paper_reference_axes with equal second derivatives at joints and psi",
+          {{.dm = in_reference_axes(methods::manifold::paper_text({})),
+            .reference_abscissa = false}}),
   };
 }
 

@@ -22,8 +22,14 @@ Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& r
   const methods::manifold::SplinePoint seen{projected, own.distance, own.time};
   const auto ask = [&](const PlanarPiece& piece) {
     return std::visit(
-        [&](const auto& shape) {
-          return shape(is_function_of_x<std::remove_cvref_t<decltype(shape)>> ? seen : own);
+        [&](const auto& shape) -> Vector3 {
+          if constexpr (is_function_of_x<std::remove_cvref_t<decltype(shape)>>) {
+            const Vector3& x = shape.frame.x;
+            if (use_ == ReferenceUse::abscissa) return shape(seen);
+            return own.point + x.dot(reference - own.point) * x;
+          } else {
+            return use_ == ReferenceUse::abscissa ? shape(own) : own.point;
+          }
         },
         piece);
   };
@@ -37,7 +43,7 @@ Vector3 ReferenceAbscissa::point(std::size_t edge, double time, const Vector3& r
 
 void ReferenceAbscissa::sample(std::span<const double> times, std::span<Pose> poses) const {
   curve_->sample(times, poses);
-  if (!used_) return;
+  if (use_ == ReferenceUse::none) return;
   std::vector<double> known;
   std::vector<std::size_t> which;
   for (std::size_t k = 0; k < times.size(); ++k) {

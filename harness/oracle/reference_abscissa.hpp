@@ -8,13 +8,17 @@
 
 namespace loopbench::harness {
 
+/// none: the unchanged curve. abscissa: fitted curves evaluated at the reference's x'. overwrite:
+/// no fitted curve, x' of the spline replaced by the reference's: what the leak alone gives.
+enum class ReferenceUse { none, abscissa, overwrite };
+
 class ReferenceAbscissa final : public Curve {
  public:
-  /// `reference` in the world frame of `curve`. If not `used`, the unchanged curve.
+  /// `reference` in the world frame of `curve`.
   ReferenceAbscissa(std::shared_ptr<const methods::manifold::ManifoldCurve> curve,
                     Polyline reference,
-                    bool used = true)
-      : curve_(std::move(curve)), reference_(std::move(reference)), used_(used) {}
+                    ReferenceUse use)
+      : curve_(std::move(curve)), reference_(std::move(reference)), use_(use) {}
 
   double start() const override { return curve_->start(); }
   double end() const override { return curve_->end(); }
@@ -22,7 +26,8 @@ class ReferenceAbscissa final : public Curve {
   /// y' = f(x'): x' is the reference's, so the output has that x', too; z' remains the estimate's.
   /// z' = q(x', y') without a planar step: only z' is computed from the reference's x' and y'.
   /// Pieces that are not a function of x' (arcs, splines, F(x', y') = 0), times outside the
-  /// reference and all orientations are unchanged.
+  /// reference and all orientations are unchanged. With `overwrite`, the spline's point with x' of
+  /// its window replaced by the reference's.
   using Curve::sample;
   void sample(std::span<const double> times, std::span<Pose> poses) const override;
 
@@ -31,7 +36,7 @@ class ReferenceAbscissa final : public Curve {
 
   std::shared_ptr<const methods::manifold::ManifoldCurve> curve_;
   Polyline reference_;
-  bool used_;
+  ReferenceUse use_;
 };
 
 }  // namespace loopbench::harness

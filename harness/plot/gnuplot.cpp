@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 
-#include "datasets/core/error.hpp"
+#include "harness/plot/run_gnuplot.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -19,14 +18,23 @@ namespace {
 /// rejects a string that begins with a quote, so a space precedes it.
 std::string gnuplot_quoted(const std::string& text) {
   std::string out = text.starts_with('\'') ? "' " : "'";
-  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
+  for (const char c : printable(text))
+    out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
   return out + "'";
 }
 
 std::string data_block(const std::string& name, const PlotSeries& series) {
   std::string out = fmt::format("${} << EOD\n", name);
-  for (const Vector3& p : series.points) {
-    out += p.allFinite() ? fmt::format("{:.6g} {:.6g} {:.6g}\n", p.x(), p.y(), p.z()) : "\n";
+  const bool is_end = series.mark == PlotMark::end && !series.points.empty();
+  const std::size_t first = is_end ? series.points.size() - 1 : 0;
+  const std::size_t end = series.mark == PlotMark::start
+                              ? std::min<std::size_t>(1, series.points.size())
+                              : series.points.size();
+  for (std::size_t i = first; i < end; ++i) {
+    const Vector3& p = series.points[i];
+    const double value = series.values.empty() ? 0.0 : series.values[i];
+    out += p.allFinite() ? fmt::format("{:.7g} {:.7g} {:.7g} {:.6g}\n", p.x(), p.y(), p.z(), value)
+                         : "\n";
   }
   return out + "EOD\n";
 }
@@ -59,6 +67,33 @@ std::string ranges(const PlotPanel& panel) {
          axis_range("z", panel.series, 2, kLeastHeight);
 }
 
+/// The plotting style of a series.
+std::string with_style(const PlotSeries& series) {
+  const std::string color = gnuplot_quoted(series.color);
+  if (series.mark == PlotMark::start) return "points pt 6 ps 1.2 lw 2 lc rgb " + color;
+  if (series.mark == PlotMark::end) return "points pt 5 ps 1 lc rgb " + color;
+  if (series.mark == PlotMark::bars) return "boxes fill solid 0.6 lc rgb " + color;
+  if (!series.values.empty()) return "lines lw 2 lc palette";
+  if (series.as_points || series.mark == PlotMark::points) {
+    return "points pt 7 ps 0.5 lc rgb " + color;
+  }
+  return fmt::format("lines lw {:g} dt {} lc rgb {}", series.width, series.dash, color);
+}
+
+/// The colour bar: from 0 to the largest value, with four intervals.
+std::string value_axis(const PlotPanel& panel) {
+  if (panel.value_label.empty()) return "unset colorbox\n";
+  double largest = 0.0;
+  for (const PlotSeries& series : panel.series) {
+    for (const double value : series.values) largest = std::max(largest, value);
+  }
+  if (!(largest > 0.0)) largest = 1.0;
+  return fmt::format("set colorbox\nset cblabel {}\nset cbrange [0:{:.6g}]\nset cbtics {:.1g}\n",
+                     gnuplot_quoted(panel.value_label),
+                     largest,
+                     0.25 * largest);
+}
+
 std::string panel_script(const PlotPanel& panel, std::size_t index) {
   std::string blocks;
   std::string plots;
@@ -66,14 +101,15 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
     const PlotSeries& series = panel.series[s];
     const std::string name = fmt::format("d{}_{}", index, s);
     blocks += data_block(name, series);
-    plots += fmt::format("{}${} using {} with {} lc rgb {} title {}",
+    plots += fmt::format("{}${} using {}{} with {} {}",
                          s == 0 ? "" : ", ",
                          name,
                          panel.spatial ? "1:2:3" : "1:2",
-                         series.as_points ? "points pt 7 ps 0.5" : "lines lw 1.4",
-                         gnuplot_quoted(series.color),
-                         gnuplot_quoted(series.name));
+                         series.values.empty() ? "" : ":4",
+                         with_style(series),
+                         series.name.empty() ? "notitle" : "title " + gnuplot_quoted(series.name));
   }
+  blocks += value_axis(panel);
   return blocks + ranges(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
                      gnuplot_quoted(panel.title),
@@ -85,46 +121,50 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                      plots);
 }
 
-/// Width and height in points.
-std::string terminal(const std::filesystem::path& file, std::size_t width, std::size_t height) {
+std::string terminal(const std::filesystem::path& file, double width, double height, double font) {
+  constexpr double kPoints = 72.0, kPixels = 150.0;  // per inch
+  constexpr double kFontPixels = 96.0;               // per inch, of a font size in PNG
   if (file.extension() == ".pdf") {
-    return fmt::format("pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,9'",
-                       static_cast<double>(width) / 72.0,
-                       static_cast<double>(height) / 72.0);
+    return fmt::format("pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,{:g}'",
+                       width,
+                       height,
+                       font > 0.0 ? font : 9.0);
+  }
+  if (file.extension() == ".png") {
+    return fmt::format("pngcairo size {:.0f},{:.0f} noenhanced font 'sans,{:g}'",
+                       width * kPixels,
+                       height * kPixels,
+                       (font > 0.0 ? font : 9.0) * kPixels / kFontPixels);
   }
   return fmt::format(
-      "svg size {},{} dynamic noenhanced background '#ffffff' font 'sans,12'", width, height);
+      "svg size {:.0f},{:.0f} dynamic noenhanced background '#ffffff' font 'sans,{:g}'",
+      width * kPoints,
+      height * kPoints,
+      font > 0.0 ? font : 12.0);
 }
 
 }  // namespace
 
 void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
-                  std::size_t columns) {
+                  std::size_t columns,
+                  const FigureSize& size) {
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::string script = fmt::format(
       "set terminal {}\n"
-      "set output {}\nset grid lc rgb '#dddddd'\nset key outside below\nset border lc rgb "
-      "'#666666'\n"
+      "set grid lc rgb '#dddddd'\nset key outside below horizontal samplen 2\nset border lc rgb "
+      "'#666666'\nset palette defined (0 '#2c7bb6', 0.5 '#ffd24d', 1 '#d7191c')\n"
       "set multiplot layout {},{}\n",
-      terminal(file, 640 * columns, 480 * rows),
-      gnuplot_quoted(file.string()),
+      terminal(file,
+               size.width * static_cast<double>(columns),
+               size.height * static_cast<double>(rows),
+               size.font),
       rows,
       columns);
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   script += "unset multiplot\n";
 
-  write_file(file, "");  // reports why it cannot be written, which gnuplot does not
-  std::FILE* pipe = popen("gnuplot >/dev/null", "w");
-  if (pipe == nullptr) throw InputError(file.string() + ": cannot start gnuplot");
-  const auto usual = std::signal(SIGPIPE, SIG_IGN);  // in case gnuplot is missing
-  const bool sent = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  const int ended = pclose(pipe);
-  std::signal(SIGPIPE, usual);
-  if (ended != 0 || !sent || std::filesystem::file_size(file) == 0) {
-    std::filesystem::remove(file);
-    throw InputError(file.string() + ": gnuplot failed (package gnuplot-nox)");
-  }
+  write_result(file, drawn_by_gnuplot(script));
 }
 
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most) {

@@ -9,12 +9,20 @@
 
 namespace loopbench::harness {
 
+inline constexpr double kLineWidth = 1.4;  // [points]
+
+enum class PlotMark { line, points, bars, start, end };
+
 /// One curve of a panel. Points in metres; NaN breaks the line.
 struct PlotSeries {
-  std::string name;   ///< in the legend; escaped for gnuplot
+  std::string name;   ///< in the legend, unless empty; escaped for gnuplot
   std::string color;  ///< "#rrggbb"
   bool as_points = false;
   std::vector<Vector3> points;
+  double width = kLineWidth;        ///< of the line [points]
+  int dash = 1;                     ///< dash type of gnuplot, 1 is solid
+  PlotMark mark = PlotMark::line;   ///< start: circle, end: square at the last point
+  std::vector<double> values = {};  ///< one per point: colours the line by value
 };
 
 struct PlotPanel {
@@ -25,13 +33,22 @@ struct PlotPanel {
   bool spatial = false;    ///< x, y and z; otherwise x and y
   bool same_scale = true;  ///< equal scales of x and y (in the plane only)
   std::vector<PlotSeries> series;
+  std::string value_label = {};  ///< of the colour bar, if a series has values
 };
 
-/// Panels row by row on one page, 640 x 480 points per panel: SVG, or PDF by the file's extension.
-/// Throws InputError if gnuplot is missing or the file cannot be written.
+/// Size of one panel and of its text.
+struct FigureSize {
+  double width = 640.0 / 72.0;   ///< [in]
+  double height = 480.0 / 72.0;  ///< [in]
+  double font = 0.0;             ///< [pt]; 0: 9 in PDF, 12 in SVG and PNG
+};
+
+/// Panels row by row on one page: SVG, or PDF or PNG by the file's extension. Throws InputError if
+/// gnuplot is missing or the file cannot be written.
 void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
-                  std::size_t columns);
+                  std::size_t columns,
+                  const FigureSize& size = {});
 
 /// Every k-th point such that at most `most` remain, including the last one; for drawing only.
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/plot/style.hpp"
+
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostPlotted = 800;  // points per curve; more are not visible in print
-constexpr const char* kReferenceColor = "#9aa1ab";
-constexpr std::array kColors{"#d93025",
-                             "#0b6fd3",
-                             "#0f9d58",
-                             "#e8710a",
-                             "#7b3ff2",
-                             "#00a3a3",
-                             "#c2185b",
-                             "#b58900",
-                             "#4a5bd4",
-                             "#8d5524"};
-
 std::vector<Vector3> positions(const std::vector<TracePose>& poses) {
   std::vector<Vector3> out;
   for (const TracePose& p : poses) out.emplace_back(p.x, p.y, p.z);
@@ -41,10 +31,10 @@ std::vector<double> lengths(const std::vector<TraceSample>& samples) {
 void add_errors(std::vector<PlotPanel>& panels,
                 const CellTrace& trace,
                 const std::string& method,
-                const std::string& color) {
+                const CurveStyle& style) {
   const std::vector<double> length = lengths(trace.samples);
   for (std::size_t axis = 0; axis < panels.size(); ++axis) {
-    PlotSeries series{method, color, false, {}};
+    PlotSeries series{method, style.color, false, {}, kLineWidth, style.dash};
     for (std::size_t i = 0; i < trace.samples.size(); ++i) {
       const TraceSample& s = trace.samples[i];
       const double value = axis < 3 ? error(s)(static_cast<Eigen::Index>(axis)) : s.error_angle;
@@ -60,7 +50,8 @@ void add_errors(std::vector<PlotPanel>& panels,
 SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
                                  Traces& traces,
                                  const std::string& sequence,
-                                 const std::vector<std::string>& methods) {
+                                 const std::vector<std::string>& methods,
+                                 const std::vector<std::string>& all_methods) {
   std::optional<std::int64_t> first;
   for (const CellRecord& cell : cells) {
     if (cell.sequence == sequence) first = std::min(first.value_or(cell.repeat), cell.repeat);
@@ -94,11 +85,17 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
     }
     std::vector<Vector3> estimate;
     for (const TraceSample& sample : trace->samples) estimate.push_back(position(sample));
-    const std::string color = kColors[m % kColors.size()];
+    const auto index = std::ranges::find(all_methods, methods[m]) - all_methods.begin();
+    const CurveStyle style = curve_style(static_cast<std::size_t>(index));
     for (PlotPanel& map : maps) {
-      map.series.push_back({methods[m], color, false, thinned(estimate, kMostPlotted)});
+      map.series.push_back({methods[m],
+                            style.color,
+                            false,
+                            thinned(estimate, kMostPlotted),
+                            kLineWidth,
+                            style.dash});
     }
-    add_errors(errors, *trace, methods[m], color);
+    add_errors(errors, *trace, methods[m], style);
   }
   if (errors[0].series.empty()) return out;
   out.trajectories = std::move(maps);

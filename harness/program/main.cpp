@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -18,9 +21,11 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/correct.hpp"
 #include "harness/commands/export.hpp"
+#include "harness/commands/help.hpp"
 #include "harness/program/counted_malloc.hpp"
 #include "harness/provenance/source_commit.hpp"
 #include "harness/provenance/version.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 
 using namespace loopbench;
@@ -28,10 +33,22 @@ using namespace loopbench::harness;
 
 namespace {
 
-/// Messages can contain names and contents of files.
+/// Messages can contain names and contents of files. A config can have several errors, one per
+/// line.
 int fail(const std::string& why, int exit_code) {
-  fmt::print(stderr, "{}\n", printable("loopbench: " + why));
+  std::istringstream lines(why);
+  for (std::string line; std::getline(lines, line);) {
+    print_error("{}\n", printable("loopbench: " + line));
+  }
   return exit_code;
+}
+
+/// Opens /dev/null for reading in place of closed standard streams: otherwise the next file opened,
+/// for example a store, would be one of them. Output then still fails.
+void reserve_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) open("/dev/null", O_RDONLY);
+  }
 }
 
 /// A closed pipe is no error, as with SIGPIPE.
@@ -41,12 +58,16 @@ int fail_to_print(int reason) {
   return fail("cannot write to standard output" + why, kExitBadInput);
 }
 
-/// `print_error` is the errno of a failed print, if known.
+/// `print_errno` is the errno of a failed print, if known.
 int run(CLI::App& app,
         const std::vector<std::string>& words,
         const int& exit_code,
-        int& print_error) {
+        int& print_errno) {
   try {
+    if (words.empty()) {
+      fmt::print("{}", app.help());
+      return kExitOk;
+    }
     std::vector<std::string> last_first = normalised_options(app, words);
     std::ranges::reverse(last_first);  // CLI11 expects this order
     app.parse(std::move(last_first));
@@ -54,11 +75,11 @@ int run(CLI::App& app,
     std::ostringstream parser_output;
     if (app.exit(error, parser_output, parser_output) == 0) {
       const std::string text = parser_output.str();
-      if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_error = errno;
+      if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_errno = errno;
       return kExitOk;
     }
     const std::string unknown = unknown_word(app, error);
-    fmt::print(stderr, "{}", printable(unknown.empty() ? parser_output.str() : unknown));
+    print_error("{}", printable(unknown.empty() ? parser_output.str() : unknown));
     return kExitBadInput;
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);
@@ -66,10 +87,12 @@ int run(CLI::App& app,
     return fail(error.what(), kExitBadInput);
   } catch (const MissingPart& error) {
     return fail(error.what(), kExitMissingPart);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(error.path1().string() + ": " + error.code().message(), kExitBadInput);
   } catch (const std::system_error& error) {
     // fmt throws these if standard output cannot be written.
     if (std::ferror(stdout) != 0) {
-      print_error = error.code().value();
+      print_errno = error.code().value();
       return kExitBadInput;
     }
     return fail(std::string("internal error: ") + error.what(), kExitInternal);
@@ -83,6 +106,7 @@ int run(CLI::App& app,
 
 // NOLINTNEXTLINE(bugprone-exception-escape): what is outside run() throws only without memory
 int main(int argc, char** argv) {
+  reserve_standard_streams();
   set_allocation_counter(counted_malloc());
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
@@ -91,25 +115,33 @@ int main(int argc, char** argv) {
       "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
       "3 internal error, 4 the build lacks a required part, 130 interrupted.");
   int exit_code = kExitOk;
-  add_run(app, exit_code, {source_commit, source_state, code_hash});
+  const Source source{source_commit, source_state, code_hash};
+  add_run(app, exit_code, source);
   add_list(app, exit_code);
   add_table(app, exit_code);
   add_compare(app, exit_code);
   add_check(app, exit_code);
-  add_correct(app, exit_code);
-  add_eval(app, exit_code);
-  add_export(app, exit_code);
+  add_eval(app, exit_code, source);
   add_reproduce(app, exit_code);
   add_calibrate(app, exit_code);
+  add_correct(app, exit_code);
+  add_export(app, exit_code);
   add_merge(app, exit_code);
+  add_salvage(app, exit_code);
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);
+  add_traj(app, exit_code);
+  add_doctor(app, exit_code);
   add_verify(app, exit_code);
-  int print_error = 0;
-  const int out = run(app, {argv + 1, argv + argc}, exit_code, print_error);
+  add_get(app, exit_code);
+  add_help(app, exit_code);
+  add_pages(app, exit_code);
+  add_examples(app);
+  int print_errno = 0;
+  const int out = run(app, {argv + 1, argv + argc}, exit_code, print_errno);
   // Output counts as written only after the buffer is flushed.
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return out;
-  return fail_to_print(print_error != 0 ? print_error : errno);
+  return fail_to_print(print_errno != 0 ? print_errno : errno);
 }

@@ -1,7 +1,19 @@
 #include "harness/report/html.hpp"
 
+#include <algorithm>
+
+#include "harness/text/printable.hpp"
+
 namespace loopbench::harness {
 namespace {
+
+/// Without control characters, except newlines, and with valid UTF-8 only.
+std::string printable_text(std::string_view text) {
+  std::string out(text);
+  std::ranges::replace(out, '\t', ' ');
+  std::erase_if(out, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; });
+  return printable(out);
+}
 
 std::string notes_list(const std::vector<std::string>& notes) {
   if (notes.empty()) return "";
@@ -46,7 +58,7 @@ std::string listing_table(const TextTable& listing, bool of_words) {
 
 std::string html_text(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable_text(text)) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -64,7 +76,7 @@ std::string html_text(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+        out += c;
     }
   }
   return out;

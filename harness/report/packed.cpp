@@ -9,9 +9,7 @@
 #include <string>
 
 namespace loopbench::harness {
-namespace {
-
-std::string base64(const std::string& bytes) {
+std::string base64(std::string_view bytes) {
   constexpr const char* kLetters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -27,8 +25,6 @@ std::string base64(const std::string& bytes) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string packed(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity();

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace loopbench::harness {
+
+/// Base64 of RFC 4648, with padding.
+std::string base64(std::string_view bytes);
 
 /// The JSON object {lo, step, b}: value = lo + step * word, 16-bit little-endian words in base64;
 /// 65535 is NaN. The error is at most half a step: 1/131068 of the range, far below a pixel.

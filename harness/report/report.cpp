@@ -11,6 +11,7 @@
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
+#include "harness/report/sha256.hpp"
 #include "harness/tables/comparison.hpp"
 
 namespace loopbench::harness {
@@ -41,10 +42,10 @@ std::string asset_text(std::string_view name) {
 }
 
 /// The library, then the page's own scripts in order of their dependencies.
-std::string scripts() {
+std::vector<std::string> scripts() {
   // The licence requires its notice in all copies, so every report includes it.
-  std::string out = "<script>/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
-                    asset_text("assets/d3.min.js") + "</script>\n";
+  std::vector<std::string> out{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
+                               asset_text("assets/d3.min.js")};
   for (const char* name : {"data",
                            "state",
                            "chart",
@@ -59,8 +60,25 @@ std::string scripts() {
                            "detection",
                            "tables",
                            "start"}) {
-    out += "<script>\n" + asset_text(std::string("page/") + name + ".js") + "</script>\n";
+    out.push_back("\n" + asset_text(std::string("page/") + name + ".js"));
   }
+  return out;
+}
+
+std::string script_elements() {
+  std::string out;
+  for (const std::string& script : scripts()) out += "<script>" + script + "</script>\n";
+  return out;
+}
+
+std::string style() { return "\n" + asset_text("page/report.css") + "\n"; }
+
+/// Content-Security-Policy: the page runs its own scripts and styles, known by their hashes, and
+/// loads nothing. Names and texts of a sweep that escaped the HTML could then run nothing either.
+std::string policy() {
+  std::string out = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; ";
+  out += "style-src 'sha256-" + base64_sha256(style()) + "'; script-src";
+  for (const std::string& script : scripts()) out += " 'sha256-" + base64_sha256(script) + "'";
   return out;
 }
 
@@ -71,7 +89,8 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
   const std::string scores = "{\"scores\":" + scores_json(content) +
                              ",\"comparisons\":" + json(content.comparisons, -1) + ",\"traces\":";
   Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
-                      {"style", asset_text("page/report.css")},
+                      {"policy", policy()},
+                      {"style", style()},
                       {"summary", summary_html(content)},
                       {"verdicts", verdicts_html(content)},
                       {"comparison", comparison_html(content)},
@@ -79,7 +98,7 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
                       {"failures", failures_html(content)},
                       {"costs", costs_html(content)},
                       {"provenance", provenance_html(content)},
-                      {"scripts", scripts()}};
+                      {"scripts", script_elements()}};
   std::size_t taken = scores.size();
   for (const auto& [name, text] : values) taken += text.size();
   Thinning thinning = initial_thinning(content, bytes - std::min(bytes, taken));

@@ -25,6 +25,25 @@ std::string score_name(const Comparison& c) {
   return field(c.kind, "score") + " " + c.options.value + " [" + c.kind.unit + "]";
 }
 
+/// With the columns for gain and time next to the names, so that they need no scrolling.
+TableView gain_and_time_first(TableView view) {
+  std::vector<std::size_t> order{0};
+  const auto is_first = [&](std::size_t c) {
+    return view.headings[c].starts_with("gain") || view.headings[c].starts_with("time");
+  };
+  for (const bool first : {true, false}) {
+    for (std::size_t c = 1; c < view.headings.size(); ++c) {
+      if (is_first(c) == first) order.push_back(c);
+    }
+  }
+  TableView out = view;
+  for (std::size_t c = 0; c < order.size(); ++c) {
+    out.headings[c] = view.headings[order[c]];
+    for (std::size_t r = 0; r < view.lines.size(); ++r) out.lines[r][c] = view.lines[r][order[c]];
+  }
+  return out;
+}
+
 /// The gain in large type with its interval, if it can be stated as one number.
 std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
@@ -119,7 +138,7 @@ std::string scores_html(const ReportContent& content) {
     if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
     for (const Table& table : pivot(records, TableSpec{})) {
       out +=
-          html_table(table_view(table),
+          html_table(gain_and_time_first(table_view(table)),
                      "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
     }
   };

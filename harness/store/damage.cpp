@@ -93,8 +93,8 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
   if (!is_intact(out)) {
     throw InputError(
         file.string() +
-        ": is damaged and cannot be repaired; --fresh keeps it as previous-N.sqlite and starts "
-        "a new store");
+        ": is damaged and cannot be repaired; 'loopbench salvage' copies its intact cells, and "
+        "--fresh starts a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.intact) out.removed.push_back(label_of(cell.record));
@@ -115,9 +115,10 @@ void require_intact_texts(Database& database,
                           const std::string& table,
                           const std::filesystem::path& file) {
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
-  throw InputError(file.string() + ": is damaged: its table " + table +
-                   " is corrupted; run 'loopbench run' with its config and '--fresh', which "
-                   "keeps this store as previous-N.sqlite");
+  throw InputError(
+      file.string() + ": is damaged: its table " + table +
+      " is corrupted; 'loopbench salvage' copies its intact cells, and 'loopbench run' "
+      "with --fresh starts a new store");
 }
 
 }  // namespace loopbench::harness

@@ -13,7 +13,10 @@ namespace loopbench::harness {
 class RowsDigest {
  public:
   /// Adds the columns in [from, to).
-  void add(Statement& row, int from, int to);
+  void add(Statement& row, int from, int to) { add(row.bytes_of_columns(from, to)); }
+
+  /// Adds a row as serialised by Statement::bytes_of_columns().
+  void add(std::string_view row);
 
   /// 32 hexadecimal digits; empty without rows.
   std::string text() const { return any_ ? hex(state_) : ""; }

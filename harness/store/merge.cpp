@@ -9,7 +9,7 @@
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
-#include "harness/store/schema.hpp"
+#include "harness/store/rename_file.hpp"
 #include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
@@ -47,8 +47,7 @@ constexpr std::pair<const char*, const char*> kDetails[] = {
 
 Database with_tables(const std::filesystem::path& file) {
   Database out(file, Database::Mode::create);
-  out.execute(kSchema);
-  out.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  create_tables(out);
   return out;
 }
 
@@ -227,7 +226,7 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
   const std::filesystem::path partial = out.string() + ".partial";
   std::error_code none;
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path(), none);
-  std::filesystem::remove(partial, none);
+  remove_files_of(partial);
   try {
     Merged merged;
     {
@@ -236,12 +235,13 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
       merged = merge.done();
     }
     require_intact_store(partial);  // detects rows that a damaged index did not find
-    std::filesystem::rename(partial, out);
+    rename_file(partial, out);
     return merged;
   } catch (const std::filesystem::filesystem_error& error) {
+    remove_files_of(partial);
     throw InputError(out.string() + ": cannot be written: " + error.code().message());
   } catch (...) {
-    std::filesystem::remove(partial, none);
+    remove_files_of(partial);
     throw;
   }
 }

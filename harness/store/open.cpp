@@ -11,7 +11,15 @@ std::filesystem::path store_file(const std::filesystem::path& given) {
   if (!std::filesystem::exists(file)) {
     throw InputError(file.string() + ": file not found, expected a store of results");
   }
+  if (!std::filesystem::is_regular_file(file)) {  // SQLite would wait for a pipe
+    throw InputError(file.string() + ": is not a regular file, expected a store of results");
+  }
   return file;
+}
+
+void create_tables(Database& database) {
+  database.execute(kSchema);
+  database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
 }
 
 void check_schema(Database& database, const std::filesystem::path& file) {

@@ -14,6 +14,9 @@ std::filesystem::path store_file(const std::filesystem::path& given);
 /// InputError if it is not a store of this schema.
 Database open_store(const std::filesystem::path& given);
 
+/// Creates the tables of an empty store.
+void create_tables(Database& database);
+
 /// Throws InputError naming `file` if the schema differs from this program's.
 void check_schema(Database& database, const std::filesystem::path& file);
 

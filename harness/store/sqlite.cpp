@@ -55,7 +55,8 @@ void Database::fail(const std::string& doing) const {
   const bool damaged = sqlite3_errcode(handle_.get()) == SQLITE_CORRUPT;
   throw InputError(
       file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()) +
-      (damaged ? "; run its config with --fresh, which keeps it as previous-N.sqlite" : ""));
+      (damaged ? "; 'loopbench salvage' copies its intact cells, and --fresh starts a new store"
+               : ""));
 }
 
 void Statement::expect(int code, const char* doing) const {

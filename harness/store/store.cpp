@@ -6,9 +6,9 @@
 #include "harness/provenance/version.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
+#include "harness/store/made_key.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
-#include "harness/store/schema.hpp"
 #include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
@@ -43,7 +43,7 @@ void set_aside(const std::filesystem::path& file) {
       std::filesystem::rename(file, previous);
     }
     // A log that is left belongs to the moved file and would corrupt the new one.
-    for (const char* tail : {"-wal", "-shm"}) {
+    for (const char* tail : {"-wal", "-shm", "-journal"}) {
       const std::filesystem::path log = file.string() + tail;
       if (std::filesystem::exists(log)) std::filesystem::rename(log, previous.string() + tail);
     }
@@ -52,12 +52,15 @@ void set_aside(const std::filesystem::path& file) {
   }
 }
 
-/// WAL with NORMAL is safe if the process is killed; a power cut can lose the last cells, each
-/// completely. The log is copied into the file every 16 MB, some hundred cells with traces, because
-/// each copy waits for the disk.
+constexpr std::chrono::seconds kSyncInterval{10};
+
+/// See store.hpp for synchronous = NORMAL. The log is copied into the file every 16 MB, some
+/// hundred cells with traces, and at every sync, because each copy waits for the disk.
+/// secure_delete, so that salvage finds no rows of removed cells.
 void make_ready(Database& database) {
   database.execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096; "
+      "PRAGMA secure_delete = ON;");
 }
 
 /// SQLite does not detect that the end of a file is missing.
@@ -69,8 +72,8 @@ void check_size(Database& database, const std::filesystem::path& file) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size >= whole) return;
   throw InputError(fmt::format(
-      "{}: is damaged ({} bytes of {}); --fresh keeps it as previous-N.sqlite and starts "
-      "a new store",
+      "{}: is damaged ({} bytes of {}); 'loopbench salvage' copies its intact cells, and --fresh "
+      "starts a new store",
       file.string(),
       size,
       whole));
@@ -111,13 +114,6 @@ bool is_run_current(Database& database, const CellKeys& keys) {
   };
   return is("config", keys.sweep().text) && is("metrics", keys.metric_definitions()) &&
          is("methods", keys.method_definitions());
-}
-
-/// Provenance of the cells of this run.
-std::string made_key(const std::map<std::string, std::string>& provenance) {
-  Fields fields;
-  for (const auto& [key, value] : provenance) fields.add(key).add(value);
-  return fields.hashed();
 }
 
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
@@ -177,8 +173,7 @@ void Store::create() {
   database_ = std::make_unique<Database>(file_, Database::Mode::create);
   make_ready(*database_);
   Transaction transaction(*database_);
-  database_->execute(kSchema);
-  database_->execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  create_tables(*database_);
   write_run(*database_, keys_);
   update_texts(*database_, "provenance");
   update_sum(*database_, "cell");
@@ -219,6 +214,12 @@ void Store::write(const CellResult& result) {
     writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
   }
   writer_->write(result, keys_);
+  if (std::chrono::steady_clock::now() - synced_ >= kSyncInterval) sync();
+}
+
+void Store::sync() {
+  if (database_) database_->execute("PRAGMA wal_checkpoint(PASSIVE)");
+  synced_ = std::chrono::steady_clock::now();
 }
 
 void Store::changes() {

@@ -4,8 +4,16 @@
 /// `cell` has a row per cell, `score` one per score, `phase`, `count` and `note` the method's
 /// report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each cell is one
 /// transaction, so a killed sweep leaves only complete cells.
+///
+/// Durability: the store is written in WAL mode with `synchronous = NORMAL`. A cell that write()
+/// returned for survives the end of the process in any way. It is on the disk, and survives a power
+/// cut, after the next sync(), which write() calls every 10 s, and after the destructor, so before
+/// `run` reports the end of the sweep. A power cut can lose the cells since the last sync, each
+/// completely; the next `run` recomputes them. It never damages the file, if the disk writes what
+/// it reports as synced. While another program reads the store, syncs can be postponed.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -66,6 +74,9 @@ class Store {
   /// example if the disk is full.
   void write(const CellResult& result);
 
+  /// Waits until all written cells are on the disk. Throws InputError.
+  void sync();
+
   /// Records that all derived files are up to date; reset by the next change.
   void exported();
 
@@ -79,7 +90,8 @@ class Store {
   CellKeys& keys_;
   std::map<std::string, std::string> provenance_;
   bool fresh_;
-  bool empty_ = false;                ///< the file exists, but without tables
+  bool empty_ = false;  ///< the file exists, but without tables
+  std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
   std::unique_ptr<FolderLock> lock_;  // released after the database is closed
   std::unique_ptr<Database> database_;
   std::unique_ptr<Writer> writer_;

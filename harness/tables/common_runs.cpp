@@ -19,22 +19,22 @@ std::string runs_text(const std::set<std::size_t>& runs) {
 
 }  // namespace
 
-std::vector<std::set<std::string>> common_runs(const std::vector<CellRuns>& cells) {
-  std::vector<std::set<std::string>> out(cells.size());
-  std::vector<bool> is_done(cells.size());
-  for (std::size_t first = 0; first < cells.size(); ++first) {
-    if (is_done[first] || cells[first].finished.empty()) continue;
+std::vector<std::set<std::string>> common_runs(const std::vector<EntryRuns>& entries) {
+  std::vector<std::set<std::string>> out(entries.size());
+  std::vector<bool> is_done(entries.size());
+  for (std::size_t first = 0; first < entries.size(); ++first) {
+    if (is_done[first] || entries[first].finished.empty()) continue;
     std::vector<std::size_t> compared{first};
     is_done[first] = true;
-    std::set<std::string> common = cells[first].finished;
+    std::set<std::string> common = entries[first].finished;
     for (std::size_t i = 0; i < compared.size(); ++i) {
-      for (std::size_t other = 0; other < cells.size(); ++other) {
-        if (is_done[other] || cells[other].finished.empty()) continue;
-        if (!intersect(cells[compared[i]].tried, cells[other].tried)) continue;
+      for (std::size_t other = 0; other < entries.size(); ++other) {
+        if (is_done[other] || entries[other].finished.empty()) continue;
+        if (!intersect(entries[compared[i]].tried, entries[other].tried)) continue;
         compared.push_back(other);
         is_done[other] = true;
         std::erase_if(common,
-                      [&](const auto& run) { return !cells[other].finished.contains(run); });
+                      [&](const auto& run) { return !entries[other].finished.contains(run); });
       }
     }
     for (const std::size_t i : compared) out[i] = common;

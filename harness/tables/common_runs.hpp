@@ -1,4 +1,4 @@
-/// Common runs of the cells of a table, so that their averages are comparable.
+/// Common runs of the entries of a table, so that their averages are comparable.
 #pragma once
 
 #include <map>
@@ -8,17 +8,17 @@
 
 namespace loopbench::harness {
 
-/// One cell of a column (or a row) of a table, by names of runs.
-struct CellRuns {
+/// One entry of a column (or a row) of a table, by names of runs.
+struct EntryRuns {
   std::set<std::string> tried;     ///< runs with any outcome
   std::set<std::string> finished;  ///< runs with a number; subset of `tried`
 };
 
-/// Returns for each cell the runs that all cells compared with it have finished. Two cells are
+/// Returns for each entry the runs that all entries compared with it have finished. Two entries are
 /// compared if both finished at least one run and tried a common run, directly or through other
-/// cells. A method that fails everywhere and cells of other sequences therefore do not restrict the
-/// runs. O(cells^2 * runs).
-std::vector<std::set<std::string>> common_runs(const std::vector<CellRuns>& cells);
+/// entries. A method that fails everywhere and entries of other sequences therefore do not restrict
+/// the runs. O(entries^2 * runs).
+std::vector<std::set<std::string>> common_runs(const std::vector<EntryRuns>& entries);
 
 /// Note below a table with means over common runs.
 class CommonRunsNote {

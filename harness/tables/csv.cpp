@@ -1,12 +1,35 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "harness/tables/text.hpp"
+#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 
-std::string quoted(const std::string& text) {
+namespace {
+
+/// Whether a spreadsheet would evaluate the text. Numbers with a sign, also with a unit, and a dash
+/// are no formulas.
+bool is_formula(const std::string& text) {
+  if (text.empty() || text == "-") return false;
+  if (text[0] == '=' || text[0] == '@') return true;
+  if (text[0] != '+' && text[0] != '-') return false;
+  double value = 0.0;
+  const auto [rest, error] =
+      std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), text.data() + text.size(), value);
+  const auto is_unit = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == ' ' || c == '%' || c == '/';
+  };
+  return error != std::errc{} || !std::all_of(rest, text.data() + text.size(), is_unit);
+}
+
+}  // namespace
+
+std::string quoted(const std::string& raw) {
+  const std::string text = (is_formula(raw) ? "'" : "") + printable(raw);
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -25,17 +48,17 @@ std::string csv(const std::vector<Table>& tables) {
   for (const Table& table : tables) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        const TableCell& cell = table.cells[r][c];
-        if (!cell.value && cell.status.empty()) continue;
+        const TableEntry& entry = table.entries[r][c];
+        if (!entry.value && entry.status.empty()) continue;
         out += fmt::format("{},{},{},{},{},{},{},{}\n",
                            quoted(table.title),
                            quoted(table.rows[r]),
                            quoted(table.columns[c]),
-                           cell.value ? fmt::format("{}", *cell.value) : "",
-                           cell.records,
-                           cell.averaged,
-                           cell.value ? "ok" : cell.status,
-                           mark_name(cell.mark));
+                           entry.value ? fmt::format("{}", *entry.value) : "",
+                           entry.records,
+                           entry.averaged,
+                           entry.value ? "ok" : entry.status,
+                           mark_name(entry.mark));
       }
     }
   }
@@ -59,12 +82,12 @@ std::string csv(const std::vector<Record>& records) {
                        r.oracle,
                        quoted(r.protocol),
                        quoted(r.protocol_version),
-                       r.times,
+                       quoted(r.times),
                        quoted(r.metric),
                        quoted(metric_label(r)),
-                       r.relation,
-                       r.axis,
-                       r.unit,
+                       quoted(r.relation),
+                       quoted(r.axis),
+                       quoted(r.unit),
                        to_text(r.better),
                        r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
     // An undefined score has empty fields, not zeros.
@@ -81,7 +104,7 @@ std::string csv(const std::vector<Record>& records) {
                                                              number(s.sse),
                                                              r.pairs,
                                                              r.possible);
-    out += fmt::format("{},{},{}\n", r.milliseconds, r.status, quoted(r.why));
+    out += fmt::format("{},{},{}\n", r.milliseconds, quoted(r.status), quoted(r.why));
   }
   return out;
 }

@@ -10,25 +10,26 @@ std::string json(const std::vector<Table>& tables) {
   const auto replace = Json::error_handler_t::replace;  // names can be invalid UTF-8
   Json out = Json::array();
   for (const Table& table : tables) {
-    Json entry{{"title", table.title},
-               {"row_names", table.corner},
-               {"columns", table.columns},
-               {"rows", table.rows},
-               {"notes", table.notes},
-               {"cells", Json::array()}};
-    for (const auto& row : table.cells) {
+    Json object{{"title", table.title},
+                {"row_names", table.corner},
+                {"columns", table.columns},
+                {"rows", table.rows},
+                {"notes", table.notes},
+                {"cells", Json::array()}};
+    for (const auto& row : table.entries) {
       Json line = Json::array();
-      for (const TableCell& cell : row) {
-        line.push_back({{"value", cell.value ? Json(*cell.value) : Json(nullptr)},
-                        {"records", cell.records},
-                        {"averaged", cell.averaged},
-                        {"possible", std::max(cell.records, cell.possible)},
-                        {"status", cell.value ? "ok" : cell.status},
-                        {"mark", mark_name(cell.mark)}});
+      for (const TableEntry& entry : row) {
+        line.push_back({{"value", entry.value ? Json(*entry.value) : Json(nullptr)},
+                        {"records", entry.records},
+                        {"averaged", entry.averaged},
+                        {"deviation", entry.deviation ? Json(*entry.deviation) : Json(nullptr)},
+                        {"possible", std::max(entry.records, entry.possible)},
+                        {"status", entry.value ? "ok" : entry.status},
+                        {"mark", mark_name(entry.mark)}});
       }
-      entry["cells"].push_back(std::move(line));
+      object["cells"].push_back(std::move(line));
     }
-    out.push_back(std::move(entry));
+    out.push_back(std::move(object));
   }
   return out.dump(2, ' ', false, replace) + "\n";
 }

@@ -7,7 +7,9 @@ namespace {
 
 std::string escaped_latex(const std::string& text) {
   std::string out;
-  for (const char c : one_line(text)) {
+  const std::string line = one_line(text);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
     switch (c) {
       case '\\':
         out += "\\textbackslash{}";
@@ -33,6 +35,14 @@ std::string escaped_latex(const std::string& text) {
       case '[':  // after \\ it would start an optional length
         out += "{[}";
         break;
+      case '\xc2':  // of U+00B1, plus-minus
+        if (line.compare(i, 2, "\u00b1") == 0) {
+          out += "$\\pm$";
+          ++i;
+        } else {
+          out += c;
+        }
+        break;
       default:
         if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) out += '\\';
         out += c;
@@ -51,7 +61,10 @@ std::string marked_latex(const TableViewEntry& entry) {
 }  // namespace
 
 std::string latex(const TableView& table_view) {
-  std::string out = table_view.title.empty() ? "" : "% " + one_line(table_view.title) + "\n";
+  const bool has_caption = !table_view.title.empty();
+  std::string out = has_caption ? "\\begin{table}\n\\centering\n\\caption{" +
+                                      escaped_latex(table_view.title) + "}\n"
+                                : "";
   out += "\\begin{tabular}{l" + std::string(table_view.headings.size() - 1, 'r') + "}\n\\toprule\n";
   for (std::size_t c = 0; c < table_view.headings.size(); ++c) {
     out += (c == 0 ? "" : " & ") + escaped_latex(table_view.headings[c]);
@@ -63,6 +76,7 @@ std::string latex(const TableView& table_view) {
     out += " \\\\\n";
   }
   out += "\\bottomrule\n\\end{tabular}\n";
+  if (has_caption) out += "\\end{table}\n";
   for (const std::string& note : table_view.notes) out += "% " + one_line(note) + "\n";
   return out;
 }

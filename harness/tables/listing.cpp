@@ -11,9 +11,9 @@ namespace {
 
 std::string escaped_cell(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : one_line(text)) {
     if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
+    out += c;
   }
   return out;
 }
@@ -38,7 +38,7 @@ std::string markdown(const TextTable& listing) {
     }
     return out + "\n";
   };
-  std::string out = "### " + listing.title + "\n\n" + line(listing.columns) + "|";
+  std::string out = "### " + one_line(listing.title) + "\n\n" + line(listing.columns) + "|";
   for (std::size_t c = 0; c < widths.size(); ++c) {
     out += c == 0 ? fmt::format(" {:-<{}} |", "", widths[c])
                   : fmt::format(" {:-<{}}: |", "", widths[c] - 1);
@@ -46,7 +46,7 @@ std::string markdown(const TextTable& listing) {
   out += "\n";
   for (const auto& row : listing.rows) out += line(row);
   if (!listing.notes.empty()) out += "\n";
-  for (const std::string& note : listing.notes) out += "- " + note + "\n";
+  for (const std::string& note : listing.notes) out += "- " + one_line(note) + "\n";
   return out;
 }
 

@@ -58,7 +58,7 @@ Marks mark_best(const MarkInput& input, const RankingOptions& options) {
   if (all.entries.size() < 2 || all.groups == 0) return out;
   const Ranking ranking = rank_methods(all.values, options);
   if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
-    out.why_none = fmt::format("{} independent run{} per cell cannot prove a difference at {:g}",
+    out.why_none = fmt::format("{} independent run{} per entry cannot prove a difference at {:g}",
                                all.groups,
                                all.groups == 1 ? "" : "s",
                                options.alpha);

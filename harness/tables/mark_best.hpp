@@ -15,7 +15,7 @@ enum class Mark { none, second, best };
 /// "best", "second" or "".
 const char* mark_name(Mark mark);
 
-/// The values of one cell by run; nullopt if the method failed.
+/// The values of one entry by run; nullopt if the method failed.
 using ByRun = std::map<std::string, std::optional<double>>;
 
 /// Input of the comparison for marks.

@@ -57,7 +57,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::string own = kind(record);
   if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
       other != own) {
-    throw InputError("a cell of this table would average '" + other + "' with '" + own +
+    throw InputError("an entry of this table would average '" + other + "' with '" + own +
                      "'; add the column in which they differ");
   }
   table.tried[{row, column}].insert(run_key(record));
@@ -79,20 +79,20 @@ void mark(Table& out,
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const std::vector<TablePosition> cells = cell_indices(table, l, along_columns);
-    const MarkInput all = mark_input(table, cells, along_columns);
+    const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
+    const MarkInput all = mark_input(table, entries, along_columns);
     const Marks marks = all.better == metrics::Better::neither
-                            ? Marks{std::vector<Mark>(cells.size(), Mark::none), ""}
+                            ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      TableCell& cell = out.cells[cells[i].first][cells[i].second];
-      cell.mark = marks.marks[i];
-      is_marked = is_marked || cell.mark != Mark::none;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      TableEntry& entry = out.entries[entries[i].first][entries[i].second];
+      entry.mark = marks.marks[i];
+      is_marked = is_marked || entry.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
       const std::size_t most = possible(all, i);
-      if (cell.records > 0 && values < most) cell.possible = cell.records + most - values;
+      if (entry.records > 0 && values < most) entry.possible = entry.records + most - values;
     }
   }
   if (is_marked) {
@@ -106,15 +106,16 @@ void mark(Table& out,
 }
 
 /// Adds a note on how the numbers were averaged.
-void explain_averages(Table& out, const TableNumbers& table) {
+void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const auto& [cell_index, numbers] : table.numbers) {
+  for (const auto& [entry_index, numbers] : table.numbers) {
     most = std::max(most, numbers.averaged());
     has_gain = has_gain || numbers.is_gain();
   }
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
+  if (spec.plus_minus) text += ", \u00b1 their standard deviation";
   if (has_gain) text += "; gain is 1 - the geometric mean ratio to the baseline";
   out.notes.insert(out.notes.begin(), text);
 }
@@ -144,10 +145,10 @@ Table finish(TableNumbers& table,
     const std::string text = keep_common_runs(table, along_columns);
     if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
-  explain_averages(out, table);
+  explain_averages(out, table, spec);
   for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
   for (std::size_t r = 0; r < out.rows.size(); ++r) {
-    std::vector<TableCell> line(out.columns.size());
+    std::vector<TableEntry> line(out.columns.size());
     for (std::size_t c = 0; c < out.columns.size(); ++c) {
       if (const auto row = table.row_status.find(r); row != table.row_status.end()) {
         line[c].status = row->second;
@@ -158,11 +159,12 @@ Table finish(TableNumbers& table,
       const auto found = table.numbers.find({r, c});
       if (found == table.numbers.end()) continue;
       line[c].value = found->second.average();
+      if (spec.plus_minus) line[c].deviation = found->second.deviation();
       line[c].records = found->second.size();
       line[c].averaged = found->second.averaged();
       if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";
     }
-    out.cells.push_back(std::move(line));
+    out.entries.push_back(std::move(line));
   }
   if (down_columns) mark(out, table, true, options);
   if (along_rows) mark(out, table, false, options);

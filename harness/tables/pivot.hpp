@@ -11,15 +11,17 @@
 
 namespace loopbench::harness {
 
-/// Status of a cell without a run that all cells compared with it have finished.
+/// Status of an entry without a run that all entries compared with it have finished.
 inline constexpr const char* kNoCommonRun = "no common run";
 
-/// One cell of a table: the mean over its records. If the cells of several methods finished
+/// One entry of a table: the mean over its records. If the entries of several methods finished
 /// different runs, the mean is over the runs that all of them finished.
-struct TableCell {
+struct TableEntry {
   std::optional<double> value = {};
+  std::optional<double> deviation =
+      {};                    ///< sample standard deviation; set by TableSpec::plus_minus
   std::size_t records = 0;   ///< records with a number (repeats, for example)
-  std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
+  std::size_t averaged = 0;  ///< of these, those on runs that all compared entries finished
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
   Mark mark = Mark::none;    ///< proven best or second best of its column or row
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
@@ -30,17 +32,17 @@ struct Table {
   std::string corner;                ///< names of the row columns
   std::vector<std::string> columns;  ///< with unit
   std::vector<std::string> rows;
-  std::vector<std::vector<TableCell>> cells;  ///< [row][column]
-  std::vector<std::string> notes;             ///< reasons for missing values, oracle flags
+  std::vector<std::vector<TableEntry>> entries;  ///< [row][column]
+  std::vector<std::string> notes;                ///< reasons for missing values, oracle flags
 };
 
 /// If the rows are methods, marks the best value of each column (see mark_best.hpp); if the columns
-/// are methods, that of each row. Cells with fewer runs than others state their number; means are
+/// are methods, that of each row. Entries with fewer runs than others state their number; means are
 /// then over common runs (common_runs.hpp), and a note reports it. Gains are averaged as geometric
 /// means of the ratios. Several protocols always result in separate tables. Rows, columns and
 /// tables are in order of first appearance in the records. Throws InputError for an unknown column
-/// or statistic, and if a cell would average different scores (rotation with translation, keyframes
-/// with dense). O(n log n).
+/// or statistic, and if an entry would average different scores (rotation with translation,
+/// keyframes with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
                          const RankingOptions& options = {});

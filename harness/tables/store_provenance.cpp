@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "harness/store/read.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -74,11 +75,8 @@ std::string with_provenance(const StoreProvenance& provenance,
 
 std::string provenance_lines(const StoreProvenance& provenance, const std::string& mark) {
   std::string out;
-  for (std::string line : provenance_entries(provenance)) {
-    for (char& c : line) {
-      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    }
-    out += mark + line + "\n";
+  for (const std::string& line : provenance_entries(provenance)) {
+    out += mark + one_line(line) + "\n";
   }
   return out;
 }

@@ -5,23 +5,23 @@
 namespace loopbench::harness {
 namespace {
 
-/// Runs that the cells of a column (or a row) tried and finished.
-std::vector<CellRuns> cell_runs(const TableNumbers& table,
-                                const std::vector<TablePosition>& cell_indices,
-                                bool along_columns) {
-  std::vector<CellRuns> out;
-  for (const TablePosition& cell_index : cell_indices) {
-    CellRuns& own = out.emplace_back();
-    const auto found = table.numbers.find(cell_index);
+/// Runs that the entries of a column (or a row) tried and finished.
+std::vector<EntryRuns> entry_runs(const TableNumbers& table,
+                                  const std::vector<TablePosition>& entry_indices,
+                                  bool along_columns) {
+  std::vector<EntryRuns> out;
+  for (const TablePosition& entry_index : entry_indices) {
+    EntryRuns& own = out.emplace_back();
+    const auto found = table.numbers.find(entry_index);
     if (found == table.numbers.end()) continue;
     own.finished = found->second.finished();
-    own.tried = table.tried.at(cell_index);
+    own.tried = table.tried.at(entry_index);
     const auto add = [&](const auto& losses, const auto& key) {
       if (const auto lost = losses.find(key); lost != losses.end()) {
         own.tried.insert(lost->second.begin(), lost->second.end());
       }
     };
-    if (along_columns) add(table.lost_by_row, cell_index.first);
+    if (along_columns) add(table.lost_by_row, entry_index.first);
     if (!along_columns) add(table.lost_by_method, found->second.method());
   }
   return out;
@@ -29,9 +29,9 @@ std::vector<CellRuns> cell_runs(const TableNumbers& table,
 
 }  // namespace
 
-std::vector<TablePosition> cell_indices(const TableNumbers& table,
-                                        std::size_t index,
-                                        bool along_columns) {
+std::vector<TablePosition> entry_indices(const TableNumbers& table,
+                                         std::size_t index,
+                                         bool along_columns) {
   const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
   std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
@@ -41,13 +41,13 @@ std::vector<TablePosition> cell_indices(const TableNumbers& table,
 }
 
 MarkInput mark_input(const TableNumbers& table,
-                     const std::vector<TablePosition>& cells,
+                     const std::vector<TablePosition>& entries,
                      bool along_columns) {
   MarkInput out{{}, table.groups, metrics::Better::neither, 0.0};
   std::set<std::string> runs;
-  for (const TablePosition& cell_index : cells) {
+  for (const TablePosition& entry_index : entries) {
     ByRun& own = out.competitors.emplace_back();
-    const auto found = table.numbers.find(cell_index);
+    const auto found = table.numbers.find(entry_index);
     if (found == table.numbers.end() || found->second.runs().empty()) continue;
     own = found->second.runs();
     out.better = found->second.better();
@@ -61,12 +61,12 @@ MarkInput mark_input(const TableNumbers& table,
       if (runs.contains(run)) own.emplace(run, std::nullopt);
     }
   };
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     ByRun& own = out.competitors[i];
     if (own.empty()) continue;
-    lose(own, table.lost, cells[i]);
-    if (along_columns) lose(own, table.lost_by_row, cells[i].first);
-    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(cells[i]).method());
+    lose(own, table.lost, entries[i]);
+    if (along_columns) lose(own, table.lost_by_row, entries[i].first);
+    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(entries[i]).method());
   }
   return out;
 }
@@ -75,11 +75,11 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   const std::vector<std::string> names = (along_columns ? table.columns : table.rows).names();
   CommonRunsNote note;
   for (std::size_t l = 0; l < names.size(); ++l) {
-    const std::vector<TablePosition> lane_places = cell_indices(table, l, along_columns);
-    const std::vector<CellRuns> cells = cell_runs(table, lane_places, along_columns);
-    const auto common = common_runs(cells);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (cells[i].finished == common[i]) continue;
+    const std::vector<TablePosition> lane_places = entry_indices(table, l, along_columns);
+    const std::vector<EntryRuns> entries = entry_runs(table, lane_places, along_columns);
+    const auto common = common_runs(entries);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].finished == common[i]) continue;
       note.add(names[l], common[i].size());
       table.numbers.at(lane_places[i]).keep(common[i]);
     }

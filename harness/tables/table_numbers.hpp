@@ -1,4 +1,4 @@
-/// Numbers of a table before averaging, and the comparisons between its cells.
+/// Numbers of a table before averaging, and the comparisons between its entries.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/compare/name_order.hpp"
-#include "harness/tables/cell_numbers.hpp"
+#include "harness/tables/entry_numbers.hpp"
 #include "harness/tables/error_counts.hpp"
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
@@ -22,8 +22,8 @@ using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 struct TableNumbers {
   NameOrder rows;
   NameOrder columns;
-  std::map<TablePosition, CellNumbers> numbers;
-  std::map<TablePosition, std::string> status;  // of cells with a record that has no value
+  std::map<TablePosition, EntryNumbers> numbers;
+  std::map<TablePosition, std::string> status;  // of entries with a record that has no value
   std::map<TablePosition, std::string> kinds;
   std::map<TablePosition, std::set<std::string>> tried;      // runs with a score of any status
   std::map<TablePosition, std::set<std::string>> lost;       // runs on which a score failed
@@ -41,18 +41,18 @@ struct TableNumbers {
   }
 };
 
-/// The cells of one column (or row).
-std::vector<TablePosition> cell_indices(const TableNumbers& table,
-                                        std::size_t index,
-                                        bool along_columns);
+/// The entries of one column (or row).
+std::vector<TablePosition> entry_indices(const TableNumbers& table,
+                                         std::size_t index,
+                                         bool along_columns);
 
-/// The cells of a column (or a row) that compete, with the runs on which they failed.
+/// The entries of a column (or a row) that compete, with the runs on which they failed.
 MarkInput mark_input(const TableNumbers& table,
-                     const std::vector<TablePosition>& cells,
+                     const std::vector<TablePosition>& entries,
                      bool along_columns);
 
-/// Restricts means to runs that all cells compared with them finished. Returns the note about it;
-/// empty if all cells finished the same runs.
+/// Restricts means to runs that all entries compared with them finished. Returns the note about it;
+/// empty if all entries finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
 
 /// Maximum number of runs for the mean of competitor `i`: those of all competitors that have a run

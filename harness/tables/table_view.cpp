@@ -5,26 +5,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/text/printable.hpp"
+#include "harness/text/wrap.hpp"
+
 namespace loopbench::harness {
 namespace {
 
-std::string shown(const TableCell& cell, int digits) {
+std::string shown(const TableEntry& entry, int digits) {
   const std::string over =
-      cell.possible == 0 ? "" : fmt::format(" ({} of {})", cell.records, cell.possible);
-  if (cell.value) return fixed(*cell.value, digits) + over;
-  if (cell.status == kNoCommonRun) return "-" + over;
-  return cell.status.empty() ? "-" : cell.status;
+      entry.possible == 0 ? "" : fmt::format(" ({} of {})", entry.records, entry.possible);
+  const std::string deviation = entry.deviation ? " \u00b1 " + fixed(*entry.deviation, digits) : "";
+  if (entry.value) return fixed(*entry.value, digits) + deviation + over;
+  if (entry.status == kNoCommonRun) return "-" + over;
+  return entry.status.empty() ? "-" : entry.status;
 }
 
 int digits_of(const Table& table, std::size_t column) {
   double largest = 0.0;
   bool all_integers = true;
-  for (const auto& row : table.cells) {
+  for (const auto& row : table.entries) {
     const double value = row[column].value.value_or(0.0);
     largest = std::max(largest, std::abs(value));
     all_integers = all_integers && value == std::round(value);
   }
   return all_integers && largest > 0.0 ? 0 : decimals(largest);
+}
+
+/// All columns if none has a value.
+std::vector<std::size_t> columns_with_values(const Table& table) {
+  std::vector<std::size_t> out;
+  std::vector<std::size_t> all;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    all.push_back(c);
+    const auto has_value = [&](const auto& row) { return row[c].value.has_value(); };
+    if (std::ranges::any_of(table.entries, has_value)) out.push_back(c);
+  }
+  return out.empty() ? all : out;
 }
 
 }  // namespace
@@ -43,21 +59,16 @@ std::string fixed(double value, int digits) {
 
 TableView table_view(const Table& table) {
   TableView out{table.title, {table.corner}, {}, table.notes};
-  for (const std::string& column : table.columns) out.headings.push_back(column);
   for (const std::string& row : table.rows) out.lines.push_back({{row, Mark::none}});
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+  for (const std::size_t c : columns_with_values(table)) {
+    out.headings.push_back(table.columns[c]);
     const int digits = digits_of(table, c);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      const TableCell& cell = table.cells[r][c];
-      out.lines[r].push_back({shown(cell, digits), cell.mark});
+      const TableEntry& entry = table.entries[r][c];
+      out.lines[r].push_back({shown(entry, digits), entry.mark});
     }
   }
   return out;
-}
-
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
 std::string padded(const std::string& text, std::size_t columns, bool left) {
@@ -70,7 +81,7 @@ std::string one_line(const std::string& text) {
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  return out;
+  return printable(out);
 }
 
 std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& lines) {

@@ -22,28 +22,35 @@ struct TableView {
   std::vector<std::string> notes;                  ///< one per line, below the table
 };
 
+/// Properties of the terminal that a table is printed on.
+struct TerminalStyle {
+  std::size_t width = 0;  ///< in characters; 0: unlimited
+  bool color = false;     ///< whether escape sequences for bold and colour are allowed
+};
+
 /// Number of decimals of a column: four significant digits for its largest value.
 int decimals(double largest);
 
 /// `value` with that many decimals; -0.00 is printed as 0.00.
 std::string fixed(double value, int digits);
 
-/// Formats a table's numbers with the decimals of each column.
+/// Formats a table's numbers with the decimals of each column, with the standard deviation of each
+/// mean if the table has them. Columns without any value are left out if others have values: the
+/// notes contain the reasons.
 TableView table_view(const Table& table);
 
 /// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
 /// Markdown and HTML markup is escaped.
 std::string markdown(const TableView& table_view);
 
-/// Aligned columns without markup: `*` after the best, `+` after the second best.
-std::string terminal(const TableView& table_view);
+/// Aligned columns without markup: `*` after the best, `+` after the second best. If the table is
+/// wider than the terminal, headings are broken into lines, row names shortened, and the columns
+/// distributed over several blocks that each repeat the row names. Notes are wrapped.
+std::string terminal(const TableView& table_view, const TerminalStyle& style = {});
 
-/// A booktabs tabular with its caption and notes as comments. Best in bold, second best underlined.
-/// Escaped; needs \usepackage{booktabs} and UTF-8.
+/// A booktabs tabular, in a table with a caption if it has a title; notes as comments. Best in
+/// bold, second best underlined. Escaped; needs \usepackage{booktabs} and UTF-8.
 std::string latex(const TableView& table_view);
-
-/// Width on a terminal: code points, not bytes.
-std::size_t width(const std::string& text);
 
 /// Padded with spaces to that width.
 std::string padded(const std::string& text, std::size_t columns, bool left);

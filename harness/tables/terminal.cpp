@@ -1,48 +1,161 @@
+#include <algorithm>
+
 #include "harness/tables/table_view.hpp"
+#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
+namespace {
 
-std::string terminal(const TableView& table_view) {
-  std::vector<std::vector<std::string>> grid(1);
-  for (const std::string& heading : table_view.headings) grid[0].push_back(one_line(heading));
-  for (const auto& line : table_view.lines) {
-    grid.emplace_back();
-    for (const TableViewEntry& entry : line) {
-      grid.back().push_back(one_line(entry.text) + (entry.mark == Mark::best     ? "*"
-                                                    : entry.mark == Mark::second ? "+"
-                                                                                 : ""));
-    }
-  }
-  // The mark has its own column, so that digits are aligned.
-  for (std::size_t c = 1; c < table_view.headings.size(); ++c) {
+using Lines = std::vector<std::string>;
+
+constexpr std::size_t kGap = 2;  ///< spaces between columns
+
+/// One column of a table as printed: its heading in lines, and one text per row.
+struct PrintedColumn {
+  Lines heading;
+  Lines entries;
+  std::vector<Mark> marks;
+  std::size_t wide = 3;
+};
+
+std::size_t widest(const Lines& texts, std::size_t least) {
+  for (const std::string& text : texts) least = std::max(least, width(text));
+  return least;
+}
+
+std::vector<PrintedColumn> columns_of(const TableView& view) {
+  std::vector<PrintedColumn> out;
+  for (std::size_t c = 0; c < view.headings.size(); ++c) {
+    PrintedColumn& column = out.emplace_back();
+    column.heading = {one_line(view.headings[c])};
     bool has_mark = false;
-    for (const auto& line : table_view.lines) has_mark = has_mark || line[c].mark != Mark::none;
-    if (!has_mark) continue;
-    grid[0][c] += " ";
-    for (std::size_t r = 0; r < table_view.lines.size(); ++r) {
-      if (table_view.lines[r][c].mark == Mark::none) grid[r + 1][c] += " ";
+    for (const auto& line : view.lines) has_mark = has_mark || line[c].mark != Mark::none;
+    for (const auto& line : view.lines) {
+      // The mark has its own column, so that digits are aligned.
+      const char* sign = line[c].mark == Mark::best     ? "*"
+                         : line[c].mark == Mark::second ? "+"
+                         : has_mark && c > 0            ? " "
+                                                        : "";
+      column.entries.push_back(one_line(line[c].text) + sign);
+      column.marks.push_back(line[c].mark);
     }
+    if (has_mark && c > 0) column.heading[0] += " ";
+    column.wide = widest(column.entries, widest(column.heading, 3));
   }
-  const std::vector<std::size_t> wide = widths(grid);
-  std::string out = table_view.title.empty() ? "" : one_line(table_view.title) + "\n";
-  const auto trimmed = [](std::string line) {
-    line.erase(line.find_last_not_of(' ') + 1);
-    return line + "\n";
-  };
-  for (std::size_t r = 0; r < grid.size(); ++r) {
+  return out;
+}
+
+std::size_t total_width(const std::vector<PrintedColumn>& columns) {
+  std::size_t out = 0;
+  for (const PrintedColumn& column : columns) out += (out == 0 ? 0 : kGap) + column.wide;
+  return out;
+}
+
+/// Breaks headings that are wider than the entries below them and than `narrowest`.
+void break_headings(std::vector<PrintedColumn>& columns, std::size_t narrowest) {
+  for (PrintedColumn& column : columns) {
+    const std::size_t body = widest(column.entries, 3);
+    const bool has_mark_column = column.heading[0].ends_with(' ');
+    std::string heading;
+    for (const std::string& line : column.heading) heading += (heading.empty() ? "" : " ") + line;
+    Lines lines = wrapped(heading, std::max(body, narrowest));
+    for (std::string& line : lines) {
+      while (line.ends_with(' ')) line.pop_back();
+      if (has_mark_column) line += ' ';
+    }
+    column.heading = lines;
+    column.wide = widest(lines, body);
+  }
+}
+
+void shorten_names(PrintedColumn& names, std::size_t columns) {
+  for (std::string& name : names.entries) name = shortened(name, columns);
+  for (std::string& line : names.heading) line = shortened(line, columns);
+  names.wide = widest(names.entries, widest(names.heading, 3));
+}
+
+/// Indices of the columns of each block; every block starts with the names.
+std::vector<std::vector<std::size_t>> blocks(const std::vector<PrintedColumn>& columns,
+                                             std::size_t limit) {
+  std::vector<std::vector<std::size_t>> out{{0}};
+  std::size_t used = columns[0].wide;
+  for (std::size_t c = 1; c < columns.size(); ++c) {
+    if (limit > 0 && used + kGap + columns[c].wide > limit && out.back().size() > 1) {
+      out.push_back({0});
+      used = columns[0].wide;
+    }
+    out.back().push_back(c);
+    used += kGap + columns[c].wide;
+  }
+  return out;
+}
+
+std::string colored(const std::string& text, Mark mark, bool color) {
+  if (!color || mark == Mark::none) return text;
+  const std::size_t begin = text.find_first_not_of(' ');
+  const std::string code = mark == Mark::best ? "\033[1;32m" : "\033[32m";
+  return text.substr(0, begin) + code + text.substr(begin) + "\033[0m";
+}
+
+void add_line(std::string& out, std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  out += line + "\n";
+}
+
+std::string block_text(const std::vector<PrintedColumn>& columns,
+                       const std::vector<std::size_t>& shown,
+                       bool color) {
+  std::string out;
+  const std::string gap(kGap, ' ');
+  std::size_t heading_lines = 1;
+  for (const std::size_t c : shown)
+    heading_lines = std::max(heading_lines, columns[c].heading.size());
+  for (std::size_t l = 0; l < heading_lines; ++l) {
     std::string line;
-    for (std::size_t c = 0; c < grid[r].size(); ++c) {
-      line += (c == 0 ? "" : "  ") + padded(grid[r][c], wide[c], c == 0);
+    for (const std::size_t c : shown) {
+      const Lines& heading = columns[c].heading;
+      const std::size_t empty = heading_lines - heading.size();  // headings end at the rule
+      line += (c == 0 ? "" : gap) +
+              padded(l < empty ? "" : heading[l - empty], columns[c].wide, c == 0);
     }
-    out += trimmed(line);
-    if (r > 0) continue;
-    std::string rule;
-    for (std::size_t c = 0; c < wide.size(); ++c) {
-      rule += (c == 0 ? "" : "  ") + std::string(wide[c], '-');
-    }
-    out += rule + "\n";
+    add_line(out, line);
   }
-  for (const std::string& note : table_view.notes) out += one_line(note) + "\n";
+  std::string rule;
+  for (const std::size_t c : shown) rule += (c == 0 ? "" : gap) + std::string(columns[c].wide, '-');
+  add_line(out, rule);
+  for (std::size_t r = 0; r < columns[0].entries.size(); ++r) {
+    std::string line;
+    for (const std::size_t c : shown) {
+      const std::string text = padded(columns[c].entries[r], columns[c].wide, c == 0);
+      line += (c == 0 ? "" : gap) + colored(text, columns[c].marks[r], color);
+    }
+    add_line(out, line);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string terminal(const TableView& table_view, const TerminalStyle& style) {
+  std::vector<PrintedColumn> columns = columns_of(table_view);
+  const auto is_too_wide = [&] { return style.width > 0 && total_width(columns) > style.width; };
+  for (const std::size_t narrowest : {9UL, 4UL}) {
+    if (is_too_wide()) break_headings(columns, narrowest);
+  }
+  if (is_too_wide()) shorten_names(columns[0], std::max<std::size_t>(12, style.width / 2));
+  std::string out;
+  for (const std::string& line : wrapped(one_line(table_view.title), style.width)) {
+    if (!line.empty()) out += style.color ? "\033[1m" + line + "\033[0m\n" : line + "\n";
+  }
+  const auto parts = blocks(columns, style.width);
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    out += (b == 0 ? "" : "\n") + block_text(columns, parts[b], style.color);
+  }
+  for (const std::string& note : table_view.notes) {
+    const Lines lines =
+        wrapped(one_line(note), style.width == 0 ? 0 : std::max<std::size_t>(20, style.width - 2));
+    for (std::size_t l = 0; l < lines.size(); ++l) add_line(out, (l == 0 ? "" : "  ") + lines[l]);
+  }
   return out;
 }
 

@@ -9,7 +9,9 @@
 
 namespace loopbench::harness {
 
-/// A CSV field, quoted if necessary (RFC 4180).
+/// A CSV field, quoted if necessary (RFC 4180). Control characters and bytes that are not UTF-8 are
+/// escaped as by printable(). A text that a spreadsheet would evaluate (it begins with = or @, or
+/// with + or - and is no number) gets a leading apostrophe, which spreadsheets hide.
 std::string quoted(const std::string& text);
 
 std::string markdown(const Table& table);

@@ -1,14 +1,10 @@
 #include "harness/text/hash.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <bit>
 #include <cstring>
+#include <vector>
 
-#include "datasets/core/error.hpp"
+#include "datasets/formats/regular_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -29,57 +25,59 @@ std::uint64_t finished(std::uint64_t k) {
   return k ^ (k >> 33);
 }
 
+/// The state between blocks of 16 bytes.
+struct Murmur {
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+  std::uint64_t size = 0;
+
+  /// Returns the bytes that do not fill a block.
+  std::string_view add(std::string_view bytes) {
+    size += bytes.size();
+    for (; bytes.size() >= 16; bytes.remove_prefix(16)) {
+      std::uint64_t block[2];
+      std::memcpy(block, bytes.data(), sizeof block);
+      low = (std::rotl(low ^ first_mixed(block[0]), 27) + high) * 5 + 0x52dce729;
+      high = (std::rotl(high ^ second_mixed(block[1]), 31) + low) * 5 + 0x38495ab5;
+    }
+    return bytes;
+  }
+
+  Hash finish(std::string_view tail) {
+    std::uint64_t rest[2] = {0, 0};
+    if (!tail.empty()) std::memcpy(rest, tail.data(), tail.size());
+    high ^= second_mixed(rest[1]);  // no effect without remaining bytes
+    low ^= first_mixed(rest[0]);
+    low ^= size;
+    high ^= size;
+    low += high;
+    high += low;
+    low = finished(low);
+    high = finished(high);
+    low += high;
+    high += low;
+    return {low, high};
+  }
+};
+
 }  // namespace
 
 Hash hash_of(std::string_view bytes, std::uint32_t seed) {
-  std::uint64_t low = seed;
-  std::uint64_t high = seed;
-  std::size_t at = 0;
-  for (; at + 16 <= bytes.size(); at += 16) {
-    std::uint64_t block[2];
-    std::memcpy(block, bytes.data() + at, sizeof block);
-    low = (std::rotl(low ^ first_mixed(block[0]), 27) + high) * 5 + 0x52dce729;
-    high = (std::rotl(high ^ second_mixed(block[1]), 31) + low) * 5 + 0x38495ab5;
-  }
-  std::uint64_t rest[2] = {0, 0};
-  if (at < bytes.size()) std::memcpy(rest, bytes.data() + at, bytes.size() - at);
-  high ^= second_mixed(rest[1]);  // no effect without remaining bytes
-  low ^= first_mixed(rest[0]);
-  low ^= bytes.size();
-  high ^= bytes.size();
-  low += high;
-  high += low;
-  low = finished(low);
-  high = finished(high);
-  low += high;
-  high += low;
-  return {low, high};
+  Murmur murmur{.low = seed, .high = seed};
+  return murmur.finish(murmur.add(bytes));
 }
 
 Hash hash_of_file(const std::filesystem::path& file) {
-  const auto refuse = [&] {
-    return InputError(file.string() + ": cannot be read: " + std::strerror(errno));
-  };
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw refuse();
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0 || S_ISDIR(status.st_mode)) {
-    if (S_ISDIR(status.st_mode)) errno = EISDIR;
-    const InputError error = refuse();
-    close(descriptor);
-    throw error;
+  RegularFile in(file, "file");
+  std::vector<char> block(std::size_t{1} << 20);  // a multiple of 16; only the last is shorter
+  Murmur murmur;
+  std::string_view tail;
+  for (bool is_last = false; !is_last;) {
+    tail = {block.data(), in.read(block.data(), block.size())};
+    is_last = tail.size() < block.size();
+    tail = murmur.add(tail);
   }
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size == 0) {
-    close(descriptor);
-    return hash_of("");
-  }
-  void* bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  close(descriptor);
-  if (bytes == MAP_FAILED) throw refuse();
-  const Hash out = hash_of({static_cast<const char*>(bytes), size});
-  munmap(bytes, size);
-  return out;
+  return murmur.finish(tail);
 }
 
 std::string hex(const Hash& hash) {

@@ -20,7 +20,8 @@ struct Hash {
 /// Hash of the bytes. O(n), some gigabytes per second.
 Hash hash_of(std::string_view bytes, std::uint32_t seed = 0);
 
-/// Hash of a file, always read completely, since date and size are not reliable. Throws InputError.
+/// Hash of a regular file, always read completely, since date and size are not reliable. Throws
+/// InputError.
 Hash hash_of_file(const std::filesystem::path& file);
 
 /// 32 lower-case hexadecimal digits.

@@ -43,4 +43,14 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+std::size_t first_unprintable(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size() && text[at] != '\n') {
+    const std::size_t size = shown_bytes(text.substr(at));
+    if (size == 0) break;
+    at += size;
+  }
+  return at;
+}
+
 }  // namespace loopbench::harness

@@ -1,4 +1,4 @@
-/// Atomic writing of files.
+/// Output files of commands.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,14 @@ bool is_dash(const std::filesystem::path& file);
 /// Throws InputError if `option` is a dash but needs a folder or a database.
 void reject_standard_output(const std::string& option, const std::filesystem::path& file);
 
-/// Writes a temporary file and renames it, so that readers never see a partial file; creates
-/// missing folders. Follows symbolic links. Writes into an existing file that is not a regular file
-/// (a pipe, a device, this process's standard output) instead of replacing it; "-" is standard
-/// output. Throws InputError if the folder or file cannot be written, or if `file` is a folder.
+/// Writes a file that the user names: replace_file() with Target::named, so symbolic links are
+/// followed; "-" is standard output. Creates missing folders. Throws InputError.
 void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// Writes a file whose name the program chooses, in a folder of results: replace_file() with
+/// Target::own, so a symbolic link of that name is replaced. Creates missing folders. Throws
+/// InputError.
+void write_result(const std::filesystem::path& file, const std::string& text);
 
 /// Throws InputError if `file` is one of `inputs`, under any name. A missing file is none of them.
 void reject_overwriting(const std::vector<std::filesystem::path>& inputs,

@@ -31,7 +31,9 @@ namespace loopbench::methods {
 /// estimated from the loops (variance_components.hpp).
 ///
 /// Odometry edges must join all neighbouring keyframes. Full information matrices are used.
-/// Source: generalised least squares with few constraints; design notes, methods 2.10.
+/// Source: generalised least squares with few constraints. With the gaps c of the closures, their
+/// Jacobian G by the errors of the edges, and the covariances S (odometry) and S_L (closures), a
+/// step solves (G S G^T + S_L) lambda = c and sets the errors of the edges to -S G^T lambda.
 class Dual final : public Corrector {
  public:
   enum class Start { automatic, keyframes };

@@ -20,11 +20,11 @@ inline auto choices(StepWeights) {
 
 /// Steps that a loop may change when it overlaps an earlier loop.
 enum class LoopOverlap {
-  whole,  ///< all its steps; earlier loops that it overlaps are no longer closed
-  open,   ///< only steps that no earlier loop encloses; every loop stays closed
+  all,   ///< all its steps; earlier loops that it overlaps are no longer closed
+  open,  ///< only steps that no earlier loop encloses; every loop stays closed
 };
 inline auto choices(LoopOverlap) {
-  return std::array{std::pair{"whole", LoopOverlap::whole}, std::pair{"open", LoopOverlap::open}};
+  return std::array{std::pair{"all", LoopOverlap::all}, std::pair{"open", LoopOverlap::open}};
 }
 
 /// Returns the share of each step, >= 0. shares[i] belongs to the step from keyframe i - 1 to i;

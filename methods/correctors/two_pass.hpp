@@ -26,7 +26,7 @@ class TwoPass final : public Corrector {
   struct Options {
     StepWeights rotation_weights = StepWeights::index;
     StepWeights translation_weights = StepWeights::index;
-    LoopOverlap overlap = LoopOverlap::whole;
+    LoopOverlap overlap = LoopOverlap::all;
     bool scale = true;
   };
   explicit TwoPass(const Options& options) : options_(options) {}

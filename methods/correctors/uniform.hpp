@@ -27,7 +27,7 @@ class Uniform final : public Corrector {
   struct Options {
     RotationMode rotation = RotationMode::slerp;
     StepWeights weights = StepWeights::index;
-    LoopOverlap overlap = LoopOverlap::whole;
+    LoopOverlap overlap = LoopOverlap::all;
   };
   explicit Uniform(const Options& options) : options_(options) {}
 
@@ -56,7 +56,7 @@ void fields(Uniform::Options& o, Visit visit) {
   visit("weights", o.weights, "weights of the steps: equal, duration, distance or rotation angle");
   visit("overlap",
         o.overlap,
-        "steps that a loop changes; whole: all its steps, which reopens earlier loops it overlaps; "
+        "steps that a loop changes; all: all its steps, which reopens earlier loops it overlaps; "
         "open: only steps that no earlier loop encloses, so every loop stays closed");
 }
 

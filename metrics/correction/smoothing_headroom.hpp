@@ -29,7 +29,7 @@ void fields(SmoothingHeadroomOptions& o, Visit visit) {
 /// `sharp` removes exactly the periods below `window` (low_pass.hpp). The error is interpolated
 /// linearly on an even grid at least twice as dense as the poses, so `before` is ate weighted by
 /// time, and gaps are bridged linearly. `moving_average` models a simple smoother of that width: it
-/// also removes part of the lower frequencies, so its gain is larger. A steady drift has (nearly)
+/// also removes part of the lower frequencies, so its gain is larger. A drift has (nearly)
 /// no gain under either. Poses more than half a window apart hide the high-frequency error:
 /// evaluate densely. Throws Undefined if the error is zero or all poses have one stamp. O(n log n).
 std::vector<Score> smoothing_headroom(const Evaluation& evaluation,

@@ -18,7 +18,7 @@ struct Options {
   int count = 3;
   bool robust = true;
   std::string label = "a";
-  RotationMode turn = RotationMode::slerp;
+  RotationMode rotation = RotationMode::slerp;
   std::optional<double> band;
 };
 
@@ -28,7 +28,7 @@ void fields(Options& o, Visit visit) {
   visit("count", o.count, "how many", Between{1});
   visit("robust", o.robust, "or not");
   visit("label", o.label, "a word");
-  visit("turn", o.turn, "how rotation is spread");
+  visit("rotation", o.rotation, "interpolation of the rotation");
   visit("band", o.band, "speed band [m/s]", GreaterThan{0.0});
 }
 
@@ -45,17 +45,17 @@ std::string why(const Params& given) {
 TEST(Fields, TellTextFromAnOptionalNumber) {
   Options defaults;
   defaults.label = "none";
-  defaults.turn = RotationMode::none;
+  defaults.rotation = RotationMode::none;
   std::string text;
   for (const OptionInfo& option : describe(defaults)) {
     if (option.is_text) text += option.name + " ";
   }
-  EXPECT_EQ(text, "label turn ");  // and not band, whose default is the word none too
+  EXPECT_EQ(text, "label rotation ");  // and not band, whose default is the word none too
 }
 
 TEST(Fields, EchoNamesEveryFieldWithItsDefault) {
   EXPECT_EQ(to_text(echo(Options{})),
-            "band=none, count=3, label=a, robust=true, share=0.5, turn=slerp");
+            "band=none, count=3, label=a, robust=true, rotation=slerp, share=0.5");
 }
 
 TEST(Fields, DescribeKeepsTheDeclaredOrderAndTheRules) {
@@ -71,11 +71,11 @@ TEST(Fields, DescribeKeepsTheDeclaredOrderAndTheRules) {
 TEST(Fields, WithReplacesOnlyWhatIsGiven) {
   const Options got = with(Options{},
                            {{"share", std::int64_t{1}},
-                            {"turn", std::string("none")},
+                            {"rotation", std::string("none")},
                             {"band", 0.33},
                             {"count", std::int64_t{7}}});
   EXPECT_EQ(got.share, 1.0);
-  EXPECT_EQ(got.turn, RotationMode::none);
+  EXPECT_EQ(got.rotation, RotationMode::none);
   EXPECT_EQ(got.band, 0.33);
   EXPECT_EQ(got.count, 7);
   EXPECT_EQ(got.label, "a");
@@ -89,14 +89,15 @@ TEST(Fields, EchoOfWithReadsBack) {
 
 TEST(Fields, RefusesByNameAndRule) {
   EXPECT_EQ(why({{"shere", 1.0}}),
-            "shere: unknown option (has: share, count, robust, label, turn, band)");
+            "shere: unknown option (has: share, count, robust, label, rotation, band)");
   EXPECT_EQ(why({{"share", 1.4}}), "share = 1.4: expected 0 <= share <= 1");
   EXPECT_EQ(why({{"share", std::nan("")}}), "share = nan: expected a number");
   EXPECT_EQ(why({{"count", 1.5}}), "count = 1.5: expected a whole number");
   EXPECT_EQ(why({{"count", std::int64_t{1} << 40}}),
             "count = 1099511627776: expected a whole number");
   EXPECT_EQ(why({{"robust", std::int64_t{1}}}), "robust = 1: expected true or false");
-  EXPECT_EQ(why({{"turn", std::string("spin")}}), "turn = spin: expected one of none | slerp");
+  EXPECT_EQ(why({{"rotation", std::string("spin")}}),
+            "rotation = spin: expected one of none | slerp");
   EXPECT_EQ(why({{"band", -0.5}}), "band = -0.5: expected band > 0");
 }
 

@@ -10,14 +10,21 @@
 namespace loopbench::renamed_test {
 namespace {
 
+enum class Overlap { all, open };
+auto choices(Overlap) {
+  return std::array{std::pair{"all", Overlap::all}, std::pair{"open", Overlap::open}};
+}
+
 struct Options {
   double sigma_t = 0.0;
+  Overlap overlap = Overlap::all;
   double share = 0.5;
 };
 
 template <class Visit>
 void fields(Options& o, Visit visit) {
   visit("white_noise.sigma_t", o.sigma_t, "standard deviation [m]");
+  visit("overlap", o.overlap, "steps that a loop changes");
   visit("share", o.share, "share of the gap [-]");
 }
 
@@ -35,7 +42,14 @@ TEST(Renamed, AnOldOptionIsRejectedWithTheNewName) {
 }
 
 TEST(Renamed, AnOldOptionOfAnotherOwnerIsUnknown) {
-  EXPECT_EQ(why({{"loss", 0.1}}), "loss: unknown option (has: white_noise.sigma_t, share)");
+  EXPECT_EQ(why({{"loss", 0.1}}),
+            "loss: unknown option (has: white_noise.sigma_t, overlap, share)");
+}
+
+TEST(Renamed, AnOldValueIsRejectedWithTheNewOne) {
+  EXPECT_EQ(why({{"overlap", std::string("whole")}}), "overlap = whole: was renamed to 'all'");
+  EXPECT_EQ(why({{"overlap", std::string("half")}}), "overlap = half: expected one of all | open");
+  EXPECT_EQ(why({{"overlap", std::string("all")}}), "");
 }
 
 TEST(Renamed, TheNewNameSeedsAsTheFirst) {

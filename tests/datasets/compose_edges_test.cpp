@@ -74,7 +74,7 @@ TEST(ComposeEdges, CovarianceAgreesWithSampling) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   const std::vector<Edge> edges = random_chain(4, 6);
-  const Edge whole = bridge(edges, {0, 3})[0];
+  const Edge complete = bridge(edges, {0, 3})[0];
   const int samples = 40000;
   Matrix6 sampled = Matrix6::Zero();
   for (int s = 0; s < samples; ++s) {
@@ -85,10 +85,10 @@ TEST(ComposeEdges, CovarianceAgreesWithSampling) {
       const Matrix6 root = Matrix6(edge.information.inverse()).llt().matrixL();
       end = end * edge.from_from_to * exp_se3(root * error);
     }
-    const Twist error = log_se3(whole.from_from_to.inverse() * end);
+    const Twist error = log_se3(complete.from_from_to.inverse() * end);
     sampled += error * error.transpose() / samples;
   }
-  const Matrix6 root = Matrix6(whole.information).llt().matrixL();
+  const Matrix6 root = Matrix6(complete.information).llt().matrixL();
   const Matrix6 whitened = root.transpose() * sampled * root;
   // Standard error of an entry is 1/sqrt(samples) = 0.005; second-order terms are of that size.
   EXPECT_LT((whitened - Matrix6::Identity()).cwiseAbs().maxCoeff(), 0.04);
@@ -98,9 +98,9 @@ TEST(ComposeEdges, CarryTheScaleOfASimilarityChain) {
   Edge doubling{0, 1, {Rotation::Identity(), {1.0, 0.0, 0.0}}, Matrix6::Identity(), 2.0};
   const std::vector<Pose> poses = chained({doubling, doubling, doubling});
   EXPECT_DOUBLE_EQ(poses[3].translation.x(), 1.0 + 2.0 + 4.0);
-  const Edge whole = bridge({doubling, doubling, doubling}, {0, 3})[0];
-  EXPECT_DOUBLE_EQ(whole.from_from_to.translation.x(), 7.0);
-  EXPECT_DOUBLE_EQ(whole.scale, 8.0);
+  const Edge complete = bridge({doubling, doubling, doubling}, {0, 3})[0];
+  EXPECT_DOUBLE_EQ(complete.from_from_to.translation.x(), 7.0);
+  EXPECT_DOUBLE_EQ(complete.scale, 8.0);
 }
 
 TEST(ComposeEdges, CarryTheCovarianceOfASimilarityChain) {

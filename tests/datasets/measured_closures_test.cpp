@@ -38,9 +38,9 @@ Trajectory two_rounds(std::size_t size) {
   Trajectory out;
   for (std::size_t i = 0; i < size; ++i) {
     const double time = 20.0 * static_cast<double>(i) / static_cast<double>(size - 1);
-    const double turn = 4.0 * M_PI * time / 20.0;
+    const double angle = 4.0 * M_PI * time / 20.0;
     out.push_back(
-        {time, {exp_so3({0.0, 0.0, turn}), {2.0 * std::cos(turn), 2.0 * std::sin(turn), 0.0}}});
+        {time, {exp_so3({0.0, 0.0, angle}), {2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0}}});
   }
   return out;
 }

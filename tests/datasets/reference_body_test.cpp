@@ -30,9 +30,10 @@ TEST(ReferenceBody, IsTakenBackToTheEstimatesBody) {
 
 TEST(ReferenceBody, UndoesEveryOffset) {
   const Pose body_from_reference = exp_se3(twist({0.3, -0.2, 0.1}, {0.5, -1.0, 2.0}));
-  const Rotation& turn = body_from_reference.rotation;
+  const Rotation& rotation = body_from_reference.rotation;
   const Vector3& at = body_from_reference.translation;
-  const ReferenceBody body{at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
+  const ReferenceBody body{
+      at.x(), at.y(), at.z(), rotation.x(), rotation.y(), rotation.z(), rotation.w()};
   const Trajectory truth = random_walk(50, 3, 1.0, 0.5);
   Trajectory reference = truth;
   for (auto& [stamp, pose] : reference) pose = normalized(pose * body_from_reference);

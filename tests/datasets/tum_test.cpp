@@ -101,18 +101,18 @@ TEST(Tum, StampsInNanosecondsAreSeconds) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].stamp, 1403636579.763555584);
   EXPECT_EQ(poses[1].stamp, 1403636579.813555456);
-  const auto whole = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
+  const auto complete = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
   EXPECT_EQ(
-      refusal([&] { read_trajectory(whole); }),
-      whole.string() +
+      refusal([&] { read_trajectory(complete); }),
+      complete.string() +
           ":1: has whole nanoseconds and columns separated by blanks, so that quaternions may "
           "be qx qy qz qw (ORB-SLAM3) or qw qx qy qz (EuRoC); set the format to tum or euroc");
   ReadOptions options;
   options.format = Format::tum;
-  EXPECT_EQ(read_trajectory(whole, options)[0].world_from_body.rotation.w(), 0.8);
-  EXPECT_EQ(read_trajectory(whole, options)[0].stamp, 1403636579.763555584);
+  EXPECT_EQ(read_trajectory(complete, options)[0].world_from_body.rotation.w(), 0.8);
+  EXPECT_EQ(read_trajectory(complete, options)[0].stamp, 1403636579.763555584);
   options.format = Format::euroc;
-  EXPECT_EQ(read_trajectory(whole, options)[0].world_from_body.rotation.z(), 0.8);
+  EXPECT_EQ(read_trajectory(complete, options)[0].world_from_body.rotation.z(), 0.8);
 }
 
 TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {

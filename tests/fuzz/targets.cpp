@@ -2,11 +2,13 @@
 
 #include <stdexcept>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/problem.hpp"
 #include "datasets/derive/closure_file.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/kitti.hpp"
+#include "datasets/formats/trajectory_file.hpp"
 
 namespace loopbench {
 namespace {
@@ -87,6 +89,21 @@ void fuzz_times(const Path& file) {
     expect(i == 0 || times[i - 1] < times[i], "times increase");
   }
 }
+
+void fuzz_bag(const Path& file) {
+  const auto read = [](const BagName& name) {
+    const TrajectoryFile trajectory =
+        read_or_refuse([&] { return read_trajectory_file(to_text(name)); });
+    expect_checked(trajectory.poses);
+    expect(trajectory.nanoseconds.size() == trajectory.poses.size(), "exact stamps");
+  };
+  for (const BagTopic& topic : read_or_refuse([&] { return bag_topics(file.string()); }).topics) {
+    read({file.string(), topic.name});
+  }
+  read({file.string(), "tf:a.b"});
+}
+
+void fuzz_csv(const Path& file) { fuzz_trajectory(file, Format::csv); }
 
 void fuzz_closures(const Path& file) {
   for (const StampedClosure& closure :

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 namespace loopbench {
 
@@ -15,6 +17,25 @@ void fuzz_any(const std::filesystem::path& file);  ///< format detected by conte
 void fuzz_g2o(const std::filesystem::path& file);
 void fuzz_times(const std::filesystem::path& file);
 void fuzz_closures(const std::filesystem::path& file);
+void fuzz_bag(const std::filesystem::path& file);
+void fuzz_csv(const std::filesystem::path& file);
 void fuzz_config(const std::filesystem::path& file);
+void fuzz_store(const std::filesystem::path& file);
+void fuzz_salvage(const std::filesystem::path& file);
+void fuzz_report(const std::filesystem::path& file);  ///< of a store
+void fuzz_gate(const std::filesystem::path& file);    ///< baselines and limits
+void fuzz_calibration(const std::filesystem::path& file);
+void fuzz_where(const std::filesystem::path& file);        ///< one rule per line
+void fuzz_eval(const std::filesystem::path& file);         ///< one argument per line
+void fuzz_eval_folder(const std::filesystem::path& file);  ///< every file of a folder
+void fuzz_messages(const std::filesystem::path& file);     ///< of workers
+void fuzz_camera(const std::filesystem::path& file);
+void fuzz_image_list(const std::filesystem::path& file);
+void fuzz_layout(const std::filesystem::path& file);  ///< every text file of a recording
+void fuzz_image(const std::filesystem::path& file);   ///< PNG and JPEG
+void fuzz_cache(const std::filesystem::path& file);   ///< entries of the image cache
+
+/// All of these by name, without `fuzz_`.
+const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_targets();
 
 }  // namespace loopbench

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <climits>
 #include <set>
 
 #include "datasets/core/error.hpp"
@@ -56,6 +57,33 @@ TEST(Cells, ExclusionsMatchWholeLabels) {
   sweep.exclude.push_back({"road", "uniform"});
   EXPECT_EQ(names(sweep, cells(sweep, {false, false}, "road")),
             (std::vector<std::string>{"3 road/raw#0", "4 road/uniform + dm#0"}));
+}
+
+TEST(Cells, AreCountedWithoutOverflowBeforeTheyAreBuilt) {
+  Sweep sweep = two_by_three();
+  EXPECT_EQ(count_cells(sweep, {true, false}), 6u);
+  sweep.repeats = 1'000'000;
+  EXPECT_EQ(count_cells(sweep, {true, false}), 3'000'003u);
+  sweep.repeats = INT_MAX;
+  sweep.datasets.resize(100'000);
+  sweep.methods.resize(100'000);
+  EXPECT_EQ(count_cells(sweep, std::vector<bool>(100'000, true)), SIZE_MAX);
+}
+
+TEST(Cells, MoreThanTheLimitAreRejectedWithTheWayToRaiseIt) {
+  Sweep sweep = two_by_three();
+  sweep.config = "c.yaml";
+  sweep.repeats = 400'000;
+  try {
+    cells(sweep, {true, false}, "road");
+    ADD_FAILURE() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "c.yaml: 2 datasets, 3 methods and 400000 repeats of seeded datasets give 1200003 "
+                 "cells, expected at most 1000000; 'limits: {cells: N}' accepts more");
+  }
+  sweep.limits.cells = 1'200'003;
+  EXPECT_EQ(cells(sweep, {true, false}, "road").size(), 3u);
 }
 
 TEST(Cells, DerivedSeedsDifferAndKeepTheFirst) {

@@ -38,7 +38,7 @@ TEST_F(Cli, TellsItsVersion) {
 
 TEST_F(Cli, WrongCommandLinesExitWithTwo) {
   for (const char* arguments :
-       {"", "rnu", "run", "run x.yaml --jobs 0", "run x.yaml --no-such-flag", "table"}) {
+       {"rnu", "run", "run x.yaml --jobs 0", "run x.yaml --no-such-flag", "table"}) {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_NE(result.err, "") << arguments;
@@ -62,9 +62,12 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
-  EXPECT_NE(result.out.find("### b, dense"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("uniform: declined: "), std::string::npos);  // excluded by the config
-  EXPECT_NE(result.out.find("gain"), std::string::npos);
+  EXPECT_EQ(result.out.find("### ate [m], dense, rmse by sequence\n"), 0u) << result.out;
+  EXPECT_NE(result.out.find(" gain [%] |"), std::string::npos);
+  EXPECT_NE(result.out.find("next:\n  loopbench table results/c "), std::string::npos);
+  const std::string tables = read_all(folder_.path() / "results/c/table.md");
+  EXPECT_NE(tables.find("### b, dense"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("uniform: declined: "), std::string::npos);  // no closures
   for (const char* name : {"results.sqlite", "table.md", "table.csv", "rows.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "results/c" / name)) << name;
   }
@@ -87,8 +90,9 @@ TEST_F(Cli, SeveralProtocolsSplitTheTables) {
   folder_.file("c.yaml", std::string(kConfig) + "protocol: [loopbench, {base: evo, align: se3}]\n");
   const CommandResult result = run("run c.yaml");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("### b, dense, loopbench\n"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("### b, dense, evo (align=se3)\n"), std::string::npos);
+  const std::string tables = read_all(folder_.path() / "results/c/table.md");
+  EXPECT_NE(tables.find("### b, dense, loopbench\n"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("### b, dense, evo (align=se3)\n"), std::string::npos);
   EXPECT_NE(result.out.find("protocol: loopbench [3], evo (align=se3) [26d0953]"),
             std::string::npos);
   const CommandResult rows = run("table results/c --format rows --where metric=ate");

@@ -75,8 +75,8 @@ std::vector<std::string> every_dataset_and_method(const std::string& plan) {
   return out;
 }
 
-// With one repeat: the others differ in their seed only. A config with a baseline is run whole and
-// checked against it; other configs run every dataset and every method once.
+// With one repeat: the others differ in their seed only. A config with a baseline is run completely
+// and checked against it; other configs run every dataset and every method once.
 TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   const std::filesystem::path configs = folder_.path() / "configs";
   std::filesystem::copy(LOOPBENCH_CONFIGS, configs, std::filesystem::copy_options::recursive);

@@ -69,14 +69,19 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
     return why(config("{dataset: simulated}", "ate", rest));
   };
   EXPECT_EQ(refusal("limits: 60\n"),
-            "c.yaml:5: limits: found '60', expected a map of seconds, memory");
+            "c.yaml:5: limits: found '60', expected a map of seconds, memory, cells");
   EXPECT_EQ(refusal("limits: [60]\n"),
-            "c.yaml:5: limits: found a list, expected a map of seconds, memory");
+            "c.yaml:5: limits: found a list, expected a map of seconds, memory, cells");
   EXPECT_EQ(refusal("limits:\n"),
-            "c.yaml:5: limits: found nothing, expected a map of seconds, memory");
+            "c.yaml:5: limits: found nothing, expected a map of seconds, memory, cells");
+  EXPECT_EQ(refusal("limits: {cells: 0}\n"),
+            "c.yaml:5: limits.cells: expected a whole number, 1 to 1000000000");
+  EXPECT_EQ(refusal("limits: {memory: any}\n"),
+            "c.yaml:5: limits.memory: expected a size (2GiB) or none");
+  EXPECT_EQ(refusal("limits: {memory: none, cells: 2000000}\n"), "");
   EXPECT_EQ(refusal("table: nonsense\n"),
             "c.yaml:5: table: found 'nonsense', expected a map of rows, columns, split, value, "
-            "show, where");
+            "show, where, plus_minus");
   EXPECT_EQ(refusal("exclude: [raw]\n"),
             "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
   EXPECT_EQ(refusal("exclude: raw\n"),

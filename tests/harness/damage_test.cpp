@@ -172,7 +172,7 @@ TEST_F(Damage, ADamagedStoreIsNotMerged) {
   const std::filesystem::path out = folder_.path() / "merged.sqlite";
   EXPECT_THROW(merge_stores({file_}, out, false), InputError);
   EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_EQ(run(kUsual).cells, Labels{}) << "traces are looked at when told";
+  EXPECT_EQ(run(kUsual).cells, Labels{}) << "traces are checked on request only";
   EXPECT_EQ(run(kUsual, Retry::damaged).cells, Labels{"a / straight"});
   EXPECT_EQ(merge_stores({file_}, out, false).cells, 4u);
 }

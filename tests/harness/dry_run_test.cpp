@@ -41,6 +41,22 @@ TEST_F(DryRun, FindsAClosureFileThatIsNone) {
   EXPECT_EQ(run(with + "{source: none}").exit_code, 0);
 }
 
+TEST_F(DryRun, RejectsThreeThousandMillionCellsWithoutBuildingThem) {
+  folder_.file("c.yaml",
+               "datasets:\n  - {dataset: simulated, sweep: {keyframes: {from: 20, to: 1019, "
+               "steps: 1000}}}\n"
+               "methods: [{method: uniform, sweep: {weights: [index, time]}, label: u}, raw]\n"
+               "metrics: [ate]\nrepeats: 1000000\n");
+  for (const char* more : {" --dry-run", " --only nothing"}) {
+    const CommandResult result = loopbench_command("run c.yaml" + std::string(more), folder_);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err,
+              "loopbench: c.yaml: 1000 datasets, 3 methods and 1000000 repeats of seeded datasets "
+              "give 3000000000 cells, expected at most 1000000; 'limits: {cells: N}' accepts "
+              "more\n");
+  }
+}
+
 TEST_F(DryRun, FindsAGraphAndAFolderOfImagesThatAreNone) {
   folder_.file("g.g2o", "VERTEX_SE2 0 0 0\n");
   EXPECT_EQ(run("dataset: pose_graph, path: g.g2o").exit_code, 2);

@@ -41,12 +41,12 @@ class EvalCoverage : public testing::Test {
 
   TemporaryFolder folder_;
   std::string reference_ = written("reference.txt", spiral(0.0, 100.0, 0.1, 1.0, 0.0));
-  std::string whole_ = written("whole.txt", spiral(0.0, 100.0, 0.1, 1.0, 0.3));
+  std::string complete_ = written("complete.txt", spiral(0.0, 100.0, 0.1, 1.0, 0.3));
   std::string short_ = written("short.txt", spiral(40.0, 40.45, 0.1, 1.0, 0.01));
 };
 
 TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
-  const std::vector<std::string> both{reference_, whole_, short_};
+  const std::vector<std::string> both{reference_, complete_, short_};
   const Json judged = eval_json(both, kExitSomeCellsFailed);
   EXPECT_EQ(judged[0]["status"], "ok");
   EXPECT_EQ(judged[1]["status"], "incomplete");
@@ -68,11 +68,11 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
 
 TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
   eval({reference_, short_, "--min-coverage=0.5"}, kExitSomeCellsFailed);
-  eval({reference_, whole_, "--min-coverage=0.5"});
+  eval({reference_, complete_, "--min-coverage=0.5"});
 }
 
 TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
-  EXPECT_THAT(eval({reference_, whole_, whole_}), HasSubstr("| rpe 1 s pairs |"));
+  EXPECT_THAT(eval({reference_, complete_, complete_}), HasSubstr("| rpe 1 s pairs |"));
 }
 
 TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {
@@ -81,7 +81,7 @@ TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {
               HasSubstr("note       few pairs: 4 pairs have 12 coordinates, and alignment se3 fits "
                         "6 parameters to them, so the errors are about 29 % too small"));
   EXPECT_THAT(eval({reference_, few, "--align=none"}), Not(HasSubstr("few pairs")));
-  EXPECT_THAT(eval({reference_, whole_}), Not(HasSubstr("few pairs")));
+  EXPECT_THAT(eval({reference_, complete_}), Not(HasSubstr("few pairs")));
 }
 
 TEST_F(EvalCoverage, AssociationThatCostsAccuracyIsNoted) {
@@ -93,7 +93,7 @@ TEST_F(EvalCoverage, AssociationThatCostsAccuracyIsNoted) {
   EXPECT_THAT(text, HasSubstr("use association interpolate"));
   EXPECT_THAT(eval({fast, perfect, "--association=interpolate"}), Not(HasSubstr("note ")));
   EXPECT_EQ(eval_json({fast, perfect})["notes"].size(), 1u);
-  EXPECT_TRUE(eval_json({reference_, whole_})["notes"].empty());
+  EXPECT_TRUE(eval_json({reference_, complete_})["notes"].empty());
 }
 
 }  // namespace

@@ -103,8 +103,8 @@ TEST(Pivot, AveragesWhatFallsTogether) {
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
   ASSERT_EQ(tables.size(), 1u);
-  EXPECT_DOUBLE_EQ(*tables[0].cells[0][0].value, 2.0);
-  EXPECT_EQ(tables[0].cells[0][0].records, 2u);
+  EXPECT_DOUBLE_EQ(*tables[0].entries[0][0].value, 2.0);
+  EXPECT_EQ(tables[0].entries[0][0].records, 2u);
 }
 
 TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
@@ -117,10 +117,10 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   }
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  EXPECT_EQ(tables[0].cells[0][0].value, 1.0);  // without the second repeat
-  EXPECT_EQ(tables[0].cells[0][0].records, 1u);
-  EXPECT_EQ(tables[0].cells[1][0].value, std::nullopt);
-  EXPECT_EQ(tables[0].cells[1][0].status, "incomplete");
+  EXPECT_EQ(tables[0].entries[0][0].value, 1.0);  // without the second repeat
+  EXPECT_EQ(tables[0].entries[0][0].records, 1u);
+  EXPECT_EQ(tables[0].entries[1][0].value, std::nullopt);
+  EXPECT_EQ(tables[0].entries[1][0].status, "incomplete");
   EXPECT_EQ(tables[0].notes,
             (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number

@@ -62,8 +62,8 @@ TEST(Grid, RangesReachTheirEndsExactly) {
   const auto log = grid("method: m\nsweep: {a: {from: 1, to: 100, steps: 3, log: true}}\n");
   EXPECT_DOUBLE_EQ(std::get<double>(log[1].settings[0].value), 10.0);
 
-  const auto whole = grid("method: m\nsweep: {a: {from: 10, to: 30, steps: 3}}\n");
-  EXPECT_EQ(whole[1].settings[0].value, Param(std::int64_t{20}));
+  const auto integers = grid("method: m\nsweep: {a: {from: 10, to: 30, steps: 3}}\n");
+  EXPECT_EQ(integers[1].settings[0].value, Param(std::int64_t{20}));
 }
 
 TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {

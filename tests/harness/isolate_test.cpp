@@ -1,21 +1,17 @@
 /// Worker processes: a crash affects only its own cell.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <map>
-#include <thread>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/verify/verify.hpp"
-#include "tests/support/tiny_catalogue.hpp"
+#include "tests/support/isolated_fixture.hpp"
 
 namespace loopbench::isolate_test {
 
@@ -25,74 +21,7 @@ using namespace harness;
 
 namespace {
 
-enum class Deed { nothing, abort, kill, exit, hang, flood, own_process };
-auto choices(Deed) {
-  return std::array{std::pair{"nothing", Deed::nothing},
-                    std::pair{"abort", Deed::abort},
-                    std::pair{"kill", Deed::kill},
-                    std::pair{"exit", Deed::exit},
-                    std::pair{"hang", Deed::hang},
-                    std::pair{"flood", Deed::flood},
-                    std::pair{"own_process", Deed::own_process}};
-}
-
-struct Misbehaving final : Corrector {
-  struct Options {
-    Deed deed = Deed::nothing;
-  };
-  explicit Misbehaving(const Options& o) : options(o) {}
-  Trajectory correct(const Problem& problem, Report& report) const override {
-    std::vector<std::string> kept;
-    switch (options.deed) {
-      case Deed::abort:
-        std::abort();
-      case Deed::kill:
-        raise(SIGKILL);
-        break;
-      case Deed::exit:
-        _exit(7);
-      case Deed::hang:
-        for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-      case Deed::flood:
-        for (int i = 0; i < 40; ++i) kept.emplace_back(std::size_t{50} << 20, 'x');
-        break;
-      case Deed::own_process:
-        report.count("process", getpid());
-        break;
-      case Deed::nothing:
-        break;
-    }
-    return problem.keyframes;
-  }
-  Options options;
-};
-template <class Visit>
-void fields(Misbehaving::Options& o, Visit visit) {
-  visit("deed", o.deed, "what it does");
-}
-
-class Isolated : public testing::Test {
- protected:
-  std::vector<CellResult> run(const std::string& text, int jobs) {
-    const Sweep sweep = parse_sweep(text, "c.yaml", known_);
-    return run(sweep, cells(sweep, seeded(sweep, known_), ""), jobs);
-  }
-  std::vector<CellResult> run(const Sweep& sweep, const std::vector<Cell>& planned, int jobs) {
-    std::vector<CellResult> out;
-    const std::atomic<bool> stop = false;
-    run_isolated(sweep, planned, known_, {}, jobs, stop, [&](const CellResult& result) {
-      out.push_back(result);
-    });
-    std::ranges::sort(out, {}, [](const CellResult& r) { return r.cell.index; });
-    return out;
-  }
-
-  Catalogue known_ = [] {
-    Catalogue out = tiny::catalogue();
-    out.methods.push_back(method<Misbehaving>("mis", "misbehaves"));
-    return out;
-  }();
-};
+using Isolated = isolated::IsolatedFixture;
 
 const char* const kConfig =
     "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2, 0.3]}}]\n"
@@ -117,7 +46,7 @@ TEST_F(Isolated, GivesTheSameBitsAsThreads) {
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
   std::vector<std::string> in_process;
   Sequences sequences(sweep, known_, {}, planned);
-  const std::atomic<bool> stop = false;
+  const StopRequests stop = 0;
   run_sweep(sweep, planned, known_, sequences, 1, stop, [&](const CellResult& result) {
     in_process.push_back(bytes(result));
   });
@@ -162,21 +91,6 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
   EXPECT_NE(results[4].why.find("limit of 5 s"), std::string::npos) << results[4].why;
 }
 
-TEST_F(Isolated, WorkersAreUsedAgainAndReplacedOnlyAfterAFailure) {
-  const std::vector<CellResult> results =
-      run("datasets: [line]\n"
-          "methods: [{method: mis, deed: own_process, label: a}, {method: mis, deed: own_process, "
-          "label: b},\n"
-          "          {method: mis, deed: abort}, {method: mis, deed: own_process, label: c}]\n"
-          "metrics: [ate]\n",
-          1);
-  ASSERT_EQ(results.size(), 4u);
-  const auto process = [&](std::size_t i) { return results[i].report.counts.at(0).value; };
-  EXPECT_EQ(process(0), process(1));
-  EXPECT_NE(process(1), process(3));
-  EXPECT_NE(process(0), getpid());
-}
-
 TEST_F(Isolated, TimedCellsRunAloneOnOneCore) {
   const std::vector<CellResult> results =
       run("datasets: [line]\nmethods: [straight, shift]\nmetrics: [ate]\ntiming: true\n", 2);
@@ -197,12 +111,13 @@ TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
   std::size_t count = 0;
   const Sweep sweep = parse_sweep(
       "datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", "c.yaml", known_);
-  const std::atomic<bool> stop = false;
+  const StopRequests stop = 0;
   EXPECT_THROW(run_isolated(sweep,
                             cells(sweep, seeded(sweep, known_), ""),
                             known_,
                             {},
                             2,
+                            sandbox_,
                             stop,
                             [&](const CellResult&) { ++count; }),
                InputError);
@@ -227,9 +142,15 @@ TEST_F(Isolated, VerifyNamesTheCellThatDiffers) {
       "c.yaml",
       known_);
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
-  const std::atomic<bool> stop = false;
-  const auto differing = verify(
-      sweep, planned, known_, {}, {{true, 1}, {true, 2}, {false, 3}}, stop, [](const auto&) {});
+  const StopRequests stop = 0;
+  const auto differing = verify(sweep,
+                                planned,
+                                known_,
+                                {},
+                                {{true, 1}, {true, 2}, {false, 3}},
+                                sandbox_,
+                                stop,
+                                [](const auto&) {});
   ASSERT_EQ(differing.size(), 2u);
   EXPECT_EQ(differing[0].cell, 1u);
   EXPECT_EQ(differing[0].part, "report");

@@ -16,7 +16,7 @@ using MergeTest = TinyStore;
 
 TEST_F(MergeTest, MergedHalvesAreTheWhole) {
   run(kUsual);
-  const std::string whole = store_text(file_);
+  const std::string complete = store_text(file_);
   const std::filesystem::path parts[] = {folder_.path() / "1.sqlite", folder_.path() / "2.sqlite"};
   file_ = parts[0];
   run(kUsual, Retry::none, "a / |b / straight");
@@ -26,7 +26,7 @@ TEST_F(MergeTest, MergedHalvesAreTheWhole) {
   const Merged merged = merge_stores({parts[1], parts[0]}, out, false);
   EXPECT_EQ(merged.cells, 4u);
   EXPECT_EQ(merged.duplicates, 1u);
-  EXPECT_EQ(store_text(out), whole);
+  EXPECT_EQ(store_text(out), complete);
   EXPECT_THROW(merge_stores({parts[0], parts[1]}, out, false), InputError) << "it is there";
   file_ = out;
   EXPECT_EQ(run(kUsual).cells, Labels{}) << "and goes on like any other";

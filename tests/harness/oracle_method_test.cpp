@@ -61,7 +61,7 @@ TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
   sweep = sweep_with("\"" + source + "\"");
   ASSERT_EQ(sweep.methods[1].trained_on.sources, std::vector{source});
 
-  const std::atomic<bool> stop = false;
+  const StopRequests stop = 0;
   const auto check_all = [&](const auto& run) {
     std::size_t seen = 0;
     run([&](const CellResult& result) {
@@ -78,7 +78,8 @@ TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
     Sequences sequences(sweep, known, {}, all);
     run_sweep(sweep, all, known, sequences, 1, stop, finished);
   });
-  check_all([&](const auto& finished) { run_isolated(sweep, all, known, {}, 1, stop, finished); });
+  check_all(
+      [&](const auto& finished) { run_isolated(sweep, all, known, {}, 1, {}, stop, finished); });
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ TEST_F(Output, AnUnknownWordIsNamed) {
     return result.err.substr(0, result.err.find('\n'));
   };
   EXPECT_EQ(said("eva a b"), "loopbench: no subcommand is named 'eva'; did you mean 'eval'?");
-  EXPECT_EQ(said("help"), "loopbench: no subcommand is named 'help'; did you mean '--help'?");
+  EXPECT_EQ(said("hepl"), "loopbench: no subcommand is named 'hepl'; did you mean 'help'?");
   EXPECT_EQ(said("--foo"), "loopbench: no option is named '--foo' (known: --help, --version)");
   EXPECT_EQ(said("eval a.txt a.txt --jsn"),
             "loopbench: no option of eval is named '--jsn'; did you mean '--json'?");

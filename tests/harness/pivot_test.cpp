@@ -26,12 +26,12 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   const TableSpec spec{
       .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
   const std::vector<Table> tables = pivot(records, spec);
-  ASSERT_EQ(tables[0].cells.size(), 1u);
-  EXPECT_EQ(tables[0].cells[0][0].mark, Mark::none);
-  EXPECT_EQ(tables[0].cells[0][1].mark, Mark::best);
+  ASSERT_EQ(tables[0].entries.size(), 1u);
+  EXPECT_EQ(tables[0].entries[0][0].mark, Mark::none);
+  EXPECT_EQ(tables[0].entries[0][1].mark, Mark::best);
   const std::vector<Table> sequences =
       pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
-  EXPECT_EQ(sequences[0].cells[0][0].mark, Mark::none);  // sequences do not compete
+  EXPECT_EQ(sequences[0].entries[0][0].mark, Mark::none);  // sequences do not compete
   EXPECT_EQ(sequences[0].notes.size(), 1u);
 }
 
@@ -43,8 +43,8 @@ TEST(Pivot, AveragesGainsByTheirRatios) {
   }
   for (const Record& gain : gains(records, "raw")) records.push_back(gain);
   const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  EXPECT_NEAR(*table.cells[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
-  EXPECT_EQ(*table.cells[0][1].value, 0.0);
+  EXPECT_NEAR(*table.entries[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
+  EXPECT_EQ(*table.entries[0][1].value, 0.0);
   EXPECT_EQ(table.notes[0],
             "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
             "baseline");
@@ -93,11 +93,11 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
                                        {"dm", {0.5, 1.5, 1.0, none}},
                                        {"gp", {none, 1.0, 4.0, 9.0}},
                                        {"bad", {none, none, none, none}}}));
-  EXPECT_EQ(*table.cells[0][0].value, 2.5);  // repeats 1 and 2 only
-  EXPECT_EQ(*table.cells[1][0].value, 1.25);
-  EXPECT_EQ(*table.cells[2][0].value, 2.5);
-  EXPECT_EQ(table.cells[0][0].averaged, 2u);
-  EXPECT_EQ(table.cells[0][0].records, 4u);
+  EXPECT_EQ(*table.entries[0][0].value, 2.5);  // repeats 1 and 2 only
+  EXPECT_EQ(*table.entries[1][0].value, 1.25);
+  EXPECT_EQ(*table.entries[2][0].value, 2.5);
+  EXPECT_EQ(table.entries[0][0].averaged, 2u);
+  EXPECT_EQ(table.entries[0][0].records, 4u);
   EXPECT_EQ(table_view(table).lines[2][1].text, "2.500 (3 of 4)");
   EXPECT_EQ(table_view(table).lines[3][1].text, "failed");  // and restricts nobody
   EXPECT_EQ(table.notes[1], "means over the 2 runs that every method finished");
@@ -119,8 +119,8 @@ TEST(Pivot, AveragesGainsOverCommonRuns) {
       errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, none}}});
   for (const Record& gain : gains(records, "raw")) records.push_back(gain);
   const Table table = table_of(records);
-  EXPECT_NEAR(*table.cells[1][1].value, 75.0, 1e-12);
-  EXPECT_NEAR(*table.cells[2][1].value, -100.0, 1e-12);
+  EXPECT_NEAR(*table.entries[1][1].value, 75.0, 1e-12);
+  EXPECT_NEAR(*table.entries[2][1].value, -100.0, 1e-12);
 }
 
 TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
@@ -130,8 +130,8 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
     if (r.method == "gp") r.sequence = "hall";
   }
   const Table table = table_of(records);
-  EXPECT_EQ(*table.cells[0][0].value, 1.0);
-  EXPECT_EQ(*table.cells[2][0].value, 6.0);  // of another sequence
+  EXPECT_EQ(*table.entries[0][0].value, 1.0);
+  EXPECT_EQ(*table.entries[2][0].value, 6.0);  // of another sequence
 }
 
 TEST(Pivot, MarksNothingAmongDescriptions) {
@@ -144,7 +144,7 @@ TEST(Pivot, MarksNothingAmongDescriptions) {
     }
   }
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  for (const auto& row : tables[0].cells) EXPECT_EQ(row[0].mark, Mark::none);
+  for (const auto& row : tables[0].entries) EXPECT_EQ(row[0].mark, Mark::none);
 }
 
 }  // namespace

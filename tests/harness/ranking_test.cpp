@@ -49,7 +49,7 @@ void expect_consistent(const Comparison& c, const std::vector<Record>& records) 
       << text;
   const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const bool is_marked = table.cells[row][0].mark == Mark::best;
+    const bool is_marked = table.entries[row][0].mark == Mark::best;
     EXPECT_EQ(is_marked, c.is_best_proven && first.method == table.rows[row]) << text;
   }
 }

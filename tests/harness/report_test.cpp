@@ -14,6 +14,7 @@
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
+#include "harness/report/sha256.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
@@ -64,7 +65,7 @@ class OfASweep : public testing::Test {
     const std::vector<Cell> all = cells(sweep, seeded(sweep, catalogue), "");
     store.resume(all, all, Retry::none);
     Sequences sequences(sweep, catalogue, root, all);
-    const std::atomic<bool> stop = false;
+    const StopRequests stop = 0;
     run_sweep(sweep, all, catalogue, sequences, 1, stop, [&](const CellResult& result) {
       store.write(result);
     });
@@ -104,10 +105,10 @@ TEST_F(OfASweep, EscapesEveryName) {
 
 TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
-                           "told to fail",
-                           "told to decline",
+                           "set to fail",
+                           "set to decline",
                            "undefined scores",
-                           "told to be undefined",
+                           "set to be undefined",
                            "verdict for every score",
                            "Protocol of every number",
                            "align=",
@@ -182,20 +183,22 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
   Traces traces(folder_->path());
-  const SequenceFigures figures =
-      sequence_figures(content_->cells, traces, "b", {"straight", "broken", "<i>&"});
+  const SequenceFigures figures = sequence_figures(
+      content_->cells, traces, "b", {"straight", "broken", "<i>&"}, content_->methods);
   ASSERT_EQ(figures.trajectories.size(), 2u);
   ASSERT_EQ(figures.errors.size(), 4u);
   EXPECT_EQ(figures.trajectories[0].series.size(), 3u);  // the reference and two methods
   EXPECT_EQ(figures.errors[0].series.size(), 2u);
-  EXPECT_TRUE(sequence_figures(content_->cells, traces, "b", {"broken"}).errors.empty());
+  EXPECT_TRUE(
+      sequence_figures(content_->cells, traces, "b", {"broken"}, content_->methods).errors.empty());
   EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
   EXPECT_EQ(file_stem("..."), "");
 }
 
 TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
   Traces traces(folder_->path());
-  const SequenceFigures figures = sequence_figures(content_->cells, traces, kAwkward, {"<i>&"});
+  const SequenceFigures figures =
+      sequence_figures(content_->cells, traces, kAwkward, {"<i>&"}, content_->methods);
   for (const auto& [name, magic] : {std::pair{"f.svg", "<?xml"}, std::pair{"f.pdf", "%PDF-"}}) {
     const std::filesystem::path file = folder_->path() / name;
     write_figure(file, figures.trajectories, 2);
@@ -239,6 +242,20 @@ const char* const kProbe = R"(<script>
   document.querySelectorAll("#controls details button").forEach((b) => b.click());
   document.querySelectorAll("#controls details button")[1].click();
   if (count("#map path.curve") !== 4) said.push("all methods: " + count("#map path.curve"));
+  // The address contains the choices, so that a link shows the same.
+  const link = new URLSearchParams(location.hash.slice(1));
+  if (link.get("sequence") !== R.scores.sequences[1]) said.push("link: " + location.hash);
+  if (link.getAll("method").length !== R.methods.length) said.push("methods in the link: " + location.hash);
+  document.querySelectorAll("#controls details button")[0].click();
+  const few = R.bestFew();
+  if (few.join() !== R.shown().map((m) => m.place).sort((a, b) => few.indexOf(a) - few.indexOf(b)).join()) said.push("best few");
+  const comparison = R.comparison(R.state.kind);
+  const ranked = comparison.methods.map((m) => m.method).filter((m) => m !== comparison.baseline);
+  if (few.some((m, i) => i > 0 && R.methods[m].name !== ranked[i - 1])) said.push("best few are not the best");
+  document.querySelectorAll("#controls details button")[1].click();
+  const headings = [...document.querySelector("#scores thead tr").cells].map((c) => c.textContent);
+  if (!headings[1].startsWith("gain") || !headings[2].startsWith("time")) said.push("columns: " + headings.join());
+  if (document.querySelector("#controls details").open) said.push("the list of methods is not folded");
   const shown = [...document.querySelectorAll("#scores figure")].find((f) => !f.hidden);
   const column = () => [...shown.querySelectorAll("tbody th")].map((c) => c.textContent);
   const before = column();
@@ -258,6 +275,11 @@ TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
   }
   std::string page = *html_;
   page.replace(page.rfind("</body>"), 7, kProbe);
+  // The page's policy must allow the probe as well.
+  const std::string probe(kProbe);
+  const std::size_t begin = probe.find('>') + 1;
+  const std::string body = probe.substr(begin, probe.find("</script>") - begin);
+  page.insert(page.find("script-src") + 10, " 'sha256-" + base64_sha256(body) + "'");
   const std::string name = folder_->file("page.html", page).string();
   const std::string profile = (folder_->path() / "profile").string();
   const std::string line =

@@ -1,4 +1,4 @@
-/// A whole sweep on the tiny catalogue: cells, store, threads, resilience.
+/// A complete sweep on the tiny catalogue: cells, store, threads, resilience.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class RunSweep : public testing::Test {
     const std::filesystem::path file = folder_.path() / std::to_string(jobs) / "results.sqlite";
     const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
     Sequences sequences(sweep_, known_, {}, planned);
-    std::atomic<bool> stop = false;
+    StopRequests stop = 0;
     CellKeys keys(sweep_, known_, {}, "build");
     {
       Store store(file, keys, {}, true);
@@ -66,9 +66,9 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   EXPECT_EQ(count("failed"), 9 + 18);  // the method, and the undefined metric of the others
   EXPECT_EQ(count("declined"), 9);
   const auto fails = std::ranges::find(records, std::string("fails"), &Record::method);
-  EXPECT_EQ(fails->why, "told to fail");
+  EXPECT_EQ(fails->why, "set to fail");
   const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::label);
-  EXPECT_EQ(undefined->why, "told to be undefined");
+  EXPECT_EQ(undefined->why, "set to be undefined");
 }
 
 TEST_F(RunSweep, SameBitsOnAnyNumberOfThreads) {
@@ -166,7 +166,7 @@ TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
   };
   const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
   Sequences sequences(sweep_, known_, {}, planned);
-  std::atomic<bool> stop = false;
+  StopRequests stop = 0;
   int finished = 0;
   EXPECT_THROW(
       run_sweep(sweep_, planned, known_, sequences, 2, stop, [&](const auto&) { ++finished; }),
@@ -177,10 +177,10 @@ TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
 TEST_F(RunSweep, StopLeavesWholeCellsOnly) {
   const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
   Sequences sequences(sweep_, known_, {}, planned);
-  std::atomic<bool> stop = false;
+  StopRequests stop = 0;
   std::size_t finished = 0;
   run_sweep(sweep_, planned, known_, sequences, 1, stop, [&](const auto&) {
-    if (++finished == 5) stop = true;
+    if (++finished == 5) stop = 1;
   });
   EXPECT_EQ(finished, 5u);
 }

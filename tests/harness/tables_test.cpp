@@ -98,7 +98,7 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
 
 TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
   EXPECT_EQ(marks({runs(1.0, 5), runs(2.0, 5)}).why_none,
-            "5 independent runs per cell cannot prove a difference at 0.05");
+            "5 independent runs per entry cannot prove a difference at 0.05");
   EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // a single competitor
 }
 
@@ -164,14 +164,14 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
   EXPECT_EQ(latex(table_view(tables[0])),
-            "% dense\n"
+            "\\begin{table}\n\\centering\n\\caption{dense}\n"
             "\\begin{tabular}{lr}\n\\toprule\n"
             "method & ate {[}m] \\\\\n\\midrule\n"
             "a\\textbar{}b\\_\\&\\%\\textless{}\\textquotedbl{}x\\textquotedbl{} \\_c & "
             "\\textbf{0.135} \\\\\n"
             "raw & \\underline{1.035} \\\\\n"
             "dm\\_n3 & 2.035 \\\\\n"
-            "\\bottomrule\n\\end{tabular}\n"
+            "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
             "% " +
                 notes + "% each number is the mean of up to 8 cells\n");
 }

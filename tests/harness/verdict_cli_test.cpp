@@ -167,7 +167,7 @@ TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsProven) {
   EXPECT_FALSE(has(apart, "**")) << apart;
   EXPECT_TRUE(
       has(apart,
-          "- no best value is marked: 4 independent runs per cell cannot prove a difference at "
+          "- no best value is marked: 4 independent runs per entry cannot prove a difference at "
           "0.05"));
 }
 
@@ -283,7 +283,7 @@ TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
   const CommandResult alone = run("plot r -o without");
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_TRUE(has(alone.err, "gnuplot failed (package gnuplot-nox)")) << alone.err;
+  EXPECT_TRUE(has(alone.err, "gnuplot is not installed (package gnuplot-nox)")) << alone.err;
 }
 
 }  // namespace

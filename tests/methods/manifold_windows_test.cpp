@@ -35,7 +35,8 @@ TEST(Segments, WithoutABandTheMeanSpeedIsTheBand) {
 }
 
 TEST(Segments, ASharpTurnStartsANewSegmentWithNewSpeeds) {
-  // Speeds 1.0 1.2 | 1.4 1.4: within a band of 0.3 only if the turn at node 2 starts a new segment.
+  // Speeds 1.0 1.2 | 1.4 1.4: within a band of 0.3 only if the corner at node 2 starts a new
+  // segment.
   const Nodes nodes(through({{0, 0, 0}, {1.0, 0, 0}, {2.2, 0, 0}, {2.2, 0, 1.4}, {2.2, 0, 2.8}}));
   EXPECT_EQ(segments(nodes, {0.3, 0.75}), (Ranges{{0, 2}, {2, 4}}));
 }

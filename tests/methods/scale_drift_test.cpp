@@ -34,8 +34,8 @@ ScaleDrift scale_drift(double creep, double precision) {
     out.truth.push_back({static_cast<double>(i), pose});
     out.problem.keyframes.push_back({static_cast<double>(i), measured_pose});
     if (i == 40) break;
-    const double turn = i % 10 == 9 ? 0.5 * std::numbers::pi : 0.0;
-    const Pose step{exp_so3({0, 0, turn}), Vector3(1, 0, 0)};
+    const double angle = i % 10 == 9 ? 0.5 * std::numbers::pi : 0.0;
+    const Pose step{exp_so3({0, 0, angle}), Vector3(1, 0, 0)};
     const Pose measured{step.rotation, step.translation / unit};
     out.problem.odometry.push_back({i, i + 1, measured, information, 1.0});
     pose = normalized(pose * step);

@@ -129,7 +129,7 @@ TEST(Uniform, FallsBackToIndexForZeroWeightsAndReportsIt) {
 }
 
 TEST(Uniform, ClosesSeparateLoopsExactly) {
-  for (const char* overlap : {"whole", "open"}) {
+  for (const char* overlap : {"all", "open"}) {
     const Problem problem =
         with_closures(hand_held(), hand_held_truth(), {{2, 20}, {20, 30}, {35, 50}});
     const Result result = corrected(problem, option("overlap", overlap));

@@ -64,19 +64,19 @@ TEST(AlongCross, AlongAndOffTrackDoNotCareHowTheWorldIsTurned) {
   std::mt19937_64 random(3);
   const Trajectory reference = test::random_walk(random, 200);
   const Trajectory estimate = test::noisy(random, reference, 0.2, 0.1);
-  const Pose turn = test::random_pose(random, 10.0, 2.0);
+  const Pose motion = test::random_pose(random, 10.0, 2.0);
   const auto here = along_cross(beside(reference, estimate), {});
   const auto there =
-      along_cross(beside(moved_by(turn, 1.0, reference), moved_by(turn, 1.0, estimate)), {});
+      along_cross(beside(moved_by(motion, 1.0, reference), moved_by(motion, 1.0, estimate)), {});
   for (const char* axis : {"along", "off_track"}) {
     EXPECT_NEAR(find(here, "translation", axis).rmse, find(there, "translation", axis).rmse, 1e-12);
   }
-  const double whole = find(ate(beside(reference, estimate), {}), "translation", "3d").sse;
+  const double complete = find(ate(beside(reference, estimate), {}), "translation", "3d").sse;
   const double off_track = find(here, "translation", "off_track").sse;
-  EXPECT_NEAR(find(here, "translation", "along").sse + off_track, whole, 1e-12 * whole);
+  EXPECT_NEAR(find(here, "translation", "along").sse + off_track, complete, 1e-12 * complete);
   EXPECT_NEAR(find(here, "translation", "cross").sse + find(here, "translation", "vertical").sse,
               off_track,
-              1e-12 * whole);
+              1e-12 * complete);
 }
 
 TEST(AlongCross, RefusesAReferenceThatNeverMoves) {

@@ -22,7 +22,7 @@ namespace {
 using Pairs = std::vector<IndexPair>;
 using Stamps = std::vector<double>;
 
-/// Literal copy of evo's sync.py: argmin over the whole longer list.
+/// Literal copy of evo's sync.py: argmin over all of the longer list.
 Pairs literal_evo(Stamps reference, Stamps estimate, double max_diff, double offset) {
   const bool is_estimate_longer = estimate.size() > reference.size();
   Stamps& longer = is_estimate_longer ? estimate : reference;

@@ -143,15 +143,15 @@ TEST(Jerk, ByHandOnACubic) {
 
 TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
   const auto cubic = [](double t) -> Vector3 { return {2.0 * t * t * t, t, -1.0}; };
-  const EvaluatedCell whole = made(0.0, cubic);
+  const EvaluatedCell complete = made(0.0, cubic);
   Trajectory holed;
-  for (const StampedPose& pose : whole.reference) {
+  for (const StampedPose& pose : complete.reference) {
     if (pose.stamp < 1.005 || pose.stamp > 1.995) holed.push_back(pose);
   }
-  Evaluation evaluation = whole.evaluation;
+  Evaluation evaluation = complete.evaluation;
   evaluation.context.reference = &holed;
   const auto scores = jerk(evaluation, {.rate = 10.0});
-  const std::size_t all = find(jerk(whole.evaluation, {.rate = 10.0}), "estimate", "3d").count;
+  const std::size_t all = find(jerk(complete.evaluation, {.rate = 10.0}), "estimate", "3d").count;
   EXPECT_EQ(find(scores, "estimate", "3d").count, all - 12);  // begins 0.8 .. 1.9
   EXPECT_NEAR(find(scores, "reference", "3d").mean, 12.0, 1.0);
   EXPECT_THROW(jerk(evaluation, {.rate = 0.1}), std::runtime_error);

@@ -51,49 +51,49 @@ TEST(Evaluation, TimeLostIsNotJudged) {
   const auto span = [](const Trajectory& reference, const Trajectory& estimate) {
     return evaluate(reference, estimate, kPlain).coverage.span;
   };
-  const Trajectory whole = at(every(0.5, 0.0, 40.0));
-  EXPECT_EQ(span(whole, whole), 1.0);
-  EXPECT_EQ(span(whole, at(ends(0.5))), 7.0 / 40.0);       // no poses from 3.5 to 36.5 s
-  EXPECT_EQ(span(at(ends(0.5)), whole), 1.0);              // gap of the reference itself
-  EXPECT_EQ(span(whole, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart everywhere
-  Trajectory standing = whole;
+  const Trajectory complete = at(every(0.5, 0.0, 40.0));
+  EXPECT_EQ(span(complete, complete), 1.0);
+  EXPECT_EQ(span(complete, at(ends(0.5))), 7.0 / 40.0);       // no poses from 3.5 to 36.5 s
+  EXPECT_EQ(span(at(ends(0.5)), complete), 1.0);              // gap of the reference itself
+  EXPECT_EQ(span(complete, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart everywhere
+  Trajectory standing = complete;
   for (auto& [stamp, pose] : standing) pose.translation.x() = stamp < 20.0 ? 0.0 : 1.0;
   EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: at rest, no keyframes expected
 }
 
 TEST(Evaluation, ABridgedTrackingGapIsNotJudged) {
-  const Trajectory whole = at(every(0.5, 0.0, 40.0));
+  const Trajectory complete = at(every(0.5, 0.0, 40.0));
   const std::vector<double> keyframes = ends(0.5);  // none from 3.5 to 36.5 s
   const Polyline chord(at(keyframes));
   const auto judged = [&](const Protocol& rules, const std::vector<double>& tracked = {}) {
-    return evaluate(whole, chord, keyframes, Times::dense, rules, tracked).coverage;
+    return evaluate(complete, chord, keyframes, Times::dense, rules, tracked).coverage;
   };
   const Coverage limited = judged(kPlain);
   EXPECT_EQ(limited.pairs, keyframes.size());
-  EXPECT_EQ(limited.possible, whole.size());
+  EXPECT_EQ(limited.possible, complete.size());
   EXPECT_EQ(limited.span, 7.0 / 40.0);
   EXPECT_EQ(limited.bridged, 33.0);
 
   Protocol any = kPlain;
   any.max_estimate_gap = 0.0;
   const Coverage all = judged(any);
-  EXPECT_EQ(all.pairs, whole.size());
+  EXPECT_EQ(all.pairs, complete.size());
   EXPECT_EQ(all.span, 1.0);
   EXPECT_EQ(all.bridged, 33.0);
   Protocol longer = kPlain;
   longer.max_estimate_gap = 34.0;
   EXPECT_EQ(judged(longer).bridged, 0.0);
 
-  const Coverage tracked = judged(kPlain, stamps(whole));  // frames between the keyframes
-  EXPECT_EQ(tracked.pairs, whole.size());
+  const Coverage tracked = judged(kPlain, stamps(complete));  // frames between the keyframes
+  EXPECT_EQ(tracked.pairs, complete.size());
   EXPECT_EQ(tracked.bridged, 0.0);
 }
 
 TEST(Evaluation, SparseKeyframesAreNoTrackingGap) {
-  const Trajectory whole = at(every(0.5, 0.0, 40.0));
+  const Trajectory complete = at(every(0.5, 0.0, 40.0));
   const std::vector<double> keyframes = every(4.0, 0.0, 40.0);
   const Coverage got =
-      evaluate(whole, Polyline(at(keyframes)), keyframes, Times::dense, kPlain).coverage;
+      evaluate(complete, Polyline(at(keyframes)), keyframes, Times::dense, kPlain).coverage;
   EXPECT_EQ(got.share(), 1.0);
   EXPECT_EQ(got.bridged, 0.0);
 }

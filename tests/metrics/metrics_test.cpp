@@ -156,14 +156,14 @@ class Laws : public testing::TestWithParam<double> {
 
 TEST_P(Laws, SquaresOfAxesAddUp) {
   const Evaluation e = beside(reference_, estimate_, Align::se3);
-  const double whole = find(ate(e, {}), "translation", "3d").sse;
+  const double complete = find(ate(e, {}), "translation", "3d").sse;
   double parts = 0.0;
   double body_parts = 0.0;
   for (const char* axis : {"x", "y", "z"}) {
     parts += find(axis_error(e, {}), "translation", axis).sse;
     body_parts += find(rpe(e, {}), "translation", axis).sse;
   }
-  EXPECT_NEAR(parts, whole, 1e-12 * whole);
+  EXPECT_NEAR(parts, complete, 1e-12 * complete);
   const double relative = find(rpe(e, {}), "translation", "3d").sse;
   EXPECT_NEAR(body_parts, relative, 1e-12 * relative);
 }
@@ -197,10 +197,10 @@ TEST_P(Laws, AxisRpeIsBoundedByAxisAte) {
 }
 
 TEST_P(Laws, WholeNumbersDoNotCareHowTheWorldIsTurned) {
-  const Pose turn = random_pose(random_, 50.0, 2.0);
+  const Pose motion = random_pose(random_, 50.0, 2.0);
   const Evaluation here = beside(reference_, estimate_, Align::se3);
   const Evaluation there =
-      beside(moved_by(turn, 1.0, reference_), moved_by(turn, 1.0, estimate_), Align::se3);
+      beside(moved_by(motion, 1.0, reference_), moved_by(motion, 1.0, estimate_), Align::se3);
   for (const MetricEntry& entry : pair_errors()) {
     const auto a = entry.score(here, {});
     const auto b = entry.score(there, {});

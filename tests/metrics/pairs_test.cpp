@@ -107,7 +107,7 @@ TEST(TumClosestIndex, OnATieTheOneProbedFirstWins) {
 constexpr std::size_t kMostPairs = 10'000;
 
 /// Their pairs by stamp: integer seconds, one per pose of turning().
-Pairs of_whole_estimate(const TumMotions& motions) {
+Pairs of_complete_estimate(const TumMotions& motions) {
   Pairs out;
   const auto number = [&](std::size_t i) {
     return static_cast<std::size_t>(motions.poses.estimate[i].stamp);
@@ -125,14 +125,16 @@ TEST(TumMotions, DropTheLastPoseAsAnEndAndGapsInTheReference) {
   EXPECT_EQ(motions().pairs.size(), 8u);
   // Without 3..7 the median stays 1 s, and 5 s is 3 s from its neighbours: beyond 2.
   reference.erase(reference.begin() + 3, reference.begin() + 8);
-  EXPECT_EQ(of_whole_estimate(motions()), (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {6, 7}, {7, 8}}));
+  EXPECT_EQ(of_complete_estimate(motions()),
+            (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {6, 7}, {7, 8}}));
   EXPECT_EQ(motions().poses.reference.size(), 8u);  // 5 and 9 are not used
 }
 
 TEST(TumMotions, MeasureMetresFramesAndTurns) {
   const Trajectory poses = turning({0.0, 0.4, 0.8, 1.2, 1.6, 2.0});
   const auto pairs = [&](double delta, DeltaUnit unit) {
-    return of_whole_estimate(tum_motions({poses, poses}, 0.0, {}, {delta, unit, 0.1}, kMostPairs));
+    return of_complete_estimate(
+        tum_motions({poses, poses}, 0.0, {}, {delta, unit, 0.1}, kMostPairs));
   };
   const Pairs two{{0, 2}, {1, 3}, {2, 4}};
   EXPECT_EQ(pairs(2.0, DeltaUnit::frames), two);
@@ -212,7 +214,7 @@ TEST(TumRandomMotions, TakeAllPairsOfFewerThanAHundredPoses) {
   Trajectory reference = turning({0, 0, 0, 0, 0, 0, 0, 0});
   const Trajectory estimate = turning({0, 0, 0});
   const auto pairs = [&](double offset) {
-    return of_whole_estimate(tum_random_motions({reference, estimate}, offset, {}, kMostPairs));
+    return of_complete_estimate(tum_random_motions({reference, estimate}, offset, {}, kMostPairs));
   };
   EXPECT_EQ(pairs(0.0),
             (Pairs{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}));
@@ -222,12 +224,12 @@ TEST(TumRandomMotions, TakeAllPairsOfFewerThanAHundredPoses) {
 
 TEST(TumRandomMotions, DrawFromAHundredOn) {
   const Trajectory poses = turning(std::vector<double>(100, 0.0));
-  const Pairs got = of_whole_estimate(tum_random_motions({poses, poses}, 0.0, {}, kMostPairs));
+  const Pairs got = of_complete_estimate(tum_random_motions({poses, poses}, 0.0, {}, kMostPairs));
   ASSERT_EQ(got.size(), kMostPairs);
   EXPECT_EQ(got[0], (FromTo{49, 97}));
   EXPECT_EQ(got[1], (FromTo{53, 5}));
   const TumMotions few = tum_random_motions({poses, poses}, 0.0, {}, 7);
-  EXPECT_EQ(of_whole_estimate(few), Pairs(got.begin(), got.begin() + 7));
+  EXPECT_EQ(of_complete_estimate(few), Pairs(got.begin(), got.begin() + 7));
 }
 
 TEST(StretchPairs, RefuseWhatNoStretchCanBe) {

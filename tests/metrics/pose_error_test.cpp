@@ -18,27 +18,30 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-Rotation turn(double roll, double pitch, double yaw) {
+Rotation from_rpy(double roll, double pitch, double yaw) {
   return exp_so3(Vector3(0, 0, yaw)) * exp_so3(Vector3(0, pitch, 0)) * exp_so3(Vector3(roll, 0, 0));
 }
 
 TEST(Euler, TakesApartWhatWasPutTogether) {
-  const Euler got = euler(turn(0.3, -0.4, 2.5));
+  const Euler got = euler(from_rpy(0.3, -0.4, 2.5));
   EXPECT_NEAR(got.roll, 0.3, 1e-15);
   EXPECT_NEAR(got.pitch, -0.4, 1e-15);
   EXPECT_NEAR(got.yaw, 2.5, 1e-15);
 }
 
 TEST(Projection, KeepsTheAngleAcrossThePlane) {
-  const Trajectory poses{{0.0, {turn(0.1, 0.2, 0.3), Vector3(1, 2, 3)}}};
+  const Trajectory poses{{0.0, {from_rpy(0.1, 0.2, 0.3), Vector3(1, 2, 3)}}};
   const auto flat = [&](ProjectionPlane plane) {
     Trajectory out = poses;
     project(out, plane);
     return out[0].world_from_body;
   };
-  EXPECT_TRUE(is_close(flat(ProjectionPlane::xy), {turn(0, 0, 0.3), Vector3(1, 2, 0)}, 0.0, 1e-14));
-  EXPECT_TRUE(is_close(flat(ProjectionPlane::xz), {turn(0, 0.2, 0), Vector3(1, 0, 3)}, 0.0, 1e-14));
-  EXPECT_TRUE(is_close(flat(ProjectionPlane::yz), {turn(0.1, 0, 0), Vector3(0, 2, 3)}, 0.0, 1e-14));
+  EXPECT_TRUE(
+      is_close(flat(ProjectionPlane::xy), {from_rpy(0, 0, 0.3), Vector3(1, 2, 0)}, 0.0, 1e-14));
+  EXPECT_TRUE(
+      is_close(flat(ProjectionPlane::xz), {from_rpy(0, 0.2, 0), Vector3(1, 0, 3)}, 0.0, 1e-14));
+  EXPECT_TRUE(
+      is_close(flat(ProjectionPlane::yz), {from_rpy(0.1, 0, 0), Vector3(0, 2, 3)}, 0.0, 1e-14));
   EXPECT_TRUE(is_close(flat(ProjectionPlane::none), poses[0].world_from_body, 0.0, 0.0));
 }
 
@@ -46,7 +49,7 @@ TEST(Projection, KeepsTheAngleAcrossThePlane) {
 /// and rotated by 60 degrees about z.
 Evaluation two_poses(ErrorForm form = ErrorForm::evo) {
   const Trajectory reference{{0.0, {}}, {1.0, {Rotation::Identity(), Vector3(4, 0, 0)}}};
-  const Trajectory estimate{{0.0, {}}, {1.0, {turn(0, 0, 60 * kDegree), Vector3(5, 0, 0)}}};
+  const Trajectory estimate{{0.0, {}}, {1.0, {from_rpy(0, 0, 60 * kDegree), Vector3(5, 0, 0)}}};
   return evaluate(reference, estimate, {.align = Align::none, .min_pairs = 1, .form = form});
 }
 

@@ -70,14 +70,14 @@ TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
     const Evaluation judged =
         evaluate(reference, estimate, named_protocol(name, same_length).rules);
     const auto scores = rpe(judged, {.delta = 5.0});
-    const Statistics whole = find(scores, "translation", "3d");
+    const Statistics complete = find(scores, "translation", "3d");
     double squares = 0.0;
     for (const char* axis : {"x", "y", "z"}) {
       const Statistics part = find(scores, "translation", axis);
-      EXPECT_LE(part.rmse, whole.rmse) << name;
+      EXPECT_LE(part.rmse, complete.rmse) << name;
       squares += part.rmse * part.rmse;
     }
-    EXPECT_NEAR(squares, whole.rmse * whole.rmse, 1e-12) << name;
+    EXPECT_NEAR(squares, complete.rmse * complete.rmse, 1e-12) << name;
   }
 }
 

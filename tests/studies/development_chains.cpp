@@ -88,21 +88,21 @@ class ChainMaker {
   void add(const ChainUse& use,
            const Problem& problem,
            const std::vector<std::optional<Pose>>& truth) {
-    DevelopmentChain whole{use.odometer, use.sequence, "", problem, truth};
-    whole.problem.frames.clear();
+    DevelopmentChain complete{use.odometer, use.sequence, "", problem, truth};
+    complete.problem.frames.clear();
     for (const std::size_t loops : use.loops) {
       if (loops > problem.closures.size()) continue;
-      DevelopmentChain& chain = chains.emplace_back(whole);
+      DevelopmentChain& chain = chains.emplace_back(complete);
       chain.name = use.odometer + ", " + std::to_string(loops) + " loops";
       keep(chain.problem, subsample(problem.closures.size(), loops));
     }
-    add_stretches(use, whole);
+    add_stretches(use, complete);
   }
 
-  void add_stretches(const ChainUse& use, const DevelopmentChain& whole) {
+  void add_stretches(const ChainUse& use, const DevelopmentChain& complete) {
     std::mt19937_64 bits(use.seed);
     const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
-    const auto keyframes = static_cast<double>(whole.truth.size());
+    const auto keyframes = static_cast<double>(complete.truth.size());
     int made = 0;
     for (int tries = 0; tries < 4000 && made < use.stretches; ++tries) {
       const double share = use.shortest + (use.longest - use.shortest) * uniform();
@@ -110,8 +110,8 @@ class ChainMaker {
       const auto begin =
           static_cast<std::size_t>(uniform() * (keyframes - static_cast<double>(length)));
       std::vector<std::size_t> inside;
-      for (std::size_t k = 0; k < whole.problem.closures.size(); ++k) {
-        const Edge& loop = whole.problem.closures[k];
+      for (std::size_t k = 0; k < complete.problem.closures.size(); ++k) {
+        const Edge& loop = complete.problem.closures[k];
         if (loop.from >= begin && loop.to < begin + length) inside.push_back(k);
       }
       if (inside.empty()) continue;
@@ -119,17 +119,17 @@ class ChainMaker {
       std::vector<std::size_t> kept;
       std::size_t farthest = 0;
       for (const std::size_t i : subsample(inside.size(), wanted)) {
-        const Edge& loop = whole.problem.closures[inside[i]];
+        const Edge& loop = complete.problem.closures[inside[i]];
         kept.push_back(inside[i]);
         farthest = std::max(farthest, loop.to - loop.from);
       }
       if (farthest < length / 4) continue;
-      chains.push_back(stretch_of(whole, begin, length, kept));
+      chains.push_back(stretch_of(complete, begin, length, kept));
       chains.back().name = use.odometer + ", stretch " + std::to_string(++made);
     }
   }
 
-  static DevelopmentChain stretch_of(const DevelopmentChain& whole,
+  static DevelopmentChain stretch_of(const DevelopmentChain& complete,
                                      std::size_t begin,
                                      std::size_t length,
                                      const std::vector<std::size_t>& closures) {
@@ -137,10 +137,10 @@ class ChainMaker {
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
       return std::vector(first, first + static_cast<std::ptrdiff_t>(size));
     };
-    DevelopmentChain out = whole;
-    out.problem.keyframes = part(whole.problem.keyframes, length);
-    out.problem.odometry = part(whole.problem.odometry, length - 1);
-    out.truth = part(whole.truth, length);
+    DevelopmentChain out = complete;
+    out.problem.keyframes = part(complete.problem.keyframes, length);
+    out.problem.odometry = part(complete.problem.odometry, length - 1);
+    out.truth = part(complete.truth, length);
     keep(out.problem, closures);
     for (std::vector<Edge>* edges : {&out.problem.odometry, &out.problem.closures}) {
       for (Edge& edge : *edges) {

@@ -49,8 +49,8 @@ bool has_false_claim(const Comparison& c, const Truth& truth) {
 std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
   const Table table = pivot(all, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    for (const TableCell& cell : table.cells[row]) {
-      if (cell.mark == Mark::best)
+    for (const TableEntry& entry : table.entries[row]) {
+      if (entry.mark == Mark::best)
         return static_cast<std::size_t>(std::stoi(table.rows[row].substr(1)));
     }
   }

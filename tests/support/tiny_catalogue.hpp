@@ -46,11 +46,11 @@ struct Shift final : Corrector {
   };
   explicit Shift(const Options& o) : options(o) {}
   std::optional<std::string> declines(const Problem&) const override {
-    if (options.decline) return "told to decline";
+    if (options.decline) return "set to decline";
     return std::nullopt;
   }
   Trajectory correct(const Problem& problem, Report& report) const override {
-    if (options.fail) throw std::runtime_error("told to fail");
+    if (options.fail) throw std::runtime_error("set to fail");
     report.count("iterations", 3);
     report.sections.push_back(
         {"window", problem.keyframes.front().stamp, problem.keyframes.back().stamp, "shifted"});
@@ -89,7 +89,7 @@ void fields(LengthOptions& o, Visit visit) {
   visit("power", o.power, "of the error", Between{1, 2});
 }
 inline std::vector<Score> position(const Evaluation& evaluation, const LengthOptions& options) {
-  if (options.power == 2) throw std::runtime_error("told to be undefined");
+  if (options.power == 2) throw std::runtime_error("set to be undefined");
   std::vector<double> errors;
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     errors.push_back((evaluation.reference[i].world_from_body.translation -

@@ -59,7 +59,7 @@ class TinyStore : public testing::Test {
     Ran out;
     out.resumed = store.resume(cells(sweep, with_seed, ""), cells(sweep, with_seed, only), retry);
     Sequences sequences(sweep, known_, root_, out.resumed.missing);
-    const std::atomic<bool> stop = false;
+    const StopRequests stop = 0;
     run_sweep(sweep, out.resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
       store.write(r);
       out.cells.push_back(sweep.datasets[r.cell.dataset].label + " / " +

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
+#include "datasets/formats/regular_file.hpp"
 #include "datasets/hash.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
@@ -17,10 +15,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uint16_t kNoDepth = 65535;  // invalid depth in 7-Scenes; TUM uses 0
 
+/// Hash of the content; a file that cannot be read counts as empty.
 std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  return mixed(seed, bytes);
+  try {
+    return mixed(seed, read_regular_file(file, kLargestImageFile, "image"));
+  } catch (const InputError&) {  // read() reports it
+    return mixed(seed, "");
+  }
 }
 
 class FolderSource final : public RgbdSource {

@@ -66,6 +66,8 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
     if (depth.empty() || colour.empty() || !columns.done()) {
       throw list.error(line.number, "expected four columns: number depth number colour");
     }
+    require_inside(list, line, depth);
+    require_inside(list, line, colour);
     if (!(number > previous)) {
       throw list.error(line.number, "image number does not increase, expected increasing numbers");
     }

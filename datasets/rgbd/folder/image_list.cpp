@@ -3,9 +3,15 @@
 #include <cmath>
 
 #include "datasets/formats/columns.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench::rgbd {
+
+void require_inside(const TextFile& list, const Line& line, const std::string& file) {
+  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+  if (path.is_relative() && *path.begin() != "..") return;
+  throw list.error(line.number,
+                   "'" + file + "' is outside of the folder of the list, expected a path below it");
+}
 
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list) {
   TextFile file(list);
@@ -19,6 +25,7 @@ std::vector<ListedImage> read_image_list(const std::filesystem::path& list) {
     if (image.file.empty() || !columns.done()) {
       throw file.error(line.number, "expected two columns: stamp file");
     }
+    require_inside(file, line, image.file);
     if (!out.empty() && !(image.stamp > out.back().stamp)) {
       throw file.error(line.number, "stamp does not increase, expected increasing stamps");
     }

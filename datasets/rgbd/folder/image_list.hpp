@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "datasets/formats/text_file.hpp"
+
 namespace loopbench::rgbd {
 
 struct ListedImage {
@@ -12,8 +14,13 @@ struct ListedImage {
   std::string file;    ///< path as written in the list
 };
 
+/// Throws InputError `list:line: what` unless `file`, a path in a list, is relative and stays below
+/// the folder of the list. Symbolic links in that folder can still lead elsewhere.
+void require_inside(const TextFile& list, const Line& line, const std::string& file);
+
 /// Reads lines of `stamp file` (rgb.txt of TUM RGB-D). Throws InputError `file:line: what` for
-/// another number of columns, a stamp that does not increase, and a list without images.
+/// another number of columns, a stamp that does not increase, a path outside of the list's folder,
+/// and a list without images.
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list);
 
 struct ImagePair {

@@ -10,14 +10,16 @@
 
 #include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/pack_result.hpp"
-#include "harness/execution/isolate/worker_process.hpp"
+#include "harness/execution/isolate/signal_name.hpp"
+#include "harness/execution/isolate/subreaper.hpp"
+#include "harness/execution/isolate/unpack_answer.hpp"
+#include "harness/execution/isolate/worker_slot.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr int kMemoryWatch = 20;  // [ms], between memory checks of the workers
+constexpr int kMemoryWatch = 20;  // [ms], between memory checks of loading workers
 
 /// The highest core this process may use, since the first ones handle most interrupts.
 int last_core() {
@@ -31,33 +33,20 @@ int last_core() {
   return last;
 }
 
-std::string signal_name(int signal) {
-  const char* name = sigabbrev_np(signal);
-  return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
-}
-
-/// A worker, its unanswered jobs in order, and the answers received so far.
-struct WorkerSlot {
-  std::unique_ptr<WorkerProcess> process;
-  std::deque<Job> jobs;
-  std::string bytes;
-  std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
-  std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, for its current cell
-};
-
 class IsolatedSweep {
  public:
   IsolatedSweep(const WorkerContext& context,
                 int jobs,
-                const std::atomic<bool>& stop,
+                const StopRequests& stop,
                 const std::function<void(const CellResult&)>& finished)
       : context_(context),
         stop_(stop),
         finished_(finished),
         queue_(context.cells),
         metadata_(context.cells.size()),
+        load_failures_(context.cells.size()),
         slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
-        pinned_(context.sweep.serial ? last_core() : -1) {}
+        core_(context.sweep.serial ? last_core() : -1) {}
 
   void run() {
     // Load all sequences first, so that a wrong path in the last dataset is reported immediately.
@@ -77,14 +66,16 @@ class IsolatedSweep {
       wait();
       for (WorkerSlot& slot : slots_) {
         if (!slot.process) continue;
-        const bool alive = slot.process->receive(slot.bytes);
+        const bool has_ended = slot.process->has_ended();  // first: then all answers are there
+        slot.process->receive(slot.bytes);
         read_answers(slot);
-        if (alive) {
-          watch(slot);
-        } else {
+        if (has_ended) {
           reap(slot);
+        } else {
+          apply_limits(slot, context_.sweep.limits);
         }
       }
+      if (stop_ > 1) return abandon();
     }
   }
 
@@ -92,7 +83,7 @@ class IsolatedSweep {
   /// one job if nothing else may run at the same time.
   void fill(WorkerSlot& slot) {
     const std::size_t depth = context_.sweep.serial ? 1 : 2;
-    while (slot.jobs.size() < depth && !stop_) {
+    while (slot.jobs.size() < depth && stop_ == 0) {
       std::optional<Job> job;
       if (!loads_.empty()) {
         // One each, so that the other workers load their sequences in parallel.
@@ -101,65 +92,39 @@ class IsolatedSweep {
         loads_.pop_front();
         slot.group = queue_.group_of(job->cell);
       } else if (loads_done_) {
-        const auto cell = queue_.next(slot.group);
-        if (cell) job = Job{*cell, false};
+        job = next_cell(slot);
       }
       if (!job) return;
-      if (!slot.process) slot.process = std::make_unique<WorkerProcess>(context_, pinned_);
+      if (!slot.process) {
+        slot.process = std::make_unique<WorkerProcess>(context_, core_);
+        slot.step = 0;
+      }
       slot.jobs.push_back(*job);
       slot.process->send(*job);
     }
   }
 
-  /// Waits until a worker answers or a limit can be reached.
+  /// The next cell whose sequence can be loaded; the others get the reason why theirs could not.
+  std::optional<Job> next_cell(WorkerSlot& slot) {
+    while (const auto cell = queue_.next(slot.group)) {
+      const std::optional<CellResult>& failure = load_failures_[queue_.group_of(*cell)];
+      if (!failure) return Job{*cell, false};
+      finish(*failure, *cell);
+    }
+    return std::nullopt;
+  }
+
+  /// Waits until a worker answers or ends, or a limit can be reached.
   void wait() {
-    std::vector<pollfd> sockets;
-    int longest = -1;  // [ms]
-    const auto at_most = [&](std::int64_t milliseconds) {
-      const int bound = static_cast<int>(std::clamp<std::int64_t>(milliseconds, 1, 60000));
-      longest = longest < 0 ? bound : std::min(longest, bound);
-    };
+    std::vector<pollfd> events;
+    int longest = ActiveClock::kTick;
     for (const WorkerSlot& slot : slots_) {
       if (!slot.process || slot.jobs.empty()) continue;
-      sockets.push_back({slot.process->socket(), POLLIN, 0});
-      const Limits& limits = context_.sweep.limits;
-      if (limits.memory > 0) at_most(kMemoryWatch);
-      if (limits.seconds > 0.0) {
-        const bool idle = slot.process->shared_status().job == SharedStatus::kIdle;
-        const auto left = 1e3 * limits.seconds - (idle ? 0.0 : busy_for(slot) * 1e3);
-        at_most(static_cast<std::int64_t>(std::min(left, 60000.0)) + 1);
-      }
+      events.push_back({slot.process->socket(), POLLIN, 0});
+      events.push_back({slot.process->descriptor(), POLLIN, 0});
+      if (slot.is_loading() && context_.sweep.limits.memory > 0) longest = kMemoryWatch;
     }
-    poll(sockets.data(), sockets.size(), longest);  // also ended by an interrupt, which sets `stop`
-  }
-
-  static double busy_for(const WorkerSlot& slot) {
-    return 1e-9 * static_cast<double>(steady_nanoseconds() - slot.process->shared_status().since);
-  }
-
-  /// Kills a worker that exceeds a limit.
-  void watch(WorkerSlot& slot) {
-    const SharedStatus& shared_status = slot.process->shared_status();
-    const std::uint64_t job = shared_status.job;
-    if (slot.verdict || job == SharedStatus::kIdle) return;
-    if (job >= context_.cells.size()) return slot.process->kill();  // the worker wrote over it
-    const char* doing = shared_status.loading ? "loading its sequence" : "the cell";
-    const Limits& limits = context_.sweep.limits;
-    CellResult verdict;
-    verdict.cell = context_.cells[job];
-    if (limits.seconds > 0.0 && busy_for(slot) > limits.seconds) {
-      verdict.status = Status::timeout;
-      verdict.why = fmt::format("{} exceeded the time limit of {} s", doing, limits.seconds);
-    } else if (const std::int64_t size = limits.memory > 0 ? slot.process->resident_memory() : 0;
-               size > limits.memory) {
-      verdict.status = Status::out_of_memory;
-      verdict.why = fmt::format("{} grew to {} bytes, limit {}", doing, size, limits.memory);
-    } else {
-      return;
-    }
-    verdict.signal = "SIGKILL";
-    slot.verdict = verdict;
-    slot.process->kill();
+    poll(events.data(), events.size(), longest);  // also ended by an interrupt, which sets `stop`
   }
 
   void read_answers(WorkerSlot& slot) {
@@ -185,31 +150,27 @@ class IsolatedSweep {
   bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
     if (slot.jobs.empty() || header.cell != slot.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
+    if (header.kind == Header::Kind::cannot_run) {
+      throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
+    }
     if (header.kind == Header::Kind::loaded) {
       auto metadata = std::make_shared<SequenceMetadata>();
-      if (!unpacked(body, *metadata)) return false;
+      if (!unpack_answer(body, *metadata)) return false;
       keep(header.cell, std::move(metadata));
       return true;
     }
     if (header.kind == Header::Kind::result) {
       CellResult result;
-      if (!unpacked(body, result)) return false;
-      result.cell = context_.cells[header.cell];
+      if (!unpack_answer(body, result) || !is_valid(result, context_.sweep)) {
+        result = {};
+        result.status = Status::crashed;
+        result.why = "its result is damaged: it wrote over its memory";
+        set_conditions(result, header.cell);
+      }
       finish(result, header.cell);
     }
     slot.jobs.pop_front();
     return true;
-  }
-
-  template <class T>
-  static bool unpacked(std::string_view body, T& out) {
-    try {
-      Unpacker unpack(body);
-      unpack(out);
-      return true;
-    } catch (const std::runtime_error&) {
-      return false;
-    }
   }
 
   void keep(std::size_t cell, std::shared_ptr<const SequenceMetadata> metadata) {
@@ -225,63 +186,98 @@ class IsolatedSweep {
     kept = std::move(metadata);
   }
 
-  void finish(CellResult& result, std::size_t cell) {
+  /// What a cell without an answer has in common with the others.
+  void set_conditions(CellResult& result, std::size_t cell) const {
+    const Sweep& sweep = context_.sweep;
+    result.worker = {true, sweep.serial, sweep.serial};
+    result.oracle_method =
+        uses_reference(sweep.methods[context_.cells[cell].method], context_.catalogue);
+  }
+
+  void finish(CellResult result, std::size_t cell) {
     const std::size_t group = queue_.group_of(cell);
+    result.cell = context_.cells[cell];
     result.metadata = metadata_[group];
     flag_trained_on_evaluated(result, context_.sweep);
     if (queue_.finish(cell)) metadata_[group].reset();  // no longer needed
     finished_(result);
   }
 
-  /// Handles the end of a worker: sets the result of its current cell and requeues the others.
+  /// Handles the end of a worker: sets the result of what it did and requeues its other jobs.
   void reap(WorkerSlot& slot) {
+    const bool idle = slot.is_idle();
+    const bool loading = slot.is_loading();
     const WorkerProcess::End end = slot.process->end();
-    const bool loading = slot.process->shared_status().loading;
-    const bool idle = slot.process->shared_status().job == SharedStatus::kIdle;
     slot.process.reset();
     slot.bytes.clear();
+    end_strays_of_workers();
     std::deque<Job> jobs = std::exchange(slot.jobs, {});
-    const std::optional<CellResult> verdict = std::exchange(slot.verdict, std::nullopt);
+    std::optional<CellResult> result = std::exchange(slot.verdict, std::nullopt);
     if (jobs.empty()) return;
     const Job first = jobs.front();
-    const Cell& cell = context_.cells[first.cell];
-    if (verdict && verdict->cell.index != cell.index) {
-      requeue(jobs);  // it had answered everything
-      return;
+    if (!idle || !result) jobs.pop_front();  // otherwise it was killed after its last answer
+    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
+    if (idle && result) return;
+    if (!result) {
+      result.emplace();
+      result->status = Status::crashed;
+      if (end.signal != 0) result->signal = signal_name(end.signal);
+      result->why = end.signal != 0 ? "ended by " + result->signal
+                                    : fmt::format("exited, exit code {}", end.exit_code);
+      if (end.signal == 9) result->why += ", not by this program (system out of memory?)";
+      result->why += loading ? ", while loading its sequence" : " (its worker process)";
     }
-    jobs.pop_front();
-    requeue(jobs);
-    if (first.only_load) return;  // each of its cells will report the failure
-    CellResult result = verdict ? *verdict : CellResult{};
-    result.cell = cell;
-    if (!verdict) {
-      result.status = Status::crashed;
-      if (end.signal != 0) result.signal = signal_name(end.signal);
-      result.why = end.signal != 0 ? "ended by " + result.signal
-                                   : fmt::format("exited, exit code {}", end.exit_code);
-      if (end.signal == 9) result.why += ", not by this program (system out of memory?)";
-      if (loading && !idle) result.why += ", while loading its sequence";
-    }
-    result.worker = {true, context_.sweep.serial, context_.sweep.serial};
-    result.oracle_method = uses_reference(context_.sweep.methods[cell.method], context_.catalogue);
-    finish(result, first.cell);
+    set_conditions(*result, first.cell);
+    if (loading) load_failures_[queue_.group_of(first.cell)] = result;
+    if (!first.only_load) finish(*result, first.cell);
   }
 
-  void requeue(const std::deque<Job>& jobs) {
-    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) {
-      if (!job->only_load) queue_.requeue(job->cell);
+  void end_strays_of_workers() const {
+    std::vector<pid_t> workers;
+    for (const WorkerSlot& slot : slots_) {
+      if (slot.process) workers.push_back(slot.process->process());
     }
+    reaper_.end_strays_except(workers);
+  }
+
+  void requeue(const Job& job) {
+    if (job.only_load) {
+      loads_.push_front(job);
+    } else {
+      queue_.requeue(job.cell);
+    }
+  }
+
+  /// Ends all workers; cells that they are running are interrupted.
+  void abandon() {
+    for (WorkerSlot& slot : slots_) {
+      if (!slot.process || slot.jobs.empty()) continue;
+      const bool runs = !slot.is_idle() && !slot.is_loading();
+      const double seconds = slot.seconds();
+      const std::size_t cell = slot.process->shared_status().job;
+      slot.process.reset();
+      slot.jobs.clear();
+      if (!runs) continue;
+      CellResult result;
+      result.status = Status::interrupted;
+      result.why = fmt::format("abandoned after {:.1f} s by a second interrupt", seconds);
+      set_conditions(result, cell);
+      finish(result, cell);
+    }
+    loads_.clear();
   }
 
   const WorkerContext& context_;
-  const std::atomic<bool>& stop_;
+  const StopRequests& stop_;
   const std::function<void(const CellResult&)>& finished_;
   CellQueue queue_;
   std::deque<Job> loads_;
   bool loads_done_ = false;
   std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;  ///< by group
+  std::vector<std::optional<CellResult>> load_failures_;           ///< by group
+  Subreaper reaper_;  ///< ends strays after the workers
   std::vector<WorkerSlot> slots_;
-  int pinned_;
+  int core_;
 };
 
 }  // namespace
@@ -291,9 +287,10 @@ void run_isolated(const Sweep& sweep,
                   const Catalogue& catalogue,
                   const DataRoot& root,
                   int jobs,
-                  const std::atomic<bool>& stop,
+                  const SandboxOptions& sandbox,
+                  const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished) {
-  const WorkerContext context{sweep, cells, catalogue, root};
+  const WorkerContext context{sweep, cells, catalogue, root, sandbox, getpid()};
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

@@ -27,9 +27,8 @@ class LoadedSequences {
   const Entry& load(const Cell& cell);
 
  private:
-  /// Limit on poses and edges. Repeats follow each other and are not requested again, and freed
-  /// memory is reused faster than new memory is mapped.
-  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  /// Limit on poses and edges: every cell's process starts as a copy of all of them.
+  static constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
   const WorkerContext& context_;
   std::list<Entry> entries_;  ///< most recently used first

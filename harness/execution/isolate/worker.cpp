@@ -1,15 +1,19 @@
 #include "harness/execution/isolate/worker.hpp"
 
-#include <sched.h>
+#include <malloc.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
+#include <csignal>
 
+#include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
-#include "harness/execution/run/run_cell.hpp"
+#include "harness/execution/isolate/process_tree.hpp"
+#include "harness/execution/isolate/warm_heap.hpp"
+#include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/external/external_methods.hpp"
 
 namespace loopbench::harness {
@@ -45,48 +49,36 @@ bool answer(int socket, Header::Kind kind, std::uint64_t cell, const std::string
   return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
 }
 
-/// Pins the process to one core; false if that is not permitted.
-bool pin(int core) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(core), &set);
-  return sched_setaffinity(0, sizeof set, &set) == 0;
-}
-
-void begin(SharedStatus& shared_status, std::uint64_t job, bool loading) {
-  // Store the time first: the sweep must not combine an old time with a new job.
-  shared_status.since = steady_nanoseconds();
-  shared_status.loading = loading;
+void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
   shared_status.job = job;
+  shared_status.loading = loading;
+  ++shared_status.step;
 }
 
-/// Detects a method that exceeded the limit between two checks by the sweep.
-void apply_limits(const Limits& limits, CellResult& result) {
-  if (limits.memory <= 0 || result.peak_memory.value_or(0) <= limits.memory) return;
-  result.status = Status::out_of_memory;
-  result.why = "grew to " + std::to_string(*result.peak_memory) + " bytes, limit " +
-               std::to_string(limits.memory);
-  result.scores.clear();
-  result.trace = {};
+/// While it loads, the worker ends with the sweep; while a cell runs, it ends the cell first.
+const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const LoadedSequences::Entry& out = loaded.load(cell);
+  prctl(PR_SET_PDEATHSIG, 0);
+  malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
+  return out;
 }
 
 }  // namespace
 
-std::int64_t steady_nanoseconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int pinned) {
-  const Worker how{true, pinned >= 0, pinned >= 0 && pin(pinned)};
+void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int core) {
+  install_worker_signals(socket);
+  keep_heap_compact();
   LoadedSequences loaded(context);
+  CellProcesses cell_processes(context, socket, core);
   for (Job job; receive_all(socket, &job, sizeof job);) {
     const Cell& cell = context.cells[job.cell];
     const LoadedSequences::Entry* entry = loaded.find(cell);
     if (entry == nullptr) {
-      begin(shared_status, job.cell, true);
+      if (context.sweep.limits.memory > 0) shared_status.memory = process_memory("self");
+      set_status(shared_status, job.cell, true);
       try {
-        entry = &loaded.load(cell);
+        entry = &load(loaded, cell);
       } catch (const std::exception& error) {
         answer(socket, Header::Kind::cannot_load, job.cell, error.what());
         return;
@@ -96,19 +88,21 @@ void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_s
       if (!answer(socket, Header::Kind::loaded, job.cell, metadata.bytes())) return;
     }
     if (job.only_load) {
-      shared_status.job = SharedStatus::kIdle;
+      set_status(shared_status, SharedStatus::kIdle, false);
       if (!answer(socket, Header::Kind::only_loaded, job.cell, "")) return;
       continue;
     }
-    begin(shared_status, job.cell, false);
+    set_status(shared_status, job.cell, false);
     prepare_programs(context.sweep.methods[cell.method], command_setting(context.sweep));
-    CellResult result = run_cell(cell, context.sweep, entry->sequence, context.catalogue);
-    result.worker = how;
-    apply_limits(context.sweep.limits, result);
-    shared_status.job = SharedStatus::kIdle;
-    Packer packed;
-    packed(result);
-    if (!answer(socket, Header::Kind::result, job.cell, packed.bytes())) return;
+    std::string result;
+    try {
+      result = cell_processes.run(cell, *entry);
+    } catch (const std::exception& error) {
+      answer(socket, Header::Kind::cannot_run, job.cell, error.what());
+      return;
+    }
+    set_status(shared_status, SharedStatus::kIdle, false);
+    if (!answer(socket, Header::Kind::result, job.cell, result)) return;
   }
 }
 

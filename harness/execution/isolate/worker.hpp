@@ -1,21 +1,26 @@
-/// Main loop of a worker process: loads sequences, runs cells, sends results.
+/// Main loop of a worker process: loads sequences, runs each cell in a copy of itself, sends
+/// results.
 #pragma once
+
+#include <sys/types.h>
 
 #include <atomic>
 #include <cstdint>
 
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
-/// Status of a worker in memory shared with the sweep, which checks the time limit.
+/// Status of a worker in memory shared with the sweep, which limits loading. Cells do not have it.
 struct SharedStatus {
   static constexpr std::uint64_t kIdle = ~std::uint64_t{0};
   std::atomic<std::uint64_t> job = kIdle;  ///< Job::cell
-  std::atomic<std::int64_t> since = 0;     ///< start of the job [ns], steady clock
   std::atomic<bool> loading = false;       ///< loading the sequence, before the cell itself
+  std::atomic<std::int64_t> memory = 0;    ///< of the worker when it began to load [bytes]
+  std::atomic<std::uint64_t> step = 0;     ///< number of changes
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
@@ -29,6 +34,7 @@ struct Header {
   enum class Kind : std::uint32_t {
     loaded,       ///< SequenceMetadata of a job's sequence, which was loaded for it
     cannot_load,  ///< message of the InputError, which ends the sweep
+    cannot_run,   ///< message of the system, which ends the sweep
     result,       ///< CellResult
     only_loaded,  ///< a job with only_load is done
   };
@@ -43,13 +49,12 @@ struct WorkerContext {
   const std::vector<Cell>& cells;
   const Catalogue& catalogue;
   const DataRoot& root;
+  const SandboxOptions& sandbox;
+  pid_t sweep_process = 0;
 };
 
-/// Reads jobs from `socket` and answers there until it is closed. `pinned`: the core to run on, or
-/// -1. Does not throw; returns early if it cannot answer.
-void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int pinned);
-
-/// Steady clock [ns], common to all processes.
-std::int64_t steady_nanoseconds();
+/// Reads jobs from `socket` and answers there until it is closed. `core`: the one that cells run
+/// on, or -1. Does not throw; returns early if it cannot answer.
+void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int core);
 
 }  // namespace loopbench::harness

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -13,9 +14,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <stdexcept>
+
+#include "harness/execution/isolate/process_tree.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,78 +35,103 @@ void raise_oom_score() {
   close(file);
 }
 
+/// Returns the worker's number to the sweep, in an own process, and 0 in the worker. An
+/// intermediate process enters the namespace, since the sweep could not leave it; the sweep adopts
+/// the worker as subreaper.
+pid_t fork_worker(bool pid_namespace) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return -1;
+  const pid_t intermediate = fork();
+  if (intermediate == 0) {
+    if (pid_namespace) enter_pid_namespace();
+    const pid_t worker = fork();
+    if (worker == 0) return 0;
+    [[maybe_unused]] const ssize_t written = write(ends[1], &worker, sizeof worker);
+    _exit(0);
+  }
+  close(ends[1]);
+  pid_t worker = -1;
+  if (intermediate > 0 && read(ends[0], &worker, sizeof worker) != sizeof worker) worker = -1;
+  close(ends[0]);
+  while (intermediate > 0 && waitpid(intermediate, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return worker;
+}
+
 }  // namespace
 
-WorkerProcess::WorkerProcess(const WorkerContext& context, int pinned) {
+WorkerProcess::WorkerProcess(const WorkerContext& context, int core) {
   void* shared = mmap(
       nullptr, sizeof(SharedStatus), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw creation_error("shared memory");
   shared_status_ = new (shared) SharedStatus;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    munmap(shared_status_, sizeof(SharedStatus));
+    release();
     throw creation_error("socket pair");
   }
-  std::fflush(nullptr);  // otherwise the worker would print buffered output again
-  const pid_t parent = getpid();
-  process_ = fork();
-  if (process_ == 0) run_child(context, pinned, ends[1], parent);
-  close(ends[1]);
   socket_ = ends[0];
-  if (process_ > 0) return;
-  close(socket_);
-  munmap(shared_status_, sizeof(SharedStatus));
-  throw creation_error("fork");
+  std::fflush(nullptr);  // otherwise the worker would print buffered output again
+  process_ = fork_worker(context.sandbox.enabled && context.sandbox.pid_namespace);
+  if (process_ == 0) run_child(context, core, ends[1]);
+  close(ends[1]);
+  descriptor_ = process_ > 0 ? process_descriptor(process_) : -1;
+  if (descriptor_ >= 0) return;
+  const std::runtime_error error = creation_error(process_ > 0 ? "pidfd_open" : "fork");
+  release();
+  throw error;
 }
 
-WorkerProcess::~WorkerProcess() {
+WorkerProcess::~WorkerProcess() { release(); }
+
+void WorkerProcess::release() {
   if (process_ > 0) {
     kill();
     end();
   }
-  close(socket_);
+  if (descriptor_ >= 0) close(descriptor_);
+  if (socket_ >= 0) close(socket_);
   munmap(shared_status_, sizeof(SharedStatus));
 }
 
-void WorkerProcess::run_child(const WorkerContext& context, int pinned, int socket, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // the parent has died in the meantime
-  // The sweep handles signals to the process group; a worker that ended by one would look like a
-  // crashed cell. Handlers, because programs that a method starts would inherit ignored signals.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) {});
+void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
   // Close the sweep's files: the store, its lock and the other workers' sockets.
   constexpr int kSocket = 3;
   if (socket != kSocket) dup2(socket, kSocket);
+  fcntl(kSocket, F_SETFD, FD_CLOEXEC);
   close_range(kSocket + 1, ~0u, 0);
+  madvise(shared_status_, sizeof(SharedStatus), MADV_DONTFORK);  // not for cells
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   raise_oom_score();
-  run_worker(context, kSocket, *shared_status_, pinned);
+  run_worker(context, kSocket, *shared_status_, core);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }
 
 void WorkerProcess::send(const Job& job) {
-  // Errors are ignored: receive() reports that a worker has ended.
+  // Errors are ignored: the sweep notices that a worker has ended.
   [[maybe_unused]] const ssize_t sent = ::send(socket_, &job, sizeof job, MSG_NOSIGNAL);
 }
 
-bool WorkerProcess::receive(std::string& bytes) {
+void WorkerProcess::receive(std::string& bytes) {
   char buffer[1 << 16];
   for (;;) {
     const ssize_t got = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);
-    if (got > 0) {
-      bytes.append(buffer, static_cast<std::size_t>(got));
-    } else if (got < 0 && errno == EINTR) {
-      continue;
-    } else {
-      return got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
-    }
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return;
+    bytes.append(buffer, static_cast<std::size_t>(got));
   }
 }
 
 void WorkerProcess::kill() const {
   if (process_ > 0) ::kill(process_, SIGKILL);
+}
+
+bool WorkerProcess::has_ended() const {
+  pollfd event{descriptor_, POLLIN, 0};
+  return poll(&event, 1, 0) > 0;
 }
 
 WorkerProcess::End WorkerProcess::end() {
@@ -114,13 +141,6 @@ WorkerProcess::End WorkerProcess::end() {
   process_ = -1;
   if (WIFSIGNALED(status)) return {WTERMSIG(status), 0};
   return {0, WEXITSTATUS(status)};
-}
-
-std::int64_t WorkerProcess::resident_memory() const {
-  std::ifstream in("/proc/" + std::to_string(process_) + "/statm");
-  std::int64_t all = 0;
-  std::int64_t resident = 0;  // [pages]
-  return in >> all >> resident ? resident * sysconf(_SC_PAGESIZE) : 0;
 }
 
 }  // namespace loopbench::harness

@@ -3,9 +3,6 @@
 
 #include <sys/types.h>
 
-#include <deque>
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "harness/execution/isolate/worker.hpp"
@@ -14,8 +11,9 @@ namespace loopbench::harness {
 
 class WorkerProcess {
  public:
-  /// Forks. Only from a process without threads. Throws std::runtime_error on failure.
-  WorkerProcess(const WorkerContext& context, int pinned);
+  /// Forks, into a new PID namespace if that is permitted. Only from a process without threads that
+  /// is a subreaper. Throws std::runtime_error on failure.
+  WorkerProcess(const WorkerContext& context, int core);
   ~WorkerProcess();  ///< kills it if it is running
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -23,30 +21,34 @@ class WorkerProcess {
   /// Does not block: a few jobs fit into the socket buffer. Errors are reported by receive().
   void send(const Job& job);
 
-  /// Appends received bytes to `bytes`; false after the worker has ended and everything is read.
-  bool receive(std::string& bytes);
+  /// Appends received bytes to `bytes`.
+  void receive(std::string& bytes);
 
   void kill() const;
 
-  /// After receive() returned false: the signal that ended it, or 0 and its exit code.
+  /// Whether the process has ended, as its descriptor tells: descendants may hold the socket.
+  bool has_ended() const;
+
+  /// After its end or kill(): the signal that ended it, or 0 and its exit code.
   struct End {
     int signal = 0;
     int exit_code = 0;
   };
   End end();
 
-  /// Resident size [bytes], 0 if unknown.
-  std::int64_t resident_memory() const;
-
   const SharedStatus& shared_status() const { return *shared_status_; }
   int socket() const { return socket_; }
+  int descriptor() const { return descriptor_; }  ///< of the process: readable when it has ended
+  pid_t process() const { return process_; }      ///< -1 after end()
 
  private:
-  [[noreturn]] void run_child(const WorkerContext& context, int pinned, int socket, pid_t parent);
+  [[noreturn]] void run_child(const WorkerContext& context, int core, int socket);
+  void release();
 
   SharedStatus* shared_status_ = nullptr;  ///< in shared memory
   int socket_ = -1;
-  pid_t process_ = -1;  ///< -1 after its end
+  int descriptor_ = -1;
+  pid_t process_ = -1;
 };
 
 }  // namespace loopbench::harness

@@ -11,6 +11,8 @@
 namespace loopbench::harness {
 namespace {
 
+bool freshly_forked = false;
+
 /// Reads the number of kilobytes after `name` in /proc/self/status; returns bytes.
 std::optional<std::int64_t> from_status(std::string_view name) {
   const int file = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
@@ -35,7 +37,14 @@ double process_cpu_seconds() {
 
 std::optional<std::int64_t> resident_memory() { return from_status("VmRSS:"); }
 
+std::optional<std::int64_t> data_memory() { return from_status("VmData:"); }
+
+void set_freshly_forked() { freshly_forked = true; }
+
+bool is_freshly_forked() { return freshly_forked; }
+
 bool reset_peak_memory() {
+  if (freshly_forked) return true;
   const int file = open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
   if (file < 0) return false;
   const bool done = write(file, "5", 1) == 1;  // proc(5): resets VmHWM

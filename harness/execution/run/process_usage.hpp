@@ -12,9 +12,18 @@ double process_cpu_seconds();
 /// Current resident size [bytes]; nullopt without /proc.
 std::optional<std::int64_t> resident_memory();
 
+/// Size of the private writable memory, used or not [bytes]; nullopt without /proc.
+std::optional<std::int64_t> data_memory();
+
 /// Resets the largest resident size, so that peak_memory() covers the time from now on. False if
 /// the system does not support it.
 bool reset_peak_memory();
+
+/// Declares that this process was just forked to run one method: its peak needs no reset, which the
+/// sandbox of a cell prevents.
+void set_freshly_forked();
+
+bool is_freshly_forked();
 
 /// Largest resident size since the reset or the start of the process [bytes].
 std::optional<std::int64_t> peak_memory();

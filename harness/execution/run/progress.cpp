@@ -6,6 +6,9 @@
 
 #include <cstdio>
 
+#include "harness/text/print_error.hpp"
+#include "harness/text/printable.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -20,7 +23,7 @@ std::size_t terminal_width() {
 Progress::Progress(std::size_t total) : visible_(isatty(STDERR_FILENO) == 1), total_(total) {}
 
 Progress::~Progress() {
-  if (visible_) fmt::print(stderr, "\r\033[K");
+  if (visible_) print_error("\r\033[K");
 }
 
 void Progress::step(const std::string& label) {
@@ -31,7 +34,7 @@ void Progress::step(const std::string& label) {
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   // One column short, because writing the last column wraps on some terminals.
   const std::string line = progress_line(done_, total_, seconds, label, terminal_width() - 1);
-  fmt::print(stderr, "\r\033[K{}", line);
+  print_error("\r\033[K{}", line);
   std::fflush(stderr);
 }
 
@@ -53,7 +56,7 @@ std::string progress_line(std::size_t done,
                                        total,
                                        rate,
                                        left,
-                                       label);
+                                       printable(label));
   return line.substr(0, width);
 }
 

@@ -14,14 +14,14 @@ namespace {
 /// rethrown.
 void for_each_index(std::size_t count,
                     int jobs,
-                    const std::atomic<bool>& stop,
+                    const StopRequests& stop,
                     const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> has_failed = false;
   std::exception_ptr first;
   std::mutex mutex;
   const auto worker = [&] {
-    for (std::size_t i = next++; i < count && !stop && !has_failed; i = next++) {
+    for (std::size_t i = next++; i < count && stop == 0 && !has_failed; i = next++) {
       try {
         work(i);
       } catch (...) {
@@ -45,7 +45,7 @@ void run_sweep(const Sweep& sweep,
                const Catalogue& catalogue,
                Sequences& sequences,
                int jobs,
-               const std::atomic<bool>& stop,
+               const StopRequests& stop,
                const std::function<void(const CellResult&)>& finished) {
   // Check all inputs first, so that a wrong path in the last dataset is reported immediately.
   std::vector<const Cell*> first_of_dataset;

@@ -1,23 +1,23 @@
 /// Runs all cells of a sweep on several threads; results do not depend on the number of threads.
 #pragma once
 
-#include <atomic>
 #include <functional>
 
 #include "harness/execution/run/sequences.hpp"
+#include "harness/execution/run/stop_requests.hpp"
 #include "harness/model/result.hpp"
 
 namespace loopbench::harness {
 
 /// Calls `finished` once per cell, serialised, in order of completion. Throws InputError before the
-/// first cell if a sequence cannot be loaded. Stops early and omits the remaining cells if `stop`
-/// becomes true. `jobs` >= 1.
+/// first cell if a sequence cannot be loaded. Starts no more cells when `stop` is not 0. `jobs`
+/// >= 1.
 void run_sweep(const Sweep& sweep,
                const std::vector<Cell>& cells,
                const Catalogue& catalogue,
                Sequences& sequences,
                int jobs,
-               const std::atomic<bool>& stop,
+               const StopRequests& stop,
                const std::function<void(const CellResult&)>& finished);
 
 }  // namespace loopbench::harness

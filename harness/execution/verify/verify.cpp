@@ -48,7 +48,8 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const Catalogue& catalogue,
                                const DataRoot& root,
                                const std::vector<RunMode>& modes,
-                               const std::atomic<bool>& stop,
+                               const SandboxOptions& sandbox,
+                               const StopRequests& stop,
                                const std::function<void(const std::string& mode)>& step) {
   std::map<std::size_t, std::size_t> index_of_cell;  // index of a cell by its position
   for (std::size_t i = 0; i < cells.size(); ++i) index_of_cell.emplace(cells[i].index, i);
@@ -75,7 +76,7 @@ std::vector<Difference> verify(const Sweep& sweep,
           {cell, mode.name(), kParts[static_cast<std::size_t>(differ.in1 - digest.parts.begin())]});
     };
     if (mode.isolated) {
-      run_isolated(sweep, chosen, catalogue, root, mode.jobs, stop, finished);
+      run_isolated(sweep, chosen, catalogue, root, mode.jobs, sandbox, stop, finished);
     } else {
       Sequences sequences(sweep, catalogue, root, chosen);
       run_sweep(sweep, chosen, catalogue, sequences, mode.jobs, stop, finished);

@@ -1,12 +1,13 @@
 /// Check that a sweep is bit-identical for any number of workers and threads.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/execution/run/stop_requests.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
 
@@ -35,7 +36,8 @@ std::vector<Difference> verify(const Sweep& sweep,
                                const Catalogue& catalogue,
                                const DataRoot& root,
                                const std::vector<RunMode>& modes,
-                               const std::atomic<bool>& stop,
+                               const SandboxOptions& sandbox,
+                               const StopRequests& stop,
                                const std::function<void(const std::string& mode)>& step);
 
 }  // namespace loopbench::harness

@@ -46,7 +46,7 @@
 
   const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 
-  // o: {label, width, height, margin, x: {label, domain, log}, y: likewise or {band}, equal, zoom,
+  // o: {label, width, height, margin, x: {label, domain, log, ticks}, y: likewise or {band}, equal, zoom,
   // draw(group, x, y)}; draw is called again at every zoom.
   R.chart = (host, o) => {
     // Uses the available width, so that text keeps its size on a phone.
@@ -82,6 +82,7 @@
     }
     // A log axis over less than a decade has no powers of ten to label, so it gets plain ticks.
     const ticks = (s, axis, count) => {
+      if (axis.ticks) return axis.ticks;
       if (!axis.log) return s.ticks(count);
       const [a, b] = s.domain();
       if (b / a < 8) return d3.scaleLinear([a, b], [0, 1]).ticks(count);

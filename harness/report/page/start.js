@@ -52,16 +52,19 @@
   };
   const button = (text, places) => {
     const out = element("button", { type: "button", textContent: text });
-    out.addEventListener("click", () => set(places));
+    out.addEventListener("click", () => set(places()));
     return out;
   };
   const all = R.methods.map((m) => m.place);
   const details = element("details", {}, summary,
-    element("div", { className: "row" }, button("best few", R.usual), button("all", all), button("none", [])), chips);
+    element("div", { className: "row" }, button("best few", R.bestFew), button("all", () => all), button("none", () => []),
+      button("different ones", () => R.usual)), chips);
   form.append(details);
   form.addEventListener("submit", (e) => e.preventDefault());
   R.follow(() => {
-    summary.textContent = `Methods drawn: ${R.shown().map((m) => m.label).join(", ") || "none"}`;
+    const drawn = R.shown().map((m) => m.label);
+    const more = drawn.length > 5 ? ` and ${drawn.length - 5} more` : "";
+    summary.textContent = `Methods drawn (${drawn.length} of ${R.methods.length}): ${drawn.slice(0, 5).join(", ") || "none"}${more}`;
     boxes.forEach((box, m) => (box.style.accentColor = state.shown.has(m) ? R.color(m) : ""));
   });
   form.hidden = false;
@@ -81,5 +84,18 @@
   };
   put();
   R.changed();
+  // Links between sections keep the selection in the address.
+  const show = (name) => {
+    R.section = name;
+    document.getElementById(name).scrollIntoView();
+    history.replaceState(null, "", R.link());
+  };
+  for (const link of document.querySelectorAll('nav a[href^="#"], a.skip')) {
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      show(link.getAttribute("href").slice(1));
+    });
+  }
+  if (R.section && document.getElementById(R.section)) show(R.section);
   document.documentElement.dataset.drawn = "yes";
 })();

@@ -42,14 +42,67 @@
     return out;
   };
 
+  // The best methods by the selected score, after the baseline: by the ranking of the verdict or, without
+  // one, by their means.
+  R.bestFew = () => {
+    const k = kinds[R.state.kind];
+    const comparison = R.comparison(R.state.kind);
+    const mean = (m) => {
+      const value = d3.mean(R.values(R.state.kind, R.state.statistic, m), (v) => v.value);
+      return value === undefined ? NaN : k.better === "higher" ? -value : value;
+    };
+    const ranked = comparison
+      ? comparison.methods.map((m) => R.methods.findIndex((method) => method.name === m.method))
+      : d3.sort(R.methods.filter((m) => !m.oracle && Number.isFinite(mean(m.place))), (m) => mean(m.place)).map((m) => m.place);
+    const base = R.baseline ? [R.baseline.place] : [];
+    return [...base, ...ranked.filter((m) => !base.includes(m)).slice(0, 4)];
+  };
+
   const shown = usual();
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   shown.forEach((m) => placeOf(m));
-  R.state = {
-    // report.html?sequence=driving selects that sequence.
-    sequence: Math.max(0, R.scores.sequences.indexOf(new URLSearchParams(location.search).get("sequence"))),
-    repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
+  const usualState = {
+    sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
+  };
+
+  // A link contains the selection by names, in the fragment: report.html#sequence=driving&method=raw.
+  // ?sequence=driving selects that sequence, too.
+  const kindName = (place) => (kinds[place] ? ["protocol", "times", "metric", "relation", "axis"].map((key) => kinds[place][key]).join("/") : "");
+  const names = {
+    sequence: R.scores.sequences, kind: kinds.map((_, i) => kindName(i)), statistic: R.scores.statistics,
+    before: R.methods.map((m) => m.name), after: R.methods.map((m) => m.name),
+  };
+  const link = new URLSearchParams(location.hash.slice(1));
+  const query = new URLSearchParams(location.search).get("sequence");
+  if (query !== null && !link.has("sequence")) link.set("sequence", query);
+  R.state = { ...usualState };
+  for (const [key, known] of Object.entries(names)) {
+    const place = known.indexOf(link.get(key));
+    if (link.has(key) && place >= 0) R.state[key] = place;
+  }
+  if (link.get("along") === "t") R.state.abscissa = "t";
+  if (/^[0-9]+$/.test(link.get("repeat"))) R.state.repeat = Number(link.get("repeat"));
+  if (link.has("method")) {
+    const places = link.getAll("method").map((name) => names.before.indexOf(name)).filter((m) => m >= 0);
+    R.state.shown = new Set(places);
+    places.forEach((m) => placeOf(m));
+  }
+  R.section = link.get("at") || (document.getElementById(location.hash.slice(1)) ? location.hash.slice(1) : "");
+  R.link = () => {
+    const out = new URLSearchParams();
+    for (const [key, known] of Object.entries(names)) {
+      if (R.state[key] !== usualState[key]) out.set(key, known[R.state[key]]);
+    }
+    if (R.state.abscissa !== usualState.abscissa) out.set("along", R.state.abscissa);
+    if (R.state.repeat !== 0) out.set("repeat", R.state.repeat);
+    const isUsual = R.state.shown.size === shown.length && shown.every((m) => R.state.shown.has(m));
+    if (!isUsual) {
+      if (!R.state.shown.size) out.append("method", "");
+      for (const m of R.shown()) out.append("method", m.name);
+    }
+    if (R.section) out.set("at", R.section);
+    return "#" + out.toString();
   };
   // Falls back to the first repeat.
   R.keepRepeat = () => {
@@ -69,5 +122,6 @@
   R.changed = () => {
     R.keepRepeat();
     followers.forEach((draw) => draw());
+    if (R.link() !== (location.hash || "#")) history.replaceState(null, "", R.link());
   };
 })();

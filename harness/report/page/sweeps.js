@@ -38,35 +38,38 @@
     return values.length ? d3.mean(values, (v) => v.value) : NaN;
   };
 
-  const curves = (host, family) => {
+  // The domain follows the values of the sweep; a baseline far outside is a note below.
+  const curve = (host, family) => {
     const kind = R.scores.kinds[R.state.kind];
-    const [option, other] = family.varying;
-    const points = family.members.map(({ m, options }) => ({ x: options.get(option), by: other ? options.get(other) : 0, y: valueOf(m.place) }))
-      .filter((p) => Number.isFinite(p.y));
+    const [option] = family.varying;
+    const points = d3.sort(family.members.map(({ m, options }) => ({ x: options.get(option), y: valueOf(m.place) }))
+      .filter((p) => Number.isFinite(p.y)), (p) => p.x);
     R.caption(host, `${family.name}: ${option}`, R.scores.sequences[R.state.sequence]);
     if (!points.length) return R.nothing(host, "No value of this score.");
-    const groups = d3.groups(points, (p) => p.by).sort((a, b) => a[0] - b[0]);
     const base = R.baseline ? valueOf(R.baseline.place) : NaN;
-    const far = points.map((p) => p.y).concat(Number.isFinite(base) ? [base] : []);
-    const shade = (i) => d3.interpolateRgbBasis(["#12926b", "#0b6fd3", "#7b3ff2", "#c2185b"])(groups.length < 2 ? 0.33 : i / (groups.length - 1));
+    const [low, high] = d3.extent(points, (p) => p.y);
+    const range = Math.max(high - low, 1e-9 * Math.abs(high));
+    const isNear = Number.isFinite(base) && base > low - 2 * range && base < high + 2 * range;
+    const [first, last] = d3.extent(points, (p) => p.x);
+    const log = first > 0 && last / first >= 8;
     R.chart(host, {
-      label: `${R.kindLabel(kind)} of ${family.name} against ${option}`, height: 330, margin: { left: 70 },
-      x: { label: option, domain: R.padded(d3.extent(points, (p) => p.x)) },
-      y: { label: R.kindLabel(kind), domain: R.padded(d3.extent(far), 0.1) },
+      label: `${R.kindLabel(kind)} of ${family.name} against ${option}`, height: 330, margin: { left: 84 },
+      x: { ticks: points.length <= 12 ? points.map((p) => p.x) : null, label: option + (log ? " (logarithmic)" : ""), log, domain: log ? R.paddedLog([first, last]) : R.padded([first, last]) },
+      y: { label: R.kindLabel(kind), domain: R.padded(isNear ? [Math.min(low, base), Math.max(high, base)] : [low, high], 0.15) },
       draw: (group, x, y) => {
-        if (Number.isFinite(base)) {
+        if (isNear) {
           group.append("line").attr("class", "zero").attr("x1", 0).attr("x2", 1e4).attr("y1", y(base)).attr("y2", y(base));
           group.append("text").attr("class", "halo").attr("x", 6).attr("y", y(base) - 5).text(R.baseline.label);
         }
-        groups.forEach(([, list], i) => {
-          const sorted = d3.sort(list, (p) => p.x);
-          group.append("path").attr("class", "curve").style("stroke", shade(i)).attr("d", d3.line().x((p) => x(p.x)).y((p) => y(p.y))(sorted));
-          group.selectAll(null).data(sorted).join("circle").attr("cx", (p) => x(p.x)).attr("cy", (p) => y(p.y)).attr("r", 4).style("fill", shade(i))
-            .append("title").text((p) => `${option} ${p.x}` + (other ? `, ${other} ${p.by}` : "") + `: ${R.number(p.y)}`);
-        });
+        group.append("path").attr("class", "curve").style("stroke", "var(--accent)").attr("d", d3.line().x((p) => x(p.x)).y((p) => y(p.y))(points));
+        const dots = group.selectAll(null).data(points).join("g").attr("transform", (p) => `translate(${x(p.x)},${y(p.y)})`);
+        dots.append("circle").attr("r", 4.5).style("fill", "var(--accent)").append("title").text((p) => `${option} ${p.x}: ${R.number(p.y)}`);
+        if (points.length <= 10) {
+          dots.append("text").attr("class", "halo strong").attr("y", -9).attr("text-anchor", "middle").text((p) => R.number(p.y));
+        }
       },
     });
-    if (other) R.legend(host, groups.map(([by], i) => ({ name: `${other} ${by}`, color: shade(i) })));
+    if (Number.isFinite(base) && !isNear) R.nothing(host, `${R.baseline.label}: ${R.number(base)}, outside this range.`);
   };
 
   const heat = (host, family) => {
@@ -106,8 +109,7 @@
     host.replaceChildren();
     if (!R.scores.kinds.length) return;
     for (const family of sweeps) {
-      curves(host.appendChild(document.createElement("figure")), family);
-      if (family.varying.length === 2) heat(host.appendChild(document.createElement("figure")), family);
+      (family.varying.length === 2 ? heat : curve)(host.appendChild(document.createElement("figure")), family);
     }
   });
 })();

@@ -1,4 +1,4 @@
-/// Limits how far beyond the loops steady drift is extrapolated.
+/// Limits how far beyond the loops drift is extrapolated.
 #pragma once
 
 #include "methods/correctors/motion_drift/motion.hpp"

@@ -23,7 +23,7 @@ struct EdgeMotion {
   double seconds = 0.0;
   double metres = 0.0;   ///< length of the measured translation
   double radians = 0.0;  ///< angle of the measured rotation
-  /// Per regressor, the fraction of the edge over which steady drift is extrapolated: see
+  /// Per regressor, the fraction of the edge over which drift is extrapolated: see
   /// drift_reach.hpp.
   std::array<double, kRegressors.size()> drift_part{1.0, 1.0, 1.0, 1.0, 1.0};
 };
@@ -57,7 +57,7 @@ inline double regressor_value(Regressor with, const EdgeMotion& motion) {
   return 0.0;
 }
 
-/// Value of the regressor for steady drift, limited by drift_part.
+/// Value of the regressor for drift, limited by drift_part.
 inline double drift_regressor_value(Regressor with, const EdgeMotion& motion) {
   return motion.drift_part[static_cast<std::size_t>(with)] * regressor_value(with, motion);
 }

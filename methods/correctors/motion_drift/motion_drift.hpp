@@ -1,4 +1,4 @@
-/// Corrects a chain under an odometry noise model with motion-dependent noise and steady drift.
+/// Corrects a chain under an odometry noise model with motion-dependent noise and drift.
 #pragma once
 
 #include "methods/correctors/motion_drift/posterior.hpp"
@@ -13,9 +13,9 @@ namespace loopbench::methods {
 ///   only), separately for
 ///   translation and rotation and equal on all three axes, plus a multiple of the edge's stated
 ///   covariance.
-/// - Steady drift: B_j ~ N(0, V_j), unknown rotation rates that are constant along the chain. They
-///   correlate the errors of the whole chain, and loops far apart in time determine them. Steady
-///   drift of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
+/// - Drift: B_j ~ N(0, V_j), unknown rotation rates that are constant along the chain. They
+///   correlate the errors of the whole chain, and loops far apart in time determine them. Drift
+///   of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
 ///   used only when its size is given as an option. Outside the loops, drift is extrapolated over
 ///   at most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
 ///
@@ -39,7 +39,7 @@ class MotionDrift final : public Corrector {
  public:
   /// Noise terms of the noise model. `constant` noise is equal in every edge; `time`, `distance`,
   /// `rotation` and `speed` each add a regressor to the one before. `drift` is `rotation` plus
-  /// steady drift and the stated odometry covariance; it omits speed, because for evenly spaced
+  /// drift and the stated odometry covariance; it omits speed, because for evenly spaced
   /// keyframes speed is proportional to distance.
   enum class Model { constant, time, distance, rotation, speed, drift };
   using Values = std::array<std::optional<double>, kRegressors.size()>;  ///< indexed by Regressor
@@ -98,7 +98,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
         o.model,
         "terms of the noise model; const: equal in every edge; time, distance, rotation, speed: "
         "noise that grows with that quantity and those before it; drift: rotation, the stated "
-        "odometry covariance and steady rotation drift");
+        "odometry covariance and rotation drift");
   visit(
       "fit",
       o.fit,
@@ -162,7 +162,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
         "factors; ignored if a noise variance above 0 is given; the remainder of both is the "
         "probability of noise that grows with the motion [-]",
         share);
-  visit("prior.steady_chance", p.steady_chance, "prior probability of steady drift [-]", share);
+  visit("prior.steady_chance", p.steady_chance, "prior probability of drift [-]", share);
   visit("prior.drift_reach",
         p.drift_reach,
         "drift is extrapolated outside the loops over at most this multiple of the time, distance "

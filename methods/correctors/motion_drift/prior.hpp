@@ -9,20 +9,20 @@ namespace loopbench::methods {
 
 /// Prior medians of terms that are not given as options, and their uncertainty. A dispersion is the
 /// standard deviation of the log of a variance. Tuned on the development chains of results/methods,
-/// in which steady drift exceeds noise after 4 s to 5 min.
+/// in which drift exceeds noise after 4 s to 5 min.
 struct MotionPriorOptions {
   double noise_part = 0.002;  ///< translation noise along a loop / path length of the loop [-]
   double stated_part = 0.33;  ///< part of the rotation noise proportional to stated covariances [-]
   double steady_after = 60.0;  ///< loop duration at which drift and noise have equal variance [s]
   double scale_dispersion = 2.3;     ///< scale common to all errors of a component
-  double steady_dispersion = 1.8;    ///< ratio of steady drift to noise
+  double steady_dispersion = 1.8;    ///< ratio of drift to noise
   double axis_dispersion = 1.5;      ///< drift of one body axis relative to the others
   double share_dispersion = 0.7;     ///< a single term
   double stated_dispersion = 1.5;    ///< the stated odometry covariance relative to the scale
   double closures_dispersion = 0.7;  ///< factors on the closure covariances
   double as_stated_chance = 0.5;     ///< probabilities of Covariance; `free` has the remainder
   double scaled_chance = 0.25;
-  double steady_chance = 0.7;  ///< probability of steady drift
+  double steady_chance = 0.7;  ///< probability of drift
   double drift_reach = 2.0;    ///< extrapolation of drift / motion enclosed by loops [-]
 };
 
@@ -45,7 +45,7 @@ struct MotionPrior {
   };
   struct Hypothesis {
     Covariance covariance = Covariance::free;
-    bool steady = true;  ///< has steady drift
+    bool steady = true;  ///< has drift
     double chance = 1.0;
     MotionModel medians;  ///< the same terms in all hypotheses; excluded terms are 0
     std::vector<std::vector<Loading>> loadings;  ///< one list per term

@@ -1,4 +1,5 @@
-/// Quintic bridge between two pieces, and the ramp that shifts the ends of a piece.
+/// Quintic bridge between two pieces through their node, and the ramp that shifts the ends of a
+/// piece.
 #pragma once
 
 #include <array>
@@ -38,6 +39,21 @@ struct Bridge {
   Asked<T, Value> operator()(const T& time) const {
     const T s = (time - begin) / (end - begin);
     return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))));
+  }
+};
+
+/// Two quintics from one piece to the next that meet at the node with the mean of both pieces'
+/// values, velocities and accelerations: C2, and through the node if both pieces are. Empty if
+/// default constructed.
+template <class Value>
+struct BridgeOverNode {
+  Bridge<Value> before, after;
+
+  bool spans(double time) const { return before.begin < time && time < after.end; }
+
+  template <class T>
+  Asked<T, Value> operator()(const T& time) const {
+    return value_of(time) < before.end ? before(time) : after(time);
   }
 };
 

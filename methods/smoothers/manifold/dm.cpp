@@ -72,6 +72,14 @@ Dm::Dm(const Options& options) : options_(options), families_(read_families(opti
       reject("families", "frame = parametric supports polynomials only (by_n, line, poly2, poly3)");
     }
   }
+  if (options.fit_axes == FitAxes::reference) {
+    reject("fit_axes",
+           "a method has no access to the reference; use the oracle paper_reference_axes, or "
+           "estimate or gravity");
+  }
+  if (options.plane != Plane::xoy && options.frame != Axes::world) {
+    reject("plane", "yoz and xoz require frame = world, because other frames have no such planes");
+  }
   if (options.psi != PsiUse::none &&
       (options.abscissa != Abscissa::spline || options.spline_order != 4)) {
     reject("psi", "boundary_tangent requires abscissa = spline and spline_order = 4");
@@ -84,6 +92,14 @@ std::optional<std::string> Dm::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
+  const bool is_level = options_.fit_axes == FitAxes::gravity;
+  if (!is_level && options_.plane == Plane::xoy) return smooth_in_axes(problem, report);
+  Rotation axes = plane_axes(options_.plane);
+  if (is_level) axes = axes * level_axes(problem.keyframes);
+  return in_world(smooth_in_axes(in_axes(problem, axes), report), problem, axes);
+}
+
+std::unique_ptr<const Curve> Dm::smooth_in_axes(const Problem& problem, Report& report) const {
   NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 2 || !options_.chord_above)
     return smooth(problem, std::move(dense), report);

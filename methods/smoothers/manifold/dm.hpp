@@ -31,13 +31,14 @@ class Dm final : public Smoother {
   /// (smooth_segments()).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
-  /// Returns the same curve as pieces, or null for fewer than three nodes. `judge`, if set, selects
-  /// the family instead of `selection`.
+  /// Returns the same curve as pieces, or null for fewer than three nodes, in the axes of `problem`
+  /// for any `fit_axes` and `plane`. `judge`, if set, selects the family instead of `selection`.
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      Report& report,
                                                      const manifold::PieceCost& judge) const;
 
  private:
+  std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem, Report& report) const;
   std::unique_ptr<const Curve> smooth(const Problem& problem,
                                       manifold::NodesWithQuasiKeyframes dense,
                                       Report& report) const;

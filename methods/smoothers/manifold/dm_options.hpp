@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datasets/core/fields.hpp"
+#include "methods/smoothers/manifold/fit_axes.hpp"
 #include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
@@ -38,6 +39,8 @@ struct DmOptions {
   bool height_guard = true;  ///< reject surfaces that leave the spline between nodes
 
   manifold::Axes frame = manifold::Axes::chord;
+  manifold::FitAxes fit_axes = manifold::FitAxes::estimate;
+  manifold::Plane plane = manifold::Plane::xoy;
   bool guard = true;
   manifold::Scheme scheme = manifold::Scheme::consecutive;
   std::string families = "by_n";
@@ -157,6 +160,21 @@ void fields(DmOptions& o, Visit visit) {
         o.report_coefficients,
         "add a note with the coefficients of every window");
   visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
+}
+
+/// Options of the article's literal readings. They are not options of `dm`, whose frames follow the
+/// path.
+template <class Visit>
+void literal_fields(DmOptions& o, Visit visit) {
+  visit("fit_axes",
+        o.fit_axes,
+        "axes called world: of the estimate's file, with z along gravity as estimated from level "
+        "cameras, or of the reference (oracles only)");
+  visit("plane", o.plane, "plane of the planar curve with frame = world");
+  visit("torsion_max",
+        o.segment.torsion_max,
+        "maximum torsion per keyframe within a segment [rad]; none: no limit",
+        GreaterThan{0.0});
 }
 
 }  // namespace loopbench::methods

@@ -13,8 +13,8 @@ struct PiecewiseCurve {
   std::vector<Piece> pieces;
   std::vector<Joint> joints;  ///< joints[k] is between pieces k and k + 1
   std::vector<std::uint32_t> piece_of_edge;
-  std::vector<Ramp<Value>> ramps;      ///< one per piece, or empty
-  std::vector<Bridge<Value>> bridges;  ///< one per joint, or empty
+  std::vector<Ramp<Value>> ramps;              ///< one per piece, or empty
+  std::vector<BridgeOverNode<Value>> bridges;  ///< one per joint, or empty
 
   /// Value of piece k plus its ramp.
   template <class T, class Ask>
@@ -101,14 +101,17 @@ PiecewiseCurve<Piece, Value> join_pieces(const Nodes& nodes,
     if (join.rule.at(nodes, node) != JointKind::quintic_bridge) continue;
     const double half = 0.5 * std::min(nodes.duration(node - 1), nodes.duration(node));
     const auto begin = time_jet(nodes.stamps[node] - half);
+    const auto middle = time_jet(nodes.stamps[node]);
     const auto end = time_jet(nodes.stamps[node] + half);
     const auto value_of_piece = [&](std::size_t piece, std::size_t edge, const Jet<double>& time) {
       return out.alone(piece, time, [&](const Piece& p) { return ask(p, edge, time); });
     };
-    out.bridges[k] = {begin.value,
-                      end.value,
-                      value_of_piece(k, node - 1, begin),
-                      value_of_piece(k + 1, node, end)};
+    const Jet<Value> a = value_of_piece(k, node - 1, middle);
+    const Jet<Value> b = value_of_piece(k + 1, node, middle);
+    const Jet<Value> mean{
+        0.5 * (a.value + b.value), 0.5 * (a.first + b.first), 0.5 * (a.second + b.second)};
+    out.bridges[k] = {{begin.value, middle.value, value_of_piece(k, node - 1, begin), mean},
+                      {middle.value, end.value, mean, value_of_piece(k + 1, node, end)}};
   }
   return out;
 }

@@ -30,7 +30,7 @@ std::size_t insert_frames(const StampedPose& current,
 
 /// Divides each gap above the limits into equal parts within the limits and inserts the tracked
 /// frame nearest to each division; poses are never interpolated. Gaps between keyframes with too
-/// few common landmarks (problem.common_view, if known) are divided into at least two parts.
+/// few common landmarks (problem.shared_landmarks, if known) are divided into at least two parts.
 /// Source: article section 3.3, where frames are chosen manually. O(keyframes log frames).
 NodesWithQuasiKeyframes with_quasi_keyframes(const Problem& problem, const GapRule& rule);
 

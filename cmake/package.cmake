@@ -1,0 +1,54 @@
+# Installation and the Debian package: program, manual pages, completions, configs, documents.
+
+set(pages ${PROJECT_BINARY_DIR}/pages)
+find_program(gzip gzip REQUIRED)
+add_custom_command(OUTPUT ${pages}/loopbench.bash VERBATIM
+  DEPENDS loopbench ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake
+  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:loopbench> -DGZIP=${gzip} -DOUT=${pages}
+          -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+          -P ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
+add_custom_target(loopbench_pages ALL DEPENDS ${pages}/loopbench.bash)
+
+install(TARGETS loopbench COMPONENT program)
+install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+install(FILES ${pages}/loopbench.bash COMPONENT program RENAME loopbench
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${pages}/_loopbench COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${pages}/loopbench.fish COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench COMPONENT program)
+install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench)
+# The READMEs of the parts and of the results, in their folders, so that links between them work.
+file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+  */README.md results/*/*.md results/paper/*/*.svg)
+foreach(document IN LISTS documents)
+  get_filename_component(folder ${document} DIRECTORY)
+  install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench/${folder}
+    COMPONENT program)
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME loopbench)
+set(CPACK_PACKAGE_VENDOR "loopbench")
+set(CPACK_PACKAGE_CONTACT "The loopbench authors <loopbench@users.noreply.github.com>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "benchmark of loop-closure correction methods for SLAM")
+set(CPACK_PACKAGE_DESCRIPTION
+  "After a loop is detected, which method corrects the trajectory best, how much,
+ at what cost, and is the difference real? loopbench sweeps correctors and
+ smoothers over sequences, evaluates them under the protocols of published
+ tools, and tests the differences.")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program)  # without the development files
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "curl, gnuplot-nox")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR})
+include(CPack)

@@ -1,0 +1,169 @@
+#include "datasets/bags/bag_trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/bags/byte_reader.hpp"
+#include "datasets/bags/transform_tree.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::string_view kTf = "tf:";
+
+bool has_poses(const BagTopic& topic) {
+  return topic.type != MessageType::other && topic.type != MessageType::tf;
+}
+
+/// Normalises the quaternion; false for a pose that is not one. As for text files, a norm within
+/// 1e-2 of 1 is rounding, and unit quaternions are not changed.
+bool normalise(Pose& pose, double& off_unit) {
+  constexpr double kTolerance = 1e-2, kRounding = 4e-15;
+  const double square = pose.rotation.squaredNorm();
+  if (!is_finite(pose) || !(std::abs(std::sqrt(square) - 1.0) <= kTolerance)) return false;
+  if (std::abs(square - 1.0) <= kRounding) return true;
+  off_unit = std::max(off_unit, std::abs(std::sqrt(square) - 1.0));
+  pose.rotation.coeffs() /= std::sqrt(square);
+  return true;
+}
+
+std::string known_topics(const std::vector<BagTopic>& topics) {
+  std::string out;
+  bool has_tf = false;
+  for (const BagTopic& topic : topics) {
+    has_tf |= topic.type == MessageType::tf;
+    if (has_poses(topic)) out += (out.empty() ? "" : ", ") + topic.name;
+  }
+  if (has_tf) out += out.empty() ? "only TF: tf:PARENT.CHILD" : ", tf:PARENT.CHILD";
+  return out.empty() ? "none" : out;
+}
+
+/// Messages of the wanted topics, with the number of those that cannot be decoded.
+struct Decoded {
+  std::vector<PoseMessage> poses;
+  std::size_t damaged = 0;
+  BagSummary summary;
+};
+
+template <class Use>
+Decoded decode_all(const std::string& file, const WantsTopic& wants, Use use) {
+  Decoded out;
+  out.summary = read_bag(file, wants, [&](const BagTopic& topic, std::string_view message) {
+    try {
+      use(topic, decode(topic, message), out.poses);
+    } catch (const DamagedRecord&) {
+      ++out.damaged;
+    }
+  });
+  return out;
+}
+
+std::string only_topic(const std::string& file) {
+  std::vector<BagTopic> topics = bag_topics(file).topics;
+  const std::string known = known_topics(topics);
+  std::erase_if(topics, [](const BagTopic& topic) { return !has_poses(topic); });
+  if (topics.size() == 1) return topics[0].name;
+  throw InputError(file + ": has " + std::to_string(topics.size()) +
+                   " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known + ")");
+}
+
+Decoded read_topic(const std::string& file, const std::string& name) {
+  const auto append =
+      [](const BagTopic& topic, std::vector<PoseMessage> poses, std::vector<PoseMessage>& all) {
+        if (topic.type == MessageType::path && !poses.empty()) all.clear();  // paths grow
+        for (PoseMessage& pose : poses) all.push_back(std::move(pose));
+      };
+  Decoded out = decode_all(
+      file, [&](const BagTopic& topic) { return topic.name == name && has_poses(topic); }, append);
+  const auto found = std::ranges::find(out.summary.topics, name, &BagTopic::name);
+  const std::string known = " (topics: " + known_topics(out.summary.topics) + ")";
+  if (found == out.summary.topics.end()) {
+    throw InputError(file + ": has no topic '" + name + "'" + known);
+  }
+  if (!has_poses(*found)) {
+    throw InputError(file + ": topic '" + name + "' has type " + found->type_name +
+                     ", expected PoseStamped, PoseWithCovarianceStamped, Odometry, "
+                     "TransformStamped or Path" +
+                     known);
+  }
+  for (const PoseMessage& pose : out.poses) {
+    if (pose.child == out.poses.front().child) continue;
+    throw InputError(file + ": topic '" + name + "' has poses of '" + out.poses.front().child +
+                     "' and '" + pose.child + "', expected one child frame");
+  }
+  return out;
+}
+
+Decoded read_tf(const std::string& file, const std::string& frames) {
+  TransformTree tree;
+  std::size_t invalid = 0;
+  double off_unit = 0.0;
+  const auto add = [&](const BagTopic& topic,
+                       const std::vector<PoseMessage>& transforms,
+                       std::vector<PoseMessage>&) {
+    for (PoseMessage transform : transforms) {
+      if (normalise(transform.frame_from_child, off_unit)) {
+        tree.add(transform, topic.name.ends_with("static"));
+      } else {
+        ++invalid;
+      }
+    }
+  };
+  try {
+    Decoded out = decode_all(
+        file, [](const BagTopic& topic) { return topic.type == MessageType::tf; }, add);
+    out.damaged += invalid;
+    tree.finish();
+    // A frame's name can contain dots.
+    const std::vector<std::string> known = tree.frames();
+    for (std::size_t dot = frames.find('.'); dot != frames.npos; dot = frames.find('.', dot + 1)) {
+      const std::string parent = frames.substr(0, dot);
+      const std::string child = frames.substr(dot + 1);
+      const bool is_last = frames.find('.', dot + 1) == frames.npos;
+      if (!is_last &&
+          !(std::ranges::count(known, parent) > 0 && std::ranges::count(known, child) > 0)) {
+        continue;
+      }
+      out.poses = tree.trajectory(parent, child);
+      return out;
+    }
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    throw InputError(what.starts_with(file) ? what : file + ": " + what);
+  }
+  throw InputError(file + ": tf:" + frames + ": expected tf:PARENT.CHILD");
+}
+
+}  // namespace
+
+BagTrajectory read_bag_trajectory(const BagName& name) {
+  BagTrajectory out;
+  out.topic = name.topic.empty() ? only_topic(name.file) : name.topic;
+  Decoded read = out.topic.starts_with(kTf) ? read_tf(name.file, out.topic.substr(kTf.size()))
+                                            : read_topic(name.file, out.topic);
+  const auto invalid = std::erase_if(read.poses, [&](PoseMessage& pose) {
+    return !normalise(pose.frame_from_child, out.off_unit);
+  });
+  out.poses = std::move(read.poses);
+  std::ranges::stable_sort(out.poses, {}, &PoseMessage::nanoseconds);
+  out.damage = read.summary.damage;
+  const std::size_t skipped = read.damaged + invalid;
+  if (skipped > 0) {
+    out.damage += fmt::format(
+        "{}{} messages without a valid pose were skipped", out.damage.empty() ? "" : "; ", skipped);
+  }
+  if (!out.poses.empty()) return out;
+  throw InputError(name.file + ": has no poses in '" + out.topic + "'" +
+                   (out.damage.empty() ? "" : " (" + out.damage + ")"));
+}
+
+BagSummary bag_topics(const std::string& file) {
+  BagSummary out = read_bag(
+      file, [](const BagTopic&) { return false; }, [](const BagTopic&, std::string_view) {});
+  std::erase_if(out.topics, [](const BagTopic& topic) { return topic.type == MessageType::other; });
+  return out;
+}
+
+}  // namespace loopbench

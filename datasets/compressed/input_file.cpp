@@ -1,0 +1,147 @@
+#include "datasets/compressed/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <system_error>
+
+#include "datasets/compressed/decompress.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::size_t kMagicBytes = 8;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
+
+InputError unreadable(const std::string& name) {
+  return input_error(name, 0, std::string("cannot be read: ") + std::strerror(errno));
+}
+
+FileHandle opened(const std::string& name, const std::string& path) {
+  FileHandle handle(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
+  if (!handle) throw unreadable(name);
+  return handle;
+}
+
+/// Reads to the end, at most `limit` bytes.
+std::string all_of(std::FILE* file, const std::string& name, std::size_t limit) {
+  std::string out;
+  std::array<char, 65536> buffer;
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) {
+    out.append(buffer.data(), count);
+    if (out.size() > limit) {
+      throw input_error(name, 0, "is longer than " + std::to_string(limit) + " bytes");
+    }
+  }
+  if (std::ferror(file) != 0) throw unreadable(name);
+  return out;
+}
+
+/// A file in memory with this content.
+OpenedFile in_memory(const std::string& name, const std::string& content) {
+  const int file = memfd_create("loopbench", MFD_CLOEXEC);
+  if (file < 0) throw unreadable(name);
+  const std::shared_ptr<const int> handle(new int(file), [](const int* fd) {
+    close(*fd);
+    delete fd;
+  });
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t count = write(file, content.data() + done, content.size() - done);
+    if (count < 0) throw unreadable(name);
+    done += static_cast<std::size_t>(count);
+  }
+  return {name, "/proc/self/fd/" + std::to_string(file), content.size(), handle};
+}
+
+OpenedFile expanded(const std::string& name, std::string content, std::size_t limit) {
+  const std::optional<Codec> codec = codec_of(content);
+  if (!codec) return in_memory(name, content);
+  try {
+    return in_memory(name, decompress(*codec, content, limit));
+  } catch (const DamagedStream& damage) {
+    throw input_error(name, 0, std::string("cannot be decompressed: ") + damage.what());
+  }
+}
+
+/// Content of pipes, which can be read only once.
+OpenedFile from_pipe(const std::string& name, std::size_t limit) {
+  static std::mutex mutex;
+  static std::map<std::string, OpenedFile> read;
+  const std::lock_guard lock(mutex);
+  const auto known = read.find(name);
+  if (known != read.end()) return known->second;
+  const std::string content = all_of(opened(name, name).get(), name, limit);
+  return read.emplace(name, expanded(name, content, limit)).first->second;
+}
+
+/// The last decompressed file: readers detect the format first and open the file again.
+OpenedFile from_compressed(const OpenedFile& file, std::size_t limit) {
+  struct Kept {
+    std::string name;
+    std::filesystem::file_time_type written;
+    std::size_t size = 0;
+    OpenedFile content;
+  };
+  static std::mutex mutex;
+  static Kept kept;
+  const std::lock_guard lock(mutex);
+  std::error_code ignored;
+  const auto written = std::filesystem::last_write_time(file.path, ignored);
+  if (kept.name == file.name && kept.written == written && kept.size == file.size) {
+    return kept.content;
+  }
+  const std::string content = all_of(opened(file.name, file.path).get(), file.name, limit);
+  kept = {file.name, written, file.size, expanded(file.name, content, limit)};
+  return kept.content;
+}
+
+}  // namespace
+
+OpenedFile open_input(const std::filesystem::path& file,
+                      const std::string& expected,
+                      std::size_t limit) {
+  OpenedFile out{file.string(), file.string()};
+  if (is_standard_input(file)) {
+    out = from_pipe("-", limit);
+    out.name = "standard input";
+  } else {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) throw out.error("no such file");
+    if (error) throw out.error("cannot be read: " + error.message());
+    if (std::filesystem::is_directory(status)) {
+      throw out.error("is a directory, expected " + expected);
+    }
+    if (std::filesystem::is_fifo(status)) {
+      out = from_pipe(out.name, limit);
+    } else if (!std::filesystem::is_regular_file(status)) {
+      throw out.error("is not a regular file, expected " + expected);
+    } else {
+      out.size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
+      if (error) throw out.error("cannot be read: " + error.message());
+    }
+  }
+  if (out.size == 0) throw out.error("is empty");
+  if (out.size > limit) {
+    throw out.error("has " + std::to_string(out.size) + " bytes, expected at most " +
+                    std::to_string(limit));
+  }
+  if (out.memory) return out;
+  std::array<char, kMagicBytes> magic{};
+  const std::size_t count =
+      std::fread(magic.data(), 1, magic.size(), opened(out.name, out.path).get());
+  return codec_of({magic.data(), count}) ? from_compressed(out, limit) : out;
+}
+
+}  // namespace loopbench

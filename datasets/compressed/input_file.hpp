@@ -1,0 +1,36 @@
+/// Files as readers see them: plain, compressed, or from a pipe.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench {
+
+/// A file that can be opened any number of times. The content of compressed files, pipes and
+/// standard input is kept in memory.
+struct OpenedFile {
+  std::string name;                      ///< as given, for messages
+  std::string path;                      ///< to open; valid as long as `memory`
+  std::size_t size = 0;                  ///< [bytes]
+  std::shared_ptr<const void> memory{};  ///< null for plain files
+
+  InputError error(const std::string& what) const { return input_error(name, 0, what); }
+};
+
+/// Whether the name stands for standard input.
+inline bool is_standard_input(const std::filesystem::path& file) { return file == "-"; }
+
+/// Opens a regular file, a pipe or standard input (`-`). gzip, bzip2, zstd and lz4 are detected
+/// from the first bytes and decompressed; a pipe is read once, and opening it again returns the
+/// same content. Throws InputError for a file that is missing, empty, of another kind, unreadable,
+/// larger than 8 GiB (`limit` bytes) or damaged, where `expected` states what is accepted ("a text
+/// file"). Throws MissingPart if the build lacks a codec. Thread-safe.
+OpenedFile open_input(const std::filesystem::path& file,
+                      const std::string& expected = "a text file",
+                      std::size_t limit = std::size_t{8} << 30);
+
+}  // namespace loopbench

@@ -1,0 +1,25 @@
+/// Atomic writing of files: the only writer of complete files.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace loopbench {
+
+/// Treatment of a name that is a symbolic link, a pipe or a device.
+enum class Target {
+  /// For files that the user names: links are followed; bytes are written into pipes, devices and
+  /// this process's standard output instead of replacing them.
+  named,
+  /// For names that the program chooses, in folders that others may be able to write to: whatever
+  /// has the name, except a folder, is replaced and never opened.
+  own,
+};
+
+/// Writes a temporary file in the same folder and renames it, so that readers never see a partial
+/// file. The temporary file has an unpredictable name and is created exclusively. The mode of a
+/// replaced regular file is kept. Throws InputError if the folder is missing, if the folder or file
+/// cannot be written, if `file` is read-only, or if it is a folder.
+void replace_file(const std::filesystem::path& file, std::string_view bytes, Target target);
+
+}  // namespace loopbench

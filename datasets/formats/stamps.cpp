@@ -1,0 +1,79 @@
+#include "datasets/formats/stamps.hpp"
+
+#include <charconv>
+#include <cstdlib>
+
+#include "datasets/formats/euroc.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr int kDecimals = 9;  // of a second in nanoseconds
+
+bool is_digit(char c) { return '0' <= c && c <= '9'; }
+
+}  // namespace
+
+double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds) {
+  constexpr double kNanoseconds = 1e16, kMaxNanoseconds = 9e18;  // 1970 + 115 days, + 285 years
+  if (number > kMaxNanoseconds || (number < kNanoseconds && !small_nanoseconds)) return number;
+  std::int64_t integer = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, integer);
+  const bool is_integer =
+      error == std::errc{} && std::string_view(rest, end).find_first_not_of(".0") == word.npos;
+  return is_integer ? seconds_of(integer) : 1e-9 * number;
+}
+
+std::optional<std::int64_t> exact_nanoseconds(std::string_view word) {
+  const bool is_negative = word.starts_with('-');
+  if (is_negative || word.starts_with('+')) word.remove_prefix(1);
+  const std::size_t tail = std::min(word.find_first_of("eE"), word.size());
+  int exponent = 0;
+  if (tail < word.size()) {
+    std::string_view digits = word.substr(tail + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const auto [rest, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    constexpr int kMostExponent = 30;
+    if (error != std::errc{} || rest != digits.data() + digits.size()) return std::nullopt;
+    if (std::abs(exponent) > kMostExponent) return std::nullopt;
+  }
+  std::string digits;
+  int decimals = 0;
+  bool after_point = false;
+  for (const char c : word.substr(0, tail)) {
+    if (c == '.' && !after_point) {
+      after_point = true;
+    } else if (is_digit(c)) {
+      digits += c;
+      decimals += after_point ? 1 : 0;
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (digits.empty()) return std::nullopt;
+  for (decimals -= exponent; decimals > kDecimals; --decimals) {
+    if (digits.back() != '0') return std::nullopt;
+    digits.pop_back();
+    if (digits.empty()) return 0;
+  }
+  digits.append(static_cast<std::size_t>(kDecimals - decimals), '0');
+  std::int64_t out = 0;
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+  if (error != std::errc{}) return std::nullopt;
+  return is_negative ? -out : out;
+}
+
+std::string seconds_text(std::int64_t nanoseconds) {
+  std::string digits = std::to_string(nanoseconds);
+  const std::string sign = nanoseconds < 0 ? "-" : "";
+  digits.erase(0, sign.size());
+  if (digits.size() <= kDecimals) digits.insert(0, kDecimals + 1 - digits.size(), '0');
+  digits.insert(digits.size() - kDecimals, ".");
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return sign + digits;
+}
+
+}  // namespace loopbench

@@ -1,0 +1,43 @@
+/// A trajectory with all that its file states, for conversion without loss.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "datasets/core/se3.hpp"
+#include "datasets/formats/formats.hpp"
+
+namespace loopbench {
+
+struct TrajectoryFile {
+  Trajectory poses;
+  /// Exact stamps, one per pose: a double has a resolution of 240 ns in 2026. Empty if the file has
+  /// no stamps, or more than nine decimals.
+  std::vector<std::int64_t> nanoseconds = {};
+  /// Stated covariances, one per pose, in the order x y z [m] and rotations about x y z [rad].
+  /// Empty if the file has none.
+  std::vector<Matrix6> covariances = {};
+  Format format = Format::tum;
+  bool has_stamps = true;  ///< false: stamps are multiples of the period
+};
+
+/// Reads like read_trajectory(), with exact stamps and covariances. O(n).
+TrajectoryFile read_trajectory_file(const std::filesystem::path& file,
+                                    const ReadOptions& options = {});
+
+/// Keeps the poses with these indices, in their order. O(indices).
+TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices);
+
+/// Writes tum, kitti (and the stamps to `times`, one per line, if given), euroc, g2o (vertices with
+/// ids 0, 1, ...) or csv (with covariances, if stated). Positions and quaternions are printed so
+/// that reading them is bit-identical, and exact stamps with all digits; euroc rounds other stamps
+/// to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and if the
+/// file cannot be written.
+void write_trajectory(const std::filesystem::path& file,
+                      const TrajectoryFile& trajectory,
+                      Format format,
+                      const std::optional<std::filesystem::path>& times = std::nullopt);
+
+}  // namespace loopbench

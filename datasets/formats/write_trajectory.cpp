@@ -1,0 +1,154 @@
+#include <cmath>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "datasets/formats/stamps.hpp"
+#include "datasets/formats/text_writer.hpp"
+#include "datasets/formats/trajectory_file.hpp"
+
+namespace loopbench {
+namespace {
+
+std::int64_t rounded_nanoseconds(double stamp) {
+  const double seconds = std::floor(stamp);
+  return static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((stamp - seconds) * 1e9);
+}
+
+void write_stamp(TextWriter& out, const TrajectoryFile& file, std::size_t i) {
+  if (file.nanoseconds.empty()) {
+    out.number(file.poses[i].stamp);
+  } else {
+    out.word(seconds_text(file.nanoseconds[i]));
+  }
+}
+
+void write_position(TextWriter& out, const Pose& pose) {
+  for (const double value : pose.translation) out.number(value);
+}
+
+TextWriter tum_text(const TrajectoryFile& file, const std::vector<std::string>& comments) {
+  TextWriter out;
+  for (const std::string& comment : comments) out.comment(comment);
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    const Pose& pose = file.poses[i].world_from_body;
+    write_stamp(out, file, i);
+    write_position(out, pose);
+    for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
+    out.end_line();
+  }
+  return out;
+}
+
+TextWriter kitti_text(const TrajectoryFile& file) {
+  TextWriter out;
+  for (const auto& [stamp, pose] : file.poses) {
+    const Matrix3 R = pose.rotation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) out.number(R(i, j));
+      out.number(pose.translation[i]);
+    }
+    out.end_line();
+  }
+  return out;
+}
+
+TextWriter times_text(const TrajectoryFile& file) {
+  TextWriter out;
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    write_stamp(out, file, i);
+    out.end_line();
+  }
+  return out;
+}
+
+TextWriter euroc_text(const TrajectoryFile& file) {
+  TextWriter out(',');
+  out.comment("timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []");
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    const auto& [stamp, pose] = file.poses[i];
+    out.integer(file.nanoseconds.empty() ? rounded_nanoseconds(stamp) : file.nanoseconds[i]);
+    write_position(out, pose);
+    const Rotation& q = pose.rotation;
+    out.number(q.w()).number(q.x()).number(q.y()).number(q.z());
+    out.end_line();
+  }
+  return out;
+}
+
+TextWriter csv_text(const TrajectoryFile& file) {
+  constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
+  TextWriter out(',');
+  for (const char* name : {"timestamp", "x", "y", "z", "qx", "qy", "qz", "qw"}) out.word(name);
+  for (std::size_t i = 0; !file.covariances.empty() && i < kAxes.size(); ++i) {
+    for (std::size_t j = i; j < kAxes.size(); ++j) {
+      out.word(std::string("cov_") + kAxes[i] + "_" + kAxes[j]);
+    }
+  }
+  out.end_line();
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    const Pose& pose = file.poses[i].world_from_body;
+    write_stamp(out, file, i);
+    write_position(out, pose);
+    for (const double value : pose.rotation.coeffs()) out.number(value);
+    for (int a = 0; !file.covariances.empty() && a < 6; ++a) {
+      for (int b = a; b < 6; ++b) out.number(file.covariances[i](a, b));
+    }
+    out.end_line();
+  }
+  return out;
+}
+
+PoseGraph graph_of(const Trajectory& poses) {
+  PoseGraph out;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    out.ids.push_back(static_cast<std::int64_t>(i));
+    out.vertices.push_back(poses[i].world_from_body);
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_trajectory(const std::filesystem::path& file,
+                      const TrajectoryFile& trajectory,
+                      Format format,
+                      const std::optional<std::filesystem::path>& times) {
+  check(trajectory.poses, file.string());
+  switch (format) {
+    case Format::tum:
+      tum_text(trajectory, {}).save(file);
+      break;
+    case Format::kitti:
+      kitti_text(trajectory).save(file);
+      break;
+    case Format::euroc:
+      euroc_text(trajectory).save(file);
+      break;
+    case Format::csv:
+      csv_text(trajectory).save(file);
+      break;
+    case Format::g2o:
+      write_g2o(file, graph_of(trajectory.poses));
+      break;
+    case Format::automatic:
+    case Format::bag:
+      throw InputError("format: found " + to_text(format) +
+                       ", expected tum, kitti, euroc, g2o or csv for writing");
+  }
+  if (times) times_text(trajectory).save(*times);
+}
+
+void write_tum(const std::filesystem::path& file,
+               const Trajectory& trajectory,
+               const std::vector<std::string>& comments) {
+  check(trajectory, file.string());
+  tum_text({trajectory}, comments).save(file);
+}
+
+void write_kitti(const std::filesystem::path& file,
+                 const Trajectory& trajectory,
+                 const std::optional<std::filesystem::path>& times) {
+  write_trajectory(file, {trajectory}, Format::kitti, times);
+}
+
+}  // namespace loopbench

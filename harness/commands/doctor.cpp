@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "datasets/derive/graph_parts.hpp"
+#include "datasets/formats/g2o.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/write_file.hpp"
+#include "harness/trajectory/named_trajectory.hpp"
+#include "metrics/doctor/closure_checks.hpp"
+#include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/time_offset.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+struct DoctorArguments {
+  std::string reference;
+  std::vector<std::string> estimates;
+  ReadArguments reading;
+  std::string apply;  ///< folder for estimates with corrected stamps; empty: none
+  bool json = false;
+};
+
+struct Diagnosed {
+  std::string name;
+  std::vector<metrics::InputFinding> findings;
+  std::optional<metrics::TimeOffset> offset;
+};
+
+Diagnosed of_graph(const std::string& file) {
+  const PoseGraph graph = read_g2o(file);
+  GraphParts parts = split_graph(graph, file);
+  Problem problem;
+  problem.keyframes = initial_poses(graph, ReadOptions{}.period);
+  problem.odometry = std::move(parts.odometry);
+  problem.closures = std::move(parts.closures);
+  return {file, metrics::check_closures(problem), std::nullopt};
+}
+
+Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estimate) {
+  const Trajectory& truth = reference.file.poses;
+  const Trajectory& poses = estimate.file.poses;
+  const bool has_stamps = reference.file.has_stamps && estimate.file.has_stamps;
+  Diagnosed out{estimate.name,
+                metrics::diagnose(truth, poses, reference.name, estimate.name, has_stamps),
+                std::nullopt};
+  if (has_stamps) out.offset = metrics::estimate_time_offset(truth, poses);
+  return out;
+}
+
+/// Adds the offset to the stamps of every estimate and writes it to the folder.
+void apply_offsets(const DoctorArguments& a,
+                   std::vector<NamedTrajectory> estimates,
+                   const std::vector<Diagnosed>& all) {
+  std::vector<std::string> names;
+  for (const NamedTrajectory& each : estimates) names.push_back(each.name);
+  const std::string folder = a.apply.ends_with('/') ? a.apply : a.apply + "/";
+  const std::vector<std::string> files = output_files(names, folder, Format::tum);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    reject_overwriting({a.reference, estimates[i].name}, files[i]);
+    double offset = 0.0;
+    for (const metrics::InputFinding& finding : all[i].findings) {
+      if (finding.fault == metrics::Fault::time_offset) offset = finding.value;
+    }
+    TrajectoryFile& file = estimates[i].file;
+    const auto nanoseconds = static_cast<std::int64_t>(std::llround(offset * 1e9));
+    for (StampedPose& pose : file.poses) pose.stamp += offset;
+    for (std::int64_t& stamp : file.nanoseconds) stamp += nanoseconds;
+    write_trajectory(files[i], file, Format::tum);
+    fmt::print("{}: offset {:.4f} s applied\n", printable(files[i]), offset);
+  }
+}
+
+std::string report_text(const std::vector<Diagnosed>& all) {
+  std::string out;
+  for (const Diagnosed& each : all) {
+    out += each.name + "\n";
+    if (each.offset) {
+      out += fmt::format("  time offset {:.4f} +- {:.4f} s, correlation of speeds {:.3f}\n",
+                         each.offset->offset,
+                         each.offset->deviation,
+                         each.offset->correlation);
+    }
+    for (const metrics::InputFinding& finding : each.findings) {
+      out += "  " + text(finding) + "\n";
+    }
+    if (each.findings.empty()) out += "  nothing found\n";
+  }
+  return out;
+}
+
+std::string report_json(const std::vector<Diagnosed>& all) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const Diagnosed& each : all) {
+    nlohmann::json findings = nlohmann::json::array();
+    for (const metrics::InputFinding& finding : each.findings) {
+      findings.push_back({{"fault", metrics::fault_name(finding.fault)},
+                          {"evidence", finding.evidence},
+                          {"fix", finding.fix},
+                          {"confidence", finding.confidence},
+                          {"value", finding.value}});
+    }
+    out.push_back({{"file", each.name}, {"findings", findings}});
+    if (!each.offset) continue;
+    out.back()["time_offset"] = {{"offset", each.offset->offset},
+                                 {"deviation", each.offset->deviation},
+                                 {"correlation", each.offset->correlation}};
+  }
+  return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+int doctor(const DoctorArguments& a) {
+  std::vector<Diagnosed> all;
+  std::vector<NamedTrajectory> estimates;
+  if (a.estimates.empty()) {
+    if (detect_format(a.reference) != Format::g2o) {
+      throw InputError(a.reference + ": expected REF and EST, or one pose graph (g2o)");
+    }
+    all.push_back(of_graph(a.reference));
+  } else {
+    const NamedTrajectory reference = read_named(a.reference, a.reading);
+    estimates = read_all_named(a.estimates, a.reading);
+    for (const NamedTrajectory& estimate : estimates) all.push_back(of_pair(reference, estimate));
+  }
+  fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
+  if (!a.apply.empty()) apply_offsets(a, std::move(estimates), all);
+  const bool is_clean =
+      std::ranges::all_of(all, [](const Diagnosed& each) { return each.findings.empty(); });
+  return is_clean ? kExitOk : kExitSomeCellsFailed;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<DoctorArguments>();
+  CLI::App* command = app.add_subcommand(
+      "doctor",
+      "Search trajectories or a pose graph for mistakes: time offset, quaternion order, units, "
+      "axes, inverted poses, exchanged files, closures, information (exit 1 if any)");
+  command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
+      ->required()
+      ->type_name("REF");
+  command->add_option("estimates", a->estimates, "Estimated trajectories")->type_name("EST");
+  command->add_option("--format", a->reading.format, "Format of the files")->type_name("WORD");
+  command->add_option("--repeats", a->reading.repeats, "Handling of equal stamps")
+      ->type_name("WORD");
+  command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
+      ->type_name("PARENT.CHILD");
+  command->add_option("--apply", a->apply, "Folder for the estimates with corrected stamps")
+      ->type_name("DIR");
+  command->add_flag("--json", a->json, "Print JSON");
+  command->callback([a, &exit_code] { exit_code = doctor(*a); });
+}
+
+}  // namespace loopbench::harness

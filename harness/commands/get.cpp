@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
+#include "harness/get/download.hpp"
+#include "harness/text/suggest.hpp"
+#include "harness/text/wrap.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+struct GetArguments {
+  std::vector<std::string> names;
+  std::string data = ".";
+  std::string catalogue;
+};
+
+void print_catalogue(const std::vector<PublicFile>& known) {
+  const std::size_t columns = standard_output_style().width;
+  for (const PublicFile& each : known) {
+    const std::string line = fmt::format("{:<20} {} [{}]", each.name, each.summary, each.licence);
+    fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
+  }
+}
+
+int get(const GetArguments& arguments) {
+  const std::vector<PublicFile> known =
+      arguments.catalogue.empty() ? public_files() : read_public_files(arguments.catalogue);
+  if (arguments.names.empty()) {
+    print_catalogue(known);
+    return kExitOk;
+  }
+  std::vector<std::string> names;
+  for (const PublicFile& each : known) names.push_back(each.name);
+  for (const std::string& name : arguments.names) {
+    if (std::ranges::count(names, name) == 0) {
+      throw InputError(unknown_name("sequence", name, names));
+    }
+  }
+  for (const std::string& name : arguments.names) {
+    const PublicFile& wanted = *std::ranges::find(known, name, &PublicFile::name);
+    fmt::print("{}: {}, licence: {}\n", name, wanted.url, wanted.licence);
+    std::fflush(stdout);
+    const Fetched outcome = fetch(wanted, arguments.data);
+    const std::string file = (std::filesystem::path(arguments.data) / wanted.file).string();
+    const char* what = outcome == Fetched::present      ? "is there, SHA-256 verified"
+                       : outcome == Fetched::downloaded ? "downloaded, SHA-256 verified"
+                                                        : "downloaded for the first time: its "
+                                                          "SHA-256 is now expected, not verified";
+    fmt::print("{}: {}\n", file, what);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_get(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<GetArguments>();
+  CLI::App* command =
+      app.add_subcommand("get", "Download public sequences and verify them by their SHA-256");
+  command->add_option("names", arguments->names, "names of sequences; none: print the catalogue");
+  command->add_option("--data", arguments->data, "Folder to write to")
+      ->envname("LOOPBENCH_DATA")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--catalogue", arguments->catalogue, "YAML file with another catalogue")
+      ->type_name("FILE");
+  command->footer(
+      "Interrupted downloads continue. An entry without a published hash is pinned: the hash of "
+      "the\n"
+      "first download is written to FILE.sha256, and other content is rejected from then on.");
+  command->callback([arguments, &exit_code] { exit_code = get(*arguments); });
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,78 @@
+#include "harness/commands/run_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/commands/standard_output.hpp"
+#include "harness/model/where.hpp"
+#include "harness/provenance/build_summary.hpp"
+#include "harness/store/store.hpp"
+#include "harness/tables/notes.hpp"
+#include "harness/tables/store_provenance.hpp"
+#include "harness/tables/summary.hpp"
+#include "harness/tables/text.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/shell.hpp"
+#include "harness/text/wrap.hpp"
+#include "harness/text/write_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// The reasons why there are no scores.
+std::string reasons_text(const std::vector<Record>& records) {
+  std::vector<Missing> missing;
+  for (const Record& r : records) {
+    const std::string what = r.metric.empty() ? "" : field(r, "score");
+    if (r.status != "ok") missing.push_back({r.method, what, r.status, r.why});
+  }
+  std::string out;
+  for (const std::string& line : grouped(missing)) out += "- " + printable(line) + "\n";
+  return out + (out.empty() ? "" : "\n");
+}
+
+}  // namespace
+
+void write_tables(const std::filesystem::path& store,
+                  const Sweep& sweep,
+                  const std::vector<Record>& all,
+                  const std::filesystem::path& out) {
+  write_result(out / "rows.csv", csv(all));
+  std::vector<Record> records = all;
+  keep_where(records, sweep.table.where);
+  const std::vector<Table> tables = pivot(records, sweep.table);
+  const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
+  const StoreProvenance provenance = read_store_provenance(store);
+  write_result(out / "table.md", text + "\n" + provenance_comment(provenance));
+  write_result(out / "provenance.json", json(provenance));
+  write_result(out / "table.csv", csv(tables));
+}
+
+std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
+  keep_where(records, sweep.table.where);
+  const TableView view = summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
+  if (view.lines.empty()) return reasons_text(records);
+  return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n";
+}
+
+std::string next_commands(const std::filesystem::path& out) {
+  const std::string name = program_name();
+  const std::string folder = shell_quoted(out.string());
+  const bool has_default_name = out.filename() != "" && out.parent_path() == "results";
+  const std::string report =
+      has_default_name ? shell_quoted(out.filename().string() + ".html") : "report.html";
+  const std::vector<std::pair<std::string, std::string>> lines{
+      {name + " table " + folder, "all scores of every sequence"},
+      {name + " compare " + folder, "every pair of methods, with tests"},
+      {name + " report " + folder + " -o " + report, "tables and charts in one HTML file"}};
+  std::size_t wide = 0;
+  for (const auto& [command, what] : lines) wide = std::max(wide, width(command));
+  std::string text = "next:\n";
+  for (const auto& [command, what] : lines) {
+    text += "  " + padded(command, wide, true) + "  # " + what + "\n";
+  }
+  return text;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,25 @@
+/// Properties of standard output.
+#pragma once
+
+#include <string>
+
+#include "harness/tables/table_view.hpp"
+
+namespace loopbench::harness {
+
+/// Whether standard output is a terminal.
+bool prints_to_terminal();
+
+/// Width of the terminal (from the terminal, else $COLUMNS, else 80) and whether it shows colours:
+/// not if NO_COLOR is set to any text or TERM is dumb. Without a terminal: unlimited, no colour.
+TerminalStyle standard_output_style();
+
+/// `line` broken into the width of the terminal, if standard output is one; later lines are
+/// indented.
+std::string fitted(const std::string& line);
+
+/// The name under which the program was called, for commands that the user can copy:
+/// $LOOPBENCH_NAME (set by run.sh) or "loopbench".
+std::string program_name();
+
+}  // namespace loopbench::harness

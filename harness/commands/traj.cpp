@@ -1,0 +1,258 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/commands/commands.hpp"
+#include "harness/commands/traj_options.hpp"
+#include "harness/text/printable.hpp"
+#include "harness/text/write_file.hpp"
+#include "harness/trajectory/figures.hpp"
+#include "harness/trajectory/selection.hpp"
+#include "harness/trajectory/summary.hpp"
+#include "harness/trajectory/transformation.hpp"
+#include "metrics/alignment/alignment.hpp"
+#include "metrics/pairing/association.hpp"
+#include "metrics/trajectory/projection.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using NamedTrajectories = std::vector<NamedTrajectory>;
+
+std::vector<std::string> names_of(const NamedTrajectories& all) {
+  std::vector<std::string> out;
+  for (const NamedTrajectory& each : all) out.push_back(each.name);
+  return out;
+}
+
+/// Rejects output files that are among the inputs.
+void protect_inputs(const TrajArguments& a, const std::vector<std::string>& outputs) {
+  std::vector<std::filesystem::path> inputs(a.files.begin(), a.files.end());
+  inputs.emplace_back(a.reference);
+  for (const std::string& file : outputs) {
+    if (!is_dash(file)) reject_overwriting(inputs, file);
+  }
+}
+
+int write_all(const TrajArguments& a, const NamedTrajectories& all) {
+  const Format format = written_format(a);
+  const std::vector<std::string> files = output_files(names_of(all), a.out, format);
+  protect_inputs(a, files);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool loses_stamps =
+        (format == Format::kitti || format == Format::g2o) && a.times_out.empty();
+    if (loses_stamps && all[i].file.has_stamps) {
+      fmt::print(stderr,
+                 "loopbench: {} does not contain stamps{}\n",
+                 to_text(format),
+                 format == Format::kitti ? "; --times-out FILE writes them" : "");
+    }
+    std::optional<std::filesystem::path> times;
+    if (!a.times_out.empty()) times = a.times_out;
+    if (times && all.size() > 1) throw InputError("--times-out: expected one trajectory");
+    write_trajectory(files[i], all[i].file, format, times);
+    if (!is_dash(files[i])) {
+      fmt::print("{}: {} poses\n", printable(files[i]), all[i].file.poses.size());
+    }
+  }
+  return kExitOk;
+}
+
+/// Replaces the poses; exact stamps stay valid only if no stamp has changed.
+template <class Change>
+int write_changed(const TrajArguments& a, Change change) {
+  NamedTrajectories all = read_all_named(a.files, a.reading);
+  for (NamedTrajectory& each : all) change(each);
+  return write_all(a, all);
+}
+
+int info(const TrajArguments& a) {
+  std::vector<TrajectorySummary> all;
+  for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
+    all.push_back(summarise(each.name, each.file, each.findings));
+  }
+  if (a.json) {
+    fmt::print("{}", json(all));
+    return kExitOk;
+  }
+  for (const TrajectorySummary& summary : all) fmt::print("{}", printable(text(summary)));
+  return kExitOk;
+}
+
+int merge_files(const TrajArguments& a) {
+  std::vector<TrajectoryFile> files;
+  std::size_t poses = 0;
+  for (NamedTrajectory& each : read_all_named(a.files, a.reading)) {
+    poses += each.file.poses.size();
+    files.push_back(std::move(each.file));
+  }
+  const NamedTrajectory out{"merged", merged(files), {}};
+  if (const std::size_t dropped = poses - out.file.poses.size(); dropped > 0) {
+    fmt::print(stderr, "loopbench: dropped {} poses with the stamp of another one\n", dropped);
+  }
+  return write_all(a, {out});
+}
+
+int crop(const TrajArguments& a) {
+  return write_changed(a, [&](NamedTrajectory& each) {
+    const double origin = a.relative ? each.file.poses.front().stamp : 0.0;
+    const auto from = a.start ? std::optional(origin + *a.start) : std::nullopt;
+    const auto to = a.end ? std::optional(origin + *a.end) : std::nullopt;
+    each.file = selected(each.file, within(each.file.poses, from, to));
+    if (each.file.poses.empty()) throw InputError(each.name + ": has no poses in this time range");
+  });
+}
+
+int downsample(const TrajArguments& a) {
+  const bool by_count = a.count.has_value();
+  const bool has_motion = a.step.seconds || a.step.metres || a.step.degrees;
+  if (by_count == has_motion) {
+    throw InputError("downsample: expected --count, or any of --seconds, --metres, --degrees");
+  }
+  return write_changed(a, [&](NamedTrajectory& each) {
+    const Trajectory& poses = each.file.poses;
+    each.file = selected(
+        each.file, by_count ? evenly_spaced(poses.size(), *a.count) : by_motion(poses, a.step));
+  });
+}
+
+int resample(const TrajArguments& a) {
+  return write_changed(a, [&](NamedTrajectory& each) {
+    each.file = {.poses = resampled(each.file.poses, a.step), .format = each.file.format};
+  });
+}
+
+int transform(const TrajArguments& a) {
+  if (a.left.empty() == a.right.empty()) {
+    throw InputError("transform: expected one of --left and --right");
+  }
+  if (a.propagate && a.right.empty()) throw InputError("--propagate: expected --right");
+  Similarity similarity = read_similarity(a.left.empty() ? a.right : a.left);
+  if (a.invert) similarity = inverse(similarity);
+  const TransformSide side = a.right.empty() ? TransformSide::left
+                             : a.propagate   ? TransformSide::right_propagated
+                                             : TransformSide::right;
+  return write_changed(a, [&](NamedTrajectory& each) {
+    each.file.poses = transformed(std::move(each.file.poses), similarity, side);
+    each.file.covariances.clear();
+  });
+}
+
+std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
+                                               const Trajectory& reference,
+                                               const NamedTrajectory& estimate) {
+  using metrics::Crossing;
+  using metrics::Limit;
+  const std::vector<double> of_reference = stamps(reference);
+  const std::vector<double> of_estimate = stamps(estimate.file.poses);
+  const std::vector<metrics::IndexPair> out =
+      a.association == "evo" ? metrics::match_evo(of_reference, of_estimate, a.max_diff, a.offset)
+                             : metrics::match_one_to_one(of_reference,
+                                                         of_estimate,
+                                                         a.max_diff,
+                                                         Limit::inclusive,
+                                                         Crossing::refused,
+                                                         a.offset);
+  if (!out.empty()) return out;
+  throw InputError(fmt::format(
+      "{}: no stamps are within {:g} s of stamps of {}", estimate.name, a.max_diff, a.reference));
+}
+
+/// The paired poses of one trajectory.
+TrajectoryFile paired_part(const TrajectoryFile& file,
+                           const std::vector<metrics::IndexPair>& pairs,
+                           std::size_t metrics::IndexPair::*index) {
+  std::vector<std::size_t> indices;
+  for (const metrics::IndexPair& pair : pairs) indices.push_back(pair.*index);
+  return selected(file, indices);
+}
+
+int sync(const TrajArguments& a) {
+  const NamedTrajectory reference = read_named(a.reference, a.reading);
+  const NamedTrajectories all = read_all_named(a.files, a.reading);
+  const Format format = written_format(a);
+  const std::string folder = a.out.ends_with('/') ? a.out : a.out + "/";
+  const auto files = output_files(names_of(all), folder, format);
+  const auto references = output_files(names_of(all), folder, format, "_reference");
+  protect_inputs(a, files);
+  protect_inputs(a, references);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto pairs = paired_indices(a, reference.file.poses, all[i]);
+    write_trajectory(
+        files[i], paired_part(all[i].file, pairs, &metrics::IndexPair::estimate), format);
+    write_trajectory(
+        references[i], paired_part(reference.file, pairs, &metrics::IndexPair::reference), format);
+    fmt::print(
+        "{} and {}: {} poses\n", printable(files[i]), printable(references[i]), pairs.size());
+  }
+  return kExitOk;
+}
+
+int align_files(const TrajArguments& a) {
+  const Trajectory reference = read_named(a.reference, a.reading).file.poses;
+  metrics::Align type{};
+  FieldType<metrics::Align>::assign("align", type, a.align);
+  return write_changed(a, [&](NamedTrajectory& each) {
+    const auto pairs = paired_indices(a, reference, each);
+    Trajectory of_reference, of_estimate;
+    for (const metrics::IndexPair& pair : pairs) {
+      of_reference.push_back(reference[pair.reference]);
+      of_estimate.push_back(each.file.poses[pair.estimate]);
+    }
+    try {
+      const metrics::Alignment fit = metrics::align(of_reference, of_estimate, type, a.align_first);
+      each.file.poses = metrics::moved(fit, std::move(each.file.poses));
+      fmt::print(stderr,
+                 "{}: aligned with {} pairs, scale {:.9g}\n",
+                 printable(each.name),
+                 pairs.size(),
+                 fit.scale);
+    } catch (const std::runtime_error& error) {
+      throw InputError(each.name + ": " + error.what());
+    }
+    each.file.covariances.clear();
+  });
+}
+
+int project_files(const TrajArguments& a) {
+  metrics::ProjectionPlane plane{};
+  FieldType<metrics::ProjectionPlane>::assign("plane", plane, a.plane);
+  return write_changed(a, [&](NamedTrajectory& each) {
+    metrics::project(each.file.poses, plane);
+    each.file.covariances.clear();
+  });
+}
+
+int plot_files(const TrajArguments& a) {
+  const NamedTrajectories all = read_all_named(a.files, a.reading);
+  std::optional<NamedTrajectory> reference;
+  if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
+  protect_inputs(a, {a.out});
+  reject_standard_output("-o", a.out);
+  write_trajectory_figure(a.out, all, reference);
+  fmt::print("{}\n", printable(a.out));
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_traj(CLI::App& app, int& exit_code) {
+  CLI::App* traj = app.add_subcommand(
+      "traj", "Inspect, convert and change trajectory files (TUM, KITTI, EuRoC, g2o, csv, bags)");
+  traj->require_subcommand(1);
+  declare_traj(*traj,
+               {{"info", info},
+                {"convert", [](const TrajArguments& a) { return write_changed(a, [](auto&) {}); }},
+                {"sync", sync},
+                {"merge", merge_files},
+                {"crop", crop},
+                {"downsample", downsample},
+                {"resample", resample},
+                {"transform", transform},
+                {"align", align_files},
+                {"project", project_files},
+                {"plot", plot_files}},
+               exit_code);
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,149 @@
+#include "harness/commands/traj_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "datasets/core/fields.hpp"
+#include "harness/commands/checks.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+void declare_inputs(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("files",
+                  a.files,
+                  "Trajectories: files (also compressed), - for standard input, "
+                  "bag:FILE#/topic or bag:FILE#tf:PARENT.CHILD")
+      ->required()
+      ->expected(1, -1);
+  verb.add_option("-f,--format", a.reading.format, "Format of the files: auto, tum, kitti, ...")
+      ->type_name("WORD");
+  verb.add_option("--times", a.reading.times, "Times of KITTI poses, one per line [s]")
+      ->type_name("FILE");
+  verb.add_option("--period", a.reading.period, "Time between poses without stamps [s]")
+      ->check(finite_number());
+  verb.add_option("--repeats",
+                  a.reading.repeats,
+                  "Poses with a repeated stamp: refuse, keep_first or keep_last")
+      ->type_name("WORD");
+  verb.add_option("--tf", a.reading.tf, "Frames in the TF tree of bags without a topic")
+      ->type_name("PARENT.CHILD");
+  verb.add_flag("--all-topics", a.reading.all_topics, "All trajectories of bags without a topic");
+}
+
+void declare_output(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
+      ->type_name("PATH");
+  verb.add_option("--to", a.to, "Output format: tum, kitti, euroc, g2o or csv")->type_name("WORD");
+  verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
+      ->type_name("FILE");
+}
+
+void declare_pairing(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("--ref", a.reference, "Reference trajectory")->required()->type_name("FILE");
+  verb.add_option("--association",
+                  a.association,
+                  "Rule of pairing: evo (nearest stamp) or nearest (one to one)")
+      ->check(CLI::IsMember({"evo", "nearest"}));
+  verb.add_option(
+          "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]")
+      ->check(finite_number());
+  verb.add_option("--offset,--t_offset", a.offset, "Time offset added to the files' stamps [s]")
+      ->check(finite_number());
+}
+
+void declare_steps(CLI::App& verb, TrajArguments& a) {
+  const auto step = [&](const char* name, std::optional<double>& value, const char* help) {
+    verb.add_option(name, value, help)->check(finite_number())->check(CLI::PositiveNumber);
+  };
+  step("--seconds", a.step.seconds, "Time between poses [s]");
+  step("--metres,--meters", a.step.metres, "Path length between poses [m]");
+  step("--degrees", a.step.degrees, "Accumulated rotation angle between poses [deg]");
+}
+
+void declare_crop(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("--start,--t_start", a.start, "First stamp [s]")->check(finite_number());
+  verb.add_option("--end,--t_end", a.end, "Last stamp [s]")->check(finite_number());
+  verb.add_flag("--relative", a.relative, "Count --start and --end from the first stamp");
+}
+
+void declare_transform(CLI::App& verb, TrajArguments& a) {
+  const char* const values = "x,y,z[,qx,qy,qz,qw] or a JSON file with these keys and scale";
+  verb.add_option("--left", a.left, std::string("Transform to multiply on the left: ") + values);
+  verb.add_option("--right", a.right, std::string("Transform to multiply on the right: ") + values);
+  verb.add_flag("--invert", a.invert, "Use the inverse of the transform");
+  verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift");
+}
+
+void declare_alignment(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("--align", a.align, "Alignment: se3, sim3, scale, origin, posyaw, ...")
+      ->type_name("WORD");
+  verb.add_option("--align-first,--n_to_align", a.align_first, "Number of first pairs, 0 for all");
+}
+
+struct VerbInfo {
+  const char* name;
+  const char* help;
+  std::vector<void (*)(CLI::App&, TrajArguments&)> options;
+};
+
+const std::vector<VerbInfo>& verb_infos() {
+  static const std::vector<VerbInfo> all{
+      {"info",
+       "Print number of poses, duration, distance, speed, rate, gaps and bounding box",
+       {[](CLI::App& verb, TrajArguments& a) { verb.add_flag("--json", a.json, "Print JSON"); }}},
+      {"convert", "Convert to another format without loss", {declare_output}},
+      {"sync",
+       "Write the paired poses of each file and of the reference to a folder",
+       {declare_pairing, declare_output}},
+      {"merge", "Merge files into one trajectory, sorted by stamp", {declare_output}},
+      {"crop", "Keep the poses in a time range", {declare_crop, declare_output}},
+      {"downsample",
+       "Keep some poses: evenly spaced, or by motion since the last kept one",
+       {declare_steps,
+        [](CLI::App& verb, TrajArguments& a) {
+          verb.add_option("--count,-n", a.count, "Number of poses")->check(CLI::PositiveNumber);
+        },
+        declare_output}},
+      {"resample", "Interpolate poses in equal steps", {declare_steps, declare_output}},
+      {"transform", "Multiply all poses by a transform", {declare_transform, declare_output}},
+      {"align", "Align to a reference", {declare_pairing, declare_alignment, declare_output}},
+      {"project",
+       "Project onto a coordinate plane",
+       {[](CLI::App& verb, TrajArguments& a) {
+          verb.add_option("--plane", a.plane, "Plane: xy, xz or yz")->required();
+        },
+        declare_output}},
+      {"plot",
+       "Plot trajectories: three planes, position, orientation and speed over time",
+       {[](CLI::App& verb, TrajArguments& a) {
+         verb.add_option("--ref", a.reference, "Reference trajectory")->type_name("FILE");
+         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf or .png")->required();
+       }}}};
+  return all;
+}
+
+}  // namespace
+
+Format written_format(const TrajArguments& arguments) {
+  Format out = Format::tum;
+  FieldType<Format>::assign("to", out, arguments.to);
+  if (out == Format::automatic || out == Format::bag) {
+    throw OptionError("to",
+                      "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
+  }
+  return out;
+}
+
+void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {
+  for (const VerbInfo& info : verb_infos()) {
+    auto arguments = std::make_shared<TrajArguments>();
+    CLI::App* verb = traj.add_subcommand(info.name, info.help);
+    declare_inputs(*verb, *arguments);
+    for (const auto& declare : info.options) declare(*verb, *arguments);
+    verb->callback(
+        [arguments, run = verbs.at(info.name), &exit_code] { exit_code = run(*arguments); });
+  }
+}
+
+}  // namespace loopbench::harness

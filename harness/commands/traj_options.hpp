@@ -1,0 +1,52 @@
+/// Options of `traj` and its verbs.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/trajectory/named_trajectory.hpp"
+#include "harness/trajectory/selection.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace loopbench::harness {
+
+struct TrajArguments {
+  std::vector<std::string> files;
+  ReadArguments reading;
+  std::string reference;
+  std::string out = "-";
+  std::string to = "tum";
+  std::string times_out;  ///< stamps of a KITTI file; empty: none
+  bool json = false;
+  std::optional<double> start;  ///< [s]
+  std::optional<double> end;    ///< [s]
+  bool relative = false;        ///< start and end count from the first stamp
+  std::optional<std::size_t> count;
+  MotionStep step;
+  std::string left;  ///< transform; empty: none
+  std::string right;
+  bool invert = false;
+  bool propagate = false;
+  std::string association = "evo";
+  double max_diff = 0.01;  ///< [s]
+  double offset = 0.0;     ///< added to the stamps of the files [s]
+  std::string align = "se3";
+  std::size_t align_first = 0;
+  std::string plane;
+};
+
+using TrajVerb = std::function<int(const TrajArguments&)>;
+
+/// The format of `to`. Throws OptionError.
+Format written_format(const TrajArguments& arguments);
+
+/// Adds one subcommand for each verb.
+void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,33 @@
+/// Pictures of one or several evaluations.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/eval/evaluation_result.hpp"
+#include "harness/plot/gnuplot.hpp"
+
+namespace loopbench::harness {
+
+/// A figure with its name: "trajectories", "errors" or "axes".
+struct NamedFigure {
+  std::string name;
+  std::vector<PlotPanel> panels;
+  std::size_t columns = 2;
+};
+
+/// - trajectories: xy, xz, yz and space, start and end marked, coloured by position error for a
+///   single estimate;
+/// - errors: position and rotation error over time and over distance, and the histogram of the
+///   position error;
+/// - axes: x, y, z, roll, pitch and yaw over time, with the reference.
+/// An estimate has the same colour in all of them. O(poses).
+std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all);
+
+/// Writes PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, with panels as wide as one column
+/// of a paper (3.5 in). Returns the files. Throws InputError like write_figure().
+std::vector<std::string> write_error_figures(const std::string& prefix,
+                                             const std::vector<DrawnEvaluation>& all);
+
+}  // namespace loopbench::harness

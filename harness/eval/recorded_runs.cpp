@@ -1,0 +1,139 @@
+#include "harness/eval/recorded_runs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "datasets/bags/bag_name.hpp"
+#include "datasets/core/error.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+bool is_run_number(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, is_digit);
+}
+
+/// The name that identifies a trajectory: file name without extensions, or topic.
+std::string plain_stem(const std::string& file) {
+  if (names_bag(file) && !bag_name(file).topic.empty()) {
+    const std::string topic = bag_name(file).topic;
+    return topic.starts_with('/') ? topic.substr(1) : topic;
+  }
+  std::filesystem::path path(file_of(file));
+  while (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();
+  return path.stem().string();
+}
+
+std::string folder_name(const std::string& file) {
+  return std::filesystem::absolute(file_of(file)).parent_path().filename().string();
+}
+
+bool is_generic(const std::string& stem) {
+  constexpr std::array kNames{"groundtruth",
+                              "ground_truth",
+                              "gt",
+                              "truth",
+                              "reference",
+                              "ref",
+                              "data",
+                              "stamped_groundtruth",
+                              "gt_tum",
+                              "gt_poses",
+                              "poses"};
+  return std::ranges::count(kNames, stem) > 0;
+}
+
+std::string sequence_of(const std::string& reference) {
+  const std::string stem = plain_stem(reference);
+  if (!is_generic(stem)) return stem;
+  if (names_bag(reference)) return std::filesystem::path(file_of(reference)).stem().string();
+  const std::string folder = folder_name(reference);
+  return folder.empty() ? stem : folder;
+}
+
+/// Splits "name_run3", "name_3" or "name-3"; false if the name has no number at its end.
+bool split_run(const std::string& stem, RecordedRun& out) {
+  std::size_t digits = stem.size();
+  while (digits > 0 && is_digit(stem[digits - 1])) --digits;
+  std::size_t end = digits;
+  if (end >= 3 && stem.compare(end - 3, 3, "run") == 0) end -= 3;
+  const bool has_separator = end > 1 && (stem[end - 1] == '_' || stem[end - 1] == '-');
+  if (digits == stem.size() || !has_separator) return false;
+  out.method = stem.substr(0, end - 1);
+  out.run = stem.substr(digits);
+  return true;
+}
+
+RecordedRun labelled(const FilePair& pair, const std::string& sequence) {
+  RecordedRun out{sequence, "", "0", pair.reference, pair.estimate};
+  const std::string stem = plain_stem(pair.estimate);
+  const std::filesystem::path folder =
+      std::filesystem::absolute(file_of(pair.estimate)).parent_path();
+  if (folder.filename() == plain_stem(pair.reference)) {  // METHOD/SEQUENCE/RUN.txt
+    out.method = folder.parent_path().filename().string();
+    out.run = stem;
+  } else if (is_run_number(stem)) {
+    out.method = folder.filename().string();
+    out.run = stem;
+  } else if (!split_run(stem, out)) {
+    out.method = stem;
+  }
+  return out;
+}
+
+auto labels_of(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const auto number = [](const std::string& text, std::size_t& at) {
+        while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
+        const std::size_t first = at;
+        while (at < text.size() && is_digit(text[at])) ++at;
+        return text.substr(first, at - first);
+      };
+      const std::string m = number(a, i);
+      const std::string n = number(b, j);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+      continue;
+    }
+    if (a[i] != b[j]) return a[i] < b[j];
+    ++i;
+    ++j;
+  }
+  return a.size() - i < b.size() - j;
+}
+
+std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
+                                       const std::string& sequence) {
+  std::vector<RecordedRun> out;
+  for (const FilePair& pair : files) {
+    out.push_back(labelled(pair, sequence.empty() ? sequence_of(pair.reference) : sequence));
+  }
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> count;
+  for (const RecordedRun& run : out) ++count[labels_of(run)];
+  for (RecordedRun& run : out) {
+    if (count[labels_of(run)] > 1) run.method = folder_name(run.estimate) + "/" + run.method;
+  }
+  std::map<std::tuple<std::string, std::string, std::string>, std::string> taken;
+  for (const RecordedRun& run : out) {
+    const auto [other, is_new] = taken.emplace(labels_of(run), run.estimate);
+    if (is_new) continue;
+    throw InputError(run.estimate + ": has the same sequence '" + run.sequence + "', method '" +
+                     run.method + "' and run " + run.run + " as " + other->second +
+                     ", expected METHOD/SEQUENCE/RUN.txt or NAME_RUN.txt");
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

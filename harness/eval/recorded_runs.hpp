@@ -1,0 +1,35 @@
+/// Estimate files as runs of methods on sequences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/eval/layout.hpp"
+
+namespace loopbench::harness {
+
+/// One output of a system on one sequence.
+struct RecordedRun {
+  std::string sequence;
+  std::string method;
+  std::string run;  ///< "0", "7", or "0" if the file name has no number
+  std::string reference;
+  std::string estimate;
+  friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
+};
+
+/// Labels from the file names:
+/// - METHOD/SEQUENCE/RUN.txt with SEQUENCE.txt as reference: these names;
+/// - METHOD/RUN.txt where RUN is a number: these;
+/// - NAME_3.txt, NAME_run3.txt, NAME-3.txt: method NAME, run 3;
+/// - any other name: the method, run 0. A name that occurs in several folders gets its folder's.
+/// The sequence is the name of the reference file, or of its folder for names such as
+/// groundtruth.txt, or `sequence` if not empty. Topics of bags are names, too. Throws InputError if
+/// two files have the same labels. Files of equal content are not detected here.
+std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
+                                       const std::string& sequence);
+
+/// "run2" < "run10": numbers within names are compared as numbers.
+bool natural_less(const std::string& a, const std::string& b);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,36 @@
+/// Stores the evaluation of files like a sweep: systems are methods, their runs are repeats.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/eval/arguments.hpp"
+#include "harness/eval/recorded_runs.hpp"
+#include "harness/provenance/collect_provenance.hpp"
+
+namespace loopbench::harness {
+
+/// Coverage below which a run is a failure unless --min-coverage is given, 0..1.
+inline constexpr double kUsualMinCoverage = 0.5;
+
+struct RecordedSweep {
+  std::size_t cells = 0;   ///< of the store
+  std::size_t stored = 0;  ///< of those, stored before
+  std::size_t failed = 0;
+  std::size_t incomplete = 0;
+  std::vector<std::string> notes;  ///< each once, with the number of runs
+};
+
+/// Evaluates the runs under all protocols of the arguments and writes them to
+/// FOLDER/results.sqlite. Runs that the store already has are kept; unchanged files are not
+/// evaluated again. Every run of a sequence is a group of its own, so that conclusions hold for
+/// other runs on these sequences. Throws InputError, also if the store is the result of a sweep.
+/// O(poses).
+RecordedSweep store_runs(const std::vector<RecordedRun>& runs,
+                         const EvalArguments& arguments,
+                         const std::filesystem::path& folder,
+                         const Source& source);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,34 @@
+/// A sweep whose datasets are pairs of files and whose methods return the poses of the file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/eval/arguments.hpp"
+#include "harness/eval/recorded_runs.hpp"
+#include "harness/model/cells.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench::harness {
+
+/// Dataset `files`, method `recorded` and all metrics.
+Catalogue recorded_catalogue();
+
+/// Reads the reference of a dataset of recorded_sweep(), and the sequence with a reference that was
+/// read before. Throw InputError.
+Trajectory recorded_reference(const Params& options);
+Sequence recorded_sequence(const Params& options, const Trajectory& reference);
+
+/// One dataset per run, with the sequence as label; the methods in the order of their first run.
+Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& arguments);
+
+/// One cell per run, by sequence, run and method. The repeat is the position of the run's name
+/// among all runs of the sequence, in natural order, so that runs of equal names are paired.
+std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Sweep& sweep);
+
+/// The runs as text, for the store, and back. Other texts have no runs.
+std::string manifest(const std::vector<RecordedRun>& runs);
+std::vector<RecordedRun> runs_of_manifest(const std::string& text);
+
+}  // namespace loopbench::harness

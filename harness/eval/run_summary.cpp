@@ -1,0 +1,162 @@
+#include "harness/eval/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "harness/statistics/mean_interval.hpp"
+#include "harness/tables/text.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_run_score(const Record& r, const std::string& metric, const std::string& protocol) {
+  return r.protocol == protocol && metric_label(r) == metric && r.relation == "translation" &&
+         (r.axis == "3d" || r.axis.empty());
+}
+
+RunSummary summary(const std::string& sequence,
+                   const std::string& method,
+                   std::size_t runs,
+                   std::vector<double> values) {
+  RunSummary out{sequence, method, runs, values.size(), 0, 0, 0, 0, {}};
+  if (values.empty()) return out;
+  std::ranges::sort(values);
+  for (const double value : values) out.mean += value / static_cast<double>(values.size());
+  const std::size_t middle = values.size() / 2;
+  out.median =
+      values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+  out.smallest = values.front();
+  out.largest = values.back();
+  if (const auto interval = mean_interval(values)) out.interval = interval->interval;
+  return out;
+}
+
+std::string row(const RunSummary& s) {
+  if (s.successes == 0) {
+    return fmt::format("| {} | {} | 0 of {} | | | | |\n", s.sequence, s.method, s.runs);
+  }
+  return fmt::format(
+      "| {} | {} | {} of {} | {:.4f} | {} | {:.4f} | {:.4f} to {:.4f} |\n",
+      s.sequence,
+      s.method,
+      s.successes,
+      s.runs,
+      s.mean,
+      s.interval ? fmt::format("{:.4f} to {:.4f}", s.interval->low, s.interval->high) : "-",
+      s.median,
+      s.smallest,
+      s.largest);
+}
+
+}  // namespace
+
+std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
+                               const std::vector<RecordedRun>& runs) {
+  std::vector<Record> out;
+  const std::size_t protocols = runs.empty() ? 1 : results.size() / runs.size();
+  std::map<std::string, std::map<std::string, std::int64_t>> repeats;  // by sequence and run
+  for (const RecordedRun& run : runs) {
+    auto& known = repeats[run.sequence];
+    known.emplace(run.run, static_cast<std::int64_t>(known.size()));
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const EvaluationResult& result = results[i];
+    const RecordedRun& run = runs[i / protocols];
+    Record record;
+    record.cell = static_cast<std::int64_t>(i);
+    record.sequence = run.sequence;
+    record.repeat = repeats[run.sequence][run.run];
+    record.method = run.method;
+    record.group = "run " + run.run + " on " + run.sequence;
+    record.times = "keyframes";
+    if (!result.why_failed.empty()) {
+      record.status = "failed";
+      record.why = result.why_failed;
+      out.push_back(record);
+      continue;
+    }
+    record.protocol = result.protocol.label();
+    record.protocol_version = result.protocol.version;
+    record.status = result.incomplete_reason.empty() ? "ok" : "incomplete";
+    record.why = result.incomplete_reason;
+    for (const EvaluatedMetric& metric : result.metrics) {
+      for (const metrics::Score& score : metric.scores) {
+        if (!score.why_undefined.empty()) continue;
+        Record scored = record;
+        scored.metric = metric.name;
+        scored.label = label(metric);
+        scored.relation = score.relation;
+        scored.axis = score.axis;
+        scored.unit = score.unit;
+        scored.better = score.better;
+        scored.target = score.target;
+        scored.statistics = score.statistics;
+        scored.pairs = static_cast<std::int64_t>(result.coverage.pairs);
+        scored.possible = static_cast<std::int64_t>(result.coverage.possible);
+        out.push_back(scored);
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
+                                       const std::string& metric) {
+  using Key = std::pair<std::string, std::string>;
+  std::vector<Key> order;
+  std::map<Key, std::set<std::int64_t>> runs;
+  std::map<Key, std::vector<double>> values;
+  std::string protocol;
+  for (const Record& r : records) {
+    if (protocol.empty()) protocol = r.protocol;
+    const Key key{r.sequence, r.method};
+    if (runs[key].empty()) order.push_back(key);
+    runs[key].insert(r.repeat);
+    if (r.status == "ok" && is_run_score(r, metric, protocol)) {
+      values[key].push_back(r.statistics.rmse);
+    }
+  }
+  std::vector<RunSummary> out;
+  for (const Key& key : order) {
+    out.push_back(summary(key.first, key.second, runs[key].size(), values[key]));
+  }
+  return out;
+}
+
+std::string run_report(const std::vector<Record>& records) {
+  const std::string metric = "ate";
+  const std::vector<RunSummary> all = summarise_runs(records, metric);
+  std::set<std::string> methods;
+  for (const RunSummary& each : all) methods.insert(each.method);
+  const bool has_repeats =
+      std::ranges::any_of(all, [](const RunSummary& each) { return each.runs > 1; });
+  const bool has_values =
+      std::ranges::any_of(all, [](const RunSummary& each) { return each.successes > 0; });
+  if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
+  std::string out;
+  if (has_repeats) {
+    out +=
+        "\n| sequence | method | successful runs | mean ate [m] | 95 % interval | median [m] | "
+        "range [m] |\n| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
+    for (const RunSummary& each : all) out += row(each);
+  }
+  if (methods.size() < 2) return out;
+  std::vector<Record> scores;
+  std::string protocol;
+  for (const Record& r : records) {
+    if (protocol.empty()) protocol = r.protocol;
+    if (r.metric.empty() || is_run_score(r, metric, protocol)) scores.push_back(r);
+  }
+  CompareOptions options;
+  options.baseline = records.front().method;
+  for (const Comparison& comparison : compare(scores, options)) {
+    out += "\nverdict on " + metric + ": " + verdict(comparison) + "\n";
+    for (const std::string& remark : remarks(comparison)) out += "- " + remark + "\n";
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,41 @@
+/// Statistics over the runs of each system, and the verdict.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/compare/compare.hpp"
+#include "harness/eval/evaluation_result.hpp"
+#include "harness/eval/recorded_runs.hpp"
+
+namespace loopbench::harness {
+
+/// Runs of one method on one sequence; or on all of them, with empty `sequence`.
+struct RunSummary {
+  std::string sequence;
+  std::string method;
+  std::size_t runs = 0;
+  std::size_t successes = 0;  ///< runs with a value: sufficient coverage, no failure
+  double mean = 0.0;          ///< of the successes
+  double median = 0.0;
+  double smallest = 0.0;
+  double largest = 0.0;
+  std::optional<Interval> interval;  ///< 95 % of the mean; none below eight successes
+};
+
+/// Records of evaluations of files, for the scores that have a direction. `runs[i / protocols]`
+/// belongs to `results[i]`.
+std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
+                               const std::vector<RecordedRun>& runs);
+
+/// Summaries of one score ("ate") under the first protocol, by sequence and method in the order of
+/// the records.
+std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
+                                       const std::string& metric = "ate");
+
+/// Table of the summaries, and the verdict over all runs: which method is better, and whether that
+/// is proven. Empty below two methods and two runs.
+std::string run_report(const std::vector<Record>& records);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,31 @@
+/// The process of one cell, from its fork to its end.
+#pragma once
+
+#include <sys/types.h>
+
+#include <vector>
+
+#include "harness/execution/isolate/result_area.hpp"
+#include "harness/execution/isolate/worker.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
+
+namespace loopbench::harness {
+
+struct CellChild {
+  const WorkerContext& context;
+  const Cell& cell;
+  const Sequence& sequence;
+  pid_t worker = 0;
+  int core = -1;  ///< to run on; -1: any
+  int input = -1;
+  int output = -1;  ///< standard output and error
+  const Sandbox& sandbox;
+  ResultArea& area;
+  std::vector<int> kept;  ///< descriptors to keep open, apart from the standard streams
+};
+
+/// In the forked process: detaches it from the worker, runs the cell in the sandbox and leaves the
+/// packed result in the area.
+[[noreturn]] void run_cell_and_exit(const CellChild& child);
+
+}  // namespace loopbench::harness

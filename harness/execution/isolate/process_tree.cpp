@@ -1,0 +1,136 @@
+#include "harness/execution/isolate/process_tree.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+namespace loopbench::harness {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::string out;
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return out;
+  char buffer[4096];
+  for (ssize_t size; (size = read(file, buffer, sizeof buffer)) > 0;) {
+    out.append(buffer, static_cast<std::size_t>(size));
+  }
+  close(file);
+  return out;
+}
+
+void append_children(const std::string& thread, std::vector<pid_t>& out) {
+  const std::string text = text_of(thread + "/children");
+  const char* at = text.c_str();
+  for (;;) {
+    char* end = nullptr;
+    const long process = std::strtol(at, &end, 10);
+    if (end == at) return;
+    out.push_back(static_cast<pid_t>(process));
+    at = end;
+  }
+}
+
+void append_children_of_process(pid_t process, std::vector<pid_t>& out) {
+  const std::string threads = "/proc/" + std::to_string(process) + "/task";
+  DIR* folder = opendir(threads.c_str());
+  if (folder == nullptr) return;
+  while (const dirent* entry = readdir(folder)) {
+    if (entry->d_name[0] != '.') append_children(threads + "/" + entry->d_name, out);
+  }
+  closedir(folder);
+}
+
+/// Number of kilobytes after `name`, in bytes.
+std::int64_t kilobytes(const std::string& status, const char* name) {
+  const char* found = std::strstr(status.c_str(), name);
+  return found == nullptr
+             ? 0
+             : 1024 * std::int64_t{std::strtoll(found + std::strlen(name), nullptr, 10)};
+}
+
+}  // namespace
+
+int process_descriptor(pid_t process) {
+  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));  // closed on exec
+}
+
+std::vector<pid_t> own_children() {
+  std::vector<pid_t> out;
+  append_children("/proc/thread-self", out);
+  return out;
+}
+
+std::int64_t process_memory(const std::string& process) {
+  const std::string status = text_of("/proc/" + process + "/status");
+  return kilobytes(status, "RssAnon:") + kilobytes(status, "RssShmem:");
+}
+
+TreeUsage descendants_usage(std::int64_t at_fork,
+                            int most_processes,
+                            const std::vector<pid_t>& spared) {
+  TreeUsage out;
+  std::vector<pid_t> waiting = own_children();
+  std::erase_if(waiting, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+  while (!waiting.empty() && out.processes <= most_processes) {
+    const pid_t process = waiting.back();
+    waiting.pop_back();
+    ++out.processes;
+    out.memory += std::max<std::int64_t>(0, process_memory(std::to_string(process)) - at_fork);
+    append_children_of_process(process, waiting);
+  }
+  return out;
+}
+
+int end_cell(pid_t cell, const std::vector<pid_t>& spared) {
+  bool is_reaped = false;
+  int out = 0;
+  if (!spared.empty()) {
+    kill(-cell, SIGKILL);
+    kill(cell, SIGKILL);
+    while (waitpid(cell, &out, 0) < 0 && errno == EINTR) {
+    }
+    end_strays(spared);
+    return out;
+  }
+  for (;;) {
+    if (getpid() == 1) {
+      kill(-1, SIGKILL);  // everything in the PID namespace but this process
+    } else {
+      if (!is_reaped) kill(-cell, SIGKILL);  // its process group, also while it forks
+      for (const pid_t child : own_children()) kill(child, SIGKILL);
+    }
+    // All children are killed now. Those of a child that ends are adopted before it can be waited
+    // for, so that the next round finds them.
+    int status = 0;
+    const pid_t ended = waitpid(-1, &status, 0);
+    if (ended < 0 && errno != EINTR) return out;
+    if (ended == cell) {
+      is_reaped = true;
+      out = status;
+    }
+  }
+}
+
+void end_strays(const std::vector<pid_t>& spared) {
+  for (;;) {
+    std::vector<pid_t> strays = own_children();
+    std::erase_if(strays, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+    if (strays.empty()) return;
+    for (const pid_t stray : strays) kill(stray, SIGKILL);
+    for (const pid_t stray : strays) {
+      while (waitpid(stray, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }
+  }
+}
+
+}  // namespace loopbench::harness

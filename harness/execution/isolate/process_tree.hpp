@@ -1,0 +1,44 @@
+/// Descendants of this process, as listed in /proc.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace loopbench::harness {
+
+/// Descriptor of a child, readable when it has ended; -1 on failure.
+int process_descriptor(pid_t process);
+
+/// Children of the calling thread, including adopted ones, as numbered in /proc (which can be the
+/// numbers of an outer PID namespace). Empty without /proc.
+std::vector<pid_t> own_children();
+
+struct TreeUsage {
+  std::int64_t memory = 0;  ///< private and shared memory beyond that at the fork [bytes]
+  int processes = 0;        ///< at most one more than the limit
+};
+
+/// Usage of all descendants of the calling thread. Each counts with what it has beyond `at_fork`
+/// bytes; `spared` children do not count; a copy of a process that has grown before counts with its
+/// growth again. Stops counting after `most_processes` of them.
+TreeUsage descendants_usage(std::int64_t at_fork,
+                            int most_processes,
+                            const std::vector<pid_t>& spared = {});
+
+/// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
+std::int64_t process_memory(const std::string& process);
+
+/// In a worker, which is the init of a PID namespace or a subreaper: kills all its descendants and
+/// waits for their end; not `spared` children, for which it must not be the init of a namespace,
+/// whose numbers of processes differ from those of own_children(). Returns the wait status of
+/// `cell`, a child that leads a process group.
+int end_cell(pid_t cell, const std::vector<pid_t>& spared = {});
+
+/// In the sweep, a subreaper: kills its children but those in `spared`, with their descendants, and
+/// waits for their end.
+void end_strays(const std::vector<pid_t>& spared);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,39 @@
+#include "harness/execution/isolate/worker_slot.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/execution/isolate/process_tree.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr double kGrace = 5.0;  // [s], for the worker to end a cell at its limit
+
+}  // namespace
+
+void apply_limits(WorkerSlot& slot, const Limits& limits) {
+  if (slot.verdict || slot.is_idle()) return;
+  const bool loading = slot.is_loading();
+  const double seconds = slot.seconds();
+  CellResult verdict;
+  verdict.signal = "SIGKILL";
+  if (limits.seconds > 0.0 && seconds > limits.seconds + (loading ? 0.0 : kGrace)) {
+    verdict.status = Status::timeout;
+    verdict.why = fmt::format("{} exceeded the time limit of {} s",
+                              loading ? "loading its sequence" : "the cell",
+                              limits.seconds);
+    if (!loading) verdict.why += ", and its worker did not end it";
+    slot.verdict = verdict;
+  } else if (loading && limits.memory > 0) {
+    const std::int64_t growth = process_memory(std::to_string(slot.process->process())) -
+                                slot.process->shared_status().memory;
+    if (growth <= limits.memory) return;
+    verdict.status = Status::out_of_memory;
+    verdict.why =
+        fmt::format("loading its sequence grew by {} bytes, limit {}", growth, limits.memory);
+    slot.verdict = verdict;
+  }
+  if (slot.verdict) slot.process->kill();
+}
+
+}  // namespace loopbench::harness

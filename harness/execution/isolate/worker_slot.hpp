@@ -1,0 +1,40 @@
+/// A worker as the sweep uses it: its jobs and its time.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "harness/execution/isolate/active_clock.hpp"
+#include "harness/execution/isolate/worker_process.hpp"
+#include "harness/model/result.hpp"
+
+namespace loopbench::harness {
+
+/// A worker, its unanswered jobs in order, and the answers received so far.
+struct WorkerSlot {
+  std::unique_ptr<WorkerProcess> process;
+  std::deque<Job> jobs;
+  std::string bytes;
+  std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
+  std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, without its cell
+  std::uint64_t step = 0;             ///< of the shared status, when the clock started
+  ActiveClock clock;
+
+  /// Time since the worker began what it does [s].
+  double seconds() {
+    const std::uint64_t now = process->shared_status().step;
+    if (std::exchange(step, now) != now) clock.restart();
+    return clock.seconds();
+  }
+  bool is_idle() const { return process->shared_status().job == SharedStatus::kIdle; }
+  bool is_loading() const { return !is_idle() && process->shared_status().loading; }
+};
+
+/// Kills a worker that exceeds a limit while loading, or that does not end a cell that does. Sets
+/// the verdict.
+void apply_limits(WorkerSlot& slot, const Limits& limits);
+
+}  // namespace loopbench::harness

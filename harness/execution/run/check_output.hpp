@@ -1,0 +1,37 @@
+/// Checks of what a method returns, before it is evaluated or stored.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "datasets/core/curve.hpp"
+#include "datasets/core/sequence.hpp"
+#include "harness/model/sweep.hpp"
+#include "methods/report.hpp"
+
+namespace loopbench::harness {
+
+/// Limits of a report, far above those of the methods in this repository.
+inline constexpr std::size_t kMostItems = 1'000;       ///< phases, counts and notes each
+inline constexpr std::size_t kMostSections = 100'000;  ///< sections
+inline constexpr std::size_t kLongestName = 200;       ///< of a phase, count or section [bytes]
+inline constexpr std::size_t kLongestNote = 2'000;     ///< of a note or reason [bytes]
+
+/// Throws std::runtime_error if the curve is null, does not cover the keyframes, or violates a rule
+/// of violated_rule() at a keyframe or, in dense evaluation, at a reference stamp within its span.
+/// The message names the first such pose and its rule. Samples the curve once for the keyframes and
+/// once for each time offset of the protocols.
+void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& sweep);
+
+/// Throws std::runtime_error if a part of the report cannot be stored or displayed: more items or
+/// longer texts than the limits, texts that are not UTF-8 or contain control characters, numbers
+/// that are not finite, negative durations, sections that end before they begin. The message names
+/// the first such part and the rule.
+void check_report(const methods::Report& report);
+
+/// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote
+/// bytes and the number of omitted ones.
+std::string stored_reason(std::string_view text);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,55 @@
+/// Restricts what a method can reach on the machine, with what the system offers. Results do not
+/// depend on it.
+///
+/// Three parts, each used if the system has it:
+/// - a PID namespace for each worker: nothing outside can be signalled, and its end ends all of it;
+/// - Landlock: files can be read except `unreachable`, and written only in `writable`; no TCP;
+/// - seccomp: no sockets but local ones, no ptrace, no access to the memory of other processes, no
+///   io_uring, no mounts; capabilities are dropped.
+/// Programs that a method starts inherit the restrictions. A method may start programs and read
+/// shared libraries and data anywhere else, so a method that runs an external program only needs a
+/// folder of its own in `writable`.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace loopbench::harness {
+
+struct SandboxOptions {
+  bool enabled = true;
+  bool pid_namespace = true;                       ///< only if enabled
+  std::vector<std::filesystem::path> unreachable;  ///< results, references; may not exist
+  std::vector<std::filesystem::path> writable;     ///< folders, apart from /dev/null
+};
+
+/// The restrictions of one worker's cells, prepared before the cells are forked.
+class Sandbox {
+ public:
+  /// `guarded`: processes that must not be signalled if there is no PID namespace.
+  Sandbox(const SandboxOptions& options, const std::vector<pid_t>& guarded);
+  ~Sandbox();
+  Sandbox(const Sandbox&) = delete;
+  Sandbox& operator=(const Sandbox&) = delete;
+
+  /// Restricts the calling thread and all its later threads and processes for ever.
+  void enter() const;
+
+ private:
+  bool enabled_;
+  int landlock_ = -1;  ///< rule set; -1: not available
+  std::vector<pid_t> guarded_;
+};
+
+/// Moves the later children of this process to a new PID namespace, whose init is the first of
+/// them. False if that is not permitted.
+bool enter_pid_namespace();
+
+/// Which parts the system has, for example "PID namespace on, Landlock on, seccomp off". Creates a
+/// short-lived process.
+std::string sandbox_summary(const SandboxOptions& options);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# action.sh CONFIG FOLDER [BASELINE] [DATA]: runs CONFIG, checks it against BASELINE, and writes report.html,
+# comment.md (summary table, verdicts, result of the check) and the results into FOLDER. Exits with the code of the
+# run, else of the check. LOOPBENCH names another program.
+set -euo pipefail
+config=$1 folder=$2 baseline=${3:-} data=${4:-}
+loopbench=${LOOPBENCH:-loopbench}
+mkdir -p "$folder"
+arguments=()
+[[ -n $data ]] && arguments=(--data "$data")
+
+ran=0
+"$loopbench" run "$config" --out "$folder/results" "${arguments[@]}" >"$folder/summary.md" 2>"$folder/errors.txt" ||
+  ran=$?
+checked=0
+if [[ -n $baseline && -e $folder/results/results.sqlite ]]; then
+  "$loopbench" check "$folder/results" --baseline "$baseline" --markdown "$folder/check.md" \
+    --junit "$folder/junit.xml" >"$folder/check.txt" 2>&1 || checked=$?
+fi
+if [[ -e $folder/results/results.sqlite ]]; then
+  "$loopbench" report "$folder/results" -o "$folder/report.html" >/dev/null || true
+fi
+{
+  echo "## loopbench: $config"
+  echo
+  sed '/^next:$/,$d' "$folder/summary.md"
+  if [[ -s $folder/errors.txt ]]; then
+    printf '\n```\n'
+    head -50 "$folder/errors.txt"
+    printf '```\n'
+  fi
+  if [[ -s $folder/check.md ]]; then
+    printf '\n### Comparison with %s\n\n' "$baseline"
+    cat "$folder/check.md"
+  elif [[ -s $folder/check.txt ]]; then
+    printf '\n### Comparison with %s\n\n```\n' "$baseline"
+    cat "$folder/check.txt"
+    printf '```\n'
+  fi
+  printf '\nThe report is attached to this run: loopbench-report.\n'
+} >"$folder/comment.md"
+cat "$folder/comment.md"
+((ran == 0)) || exit "$ran"
+exit "$checked"

@@ -1,0 +1,45 @@
+/// Manual pages and shell completions, from the same texts as `--help`.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace loopbench::harness {
+
+struct CommandOption {
+  std::vector<std::string> names;  ///< with hyphens, shortest first; or one name of an argument
+  bool is_argument = false;        ///< positional
+  bool is_required = false;
+  std::string value;                 ///< placeholder of its value: FILE; empty for a flag
+  std::vector<std::string> choices;  ///< accepted words, if the value is one of a few
+  std::string help;
+  std::string usual;  ///< default value as text; may be empty
+};
+
+struct CommandText {
+  std::string name;  ///< empty: the program
+  std::string summary;
+  std::vector<CommandOption> options;
+  std::string footer;  ///< examples and further notes
+};
+
+/// The program first, then its commands.
+using CommandTexts = std::vector<CommandText>;
+
+/// roff text of loopbench.1 or loopbench-COMMAND.1. `version` appears in the footer.
+std::string manual_page(const CommandTexts& all,
+                        const CommandText& one,
+                        const std::string& version);
+
+/// Completions for commands, options, their choices and files.
+std::string bash_completion(const CommandTexts& all);
+std::string zsh_completion(const CommandTexts& all);
+std::string fish_completion(const CommandTexts& all);
+
+/// All of the above by file name: loopbench.1, loopbench-run.1, loopbench.bash, _loopbench,
+/// loopbench.fish.
+std::map<std::string, std::string> command_pages(const CommandTexts& all,
+                                                 const std::string& version);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,18 @@
+/// Key of provenance rows.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "harness/text/hash.hpp"
+
+namespace loopbench::harness {
+
+/// Hash of all key-value pairs of one run's provenance, column `made`.
+inline std::string made_key(const std::map<std::string, std::string>& provenance) {
+  Fields out;
+  for (const auto& [key, value] : provenance) out.add(key).add(value);
+  return out.hashed();
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,192 @@
+#include "harness/store/salvage.hpp"
+
+#include <map>
+#include <set>
+
+#include "datasets/core/error.hpp"
+#include "harness/store/damage.hpp"
+#include "harness/store/digest.hpp"
+#include "harness/store/folder_lock.hpp"
+#include "harness/store/made_key.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/rename_file.hpp"
+#include "harness/store/salvage_rows.hpp"
+#include "harness/store/write_digests.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// What one view of the damaged store contains.
+struct Found {
+  std::map<std::int64_t, std::string> cells;  ///< labels by id, of damaged cells too
+  std::set<std::string> traces;               ///< dataset options of sequences without their trace
+  std::int64_t nameless = 0;
+  bool complete = false;  ///< `cells` has every cell that was written
+};
+
+std::int64_t count(Database& database, const std::string& sql) {
+  Statement row = database.prepare(sql);
+  return row.step() ? row.integer() : 0;
+}
+
+/// Keeps the cells of sequences of which only the trace is lost.
+std::set<std::string> remove_damaged_traces(Database& database) {
+  std::map<std::string, std::string> digests;
+  {
+    Statement rows = database.prepare("SELECT * FROM sequence_trace");
+    while (rows.step()) {
+      const std::string digest = digest_of_columns(rows, 1, rows.columns());
+      digests[rows.text()] = digest;
+    }
+  }
+  std::set<std::string> out;
+  DigestWriter writer(database);
+  for (const auto& [sequence_key, sequence] : read_sequence_rows(database).by_key) {
+    if (!sequence.intact || digests[sequence_key] == sequence.trace_digest) continue;
+    database.prepare("DELETE FROM sequence_trace WHERE sequence_key = ?").bind(sequence_key).run();
+    writer.add_sequence(sequence_key);
+    out.insert(sequence.options);
+  }
+  return out;
+}
+
+/// Removes rows of incomplete provenance, and the description of the run if it is damaged.
+void check_texts(Database& database) {
+  std::map<std::string, std::map<std::string, std::string>> all;
+  {
+    Statement rows = database.prepare("SELECT made, key, value FROM provenance");
+    while (rows.step()) {
+      const std::string made = rows.text();
+      const std::string key = rows.text();
+      all[made][key] = rows.text();
+    }
+  }
+  for (const auto& [made, provenance] : all) {
+    if (made_key(provenance) == made) continue;
+    database.prepare("DELETE FROM provenance WHERE made = ?").bind(made).run();
+  }
+  if (digest_of_texts(database, "run") != written_digest(database, "run")) {
+    database.execute("DELETE FROM run");
+  }
+  for (const char* table : {"run", "provenance"}) update_texts(database, table);
+}
+
+/// Writes the intact cells of `view` into the new store `file`.
+Found write_view(const PageFile& damaged, const PageView& view, const std::filesystem::path& file) {
+  Database database(file, Database::Mode::create);
+  create_tables(database);
+  Transaction transaction(database);
+  insert_rows(database, damaged, view);
+  Found out;
+  out.nameless = count(
+      database,
+      "SELECT count(*) FROM (SELECT cell FROM score UNION SELECT cell FROM phase UNION SELECT cell "
+      "FROM count UNION SELECT cell FROM note UNION SELECT cell FROM section UNION SELECT cell "
+      "FROM "
+      "trace) WHERE cell NOT IN (SELECT id FROM cell)");
+  const CellRows rows = read_cell_rows(database);
+  out.complete = rows.complete;
+  for (const CellRow& cell : rows.cells) out.cells.emplace(cell.id, label_of(cell.record));
+  check_texts(database);
+  out.traces = remove_damaged_traces(database);
+  remove_damaged(database, file, true);
+  transaction.commit();
+  return out;
+}
+
+/// Adds the cells of `from` that replace or contradict no cell of `database`.
+void add_missing(Database& database, const std::filesystem::path& from) {
+  database.prepare("ATTACH ? AS source").bind(from.string()).run();
+  {
+    Transaction transaction(database);
+    database.execute(
+        "CREATE TEMP TABLE missing AS SELECT id FROM source.cell WHERE id NOT IN (SELECT id FROM "
+        "main.cell) AND (position IS NULL OR position NOT IN (SELECT position FROM main.cell WHERE "
+        "position IS NOT NULL))");
+    database.execute("INSERT INTO main.cell SELECT * FROM source.cell WHERE id IN missing");
+    for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+      const std::string name = table;
+      database.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
+                       " WHERE cell IN missing ORDER BY cell, rowid");
+    }
+    for (const char* table : {"input", "sequence_trace", "sequence"}) {
+      const std::string name = table;
+      database.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
+                       " WHERE sequence_key NOT IN (SELECT sequence_key FROM main.sequence)");
+    }
+    database.execute("INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance");
+    if (count(database, "SELECT count(*) FROM main.run") == 0) {
+      database.execute("INSERT INTO main.run SELECT * FROM source.run");
+    }
+    database.execute("DROP TABLE missing");
+    for (const char* table : {"cell", "sequence"}) update_sum(database, table);
+    for (const char* table : {"run", "provenance"}) update_texts(database, table);
+    transaction.commit();
+  }
+  database.execute("DETACH source");
+}
+
+Salvaged salvage(const PageFile& damaged, const std::filesystem::path& out) {
+  std::map<std::int64_t, std::string> lost;
+  std::set<std::string> traces;
+  Salvaged result;
+  const std::filesystem::path other = out.string() + ".other";
+  bool is_first = true;
+  for (const PageView& view : damaged.views()) {
+    std::filesystem::remove(other);
+    const Found found = write_view(damaged, view, is_first ? out : other);
+    lost.insert(found.cells.begin(), found.cells.end());
+    if (is_first) {
+      traces = found.traces;
+      result.nameless = static_cast<std::size_t>(found.nameless);
+      result.incomplete = !found.complete;
+    } else {
+      Database database(out, Database::Mode::create);
+      add_missing(database, other);
+    }
+    is_first = false;
+  }
+  std::filesystem::remove(other);
+  if (is_first) return result;
+
+  Database database(out, Database::Mode::create);
+  const CellRows rows = read_cell_rows(database);
+  for (const CellRow& cell : rows.cells) lost.erase(cell.id);
+  result.cells = rows.cells.size();
+  for (const auto& [id, label] : lost) result.lost.push_back(label);
+  result.traces.assign(traces.begin(), traces.end());
+  result.run_lost = count(database, "SELECT count(*) FROM run") == 0;
+  result.unknown_origin = static_cast<std::size_t>(
+      count(database, "SELECT count(*) FROM cell WHERE made NOT IN (SELECT made FROM provenance)"));
+  return result;
+}
+
+}  // namespace
+
+Salvaged salvage_store(const std::filesystem::path& damaged, const std::filesystem::path& out) {
+  const std::filesystem::path file = store_file(damaged);
+  if (std::filesystem::exists(out)) {
+    throw InputError(out.string() + ": already exists; salvage writes a new store");
+  }
+  const FolderLock lock(file.has_parent_path() ? file.parent_path() : ".");
+  const std::filesystem::path partial = out.string() + ".partial";
+  try {
+    if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
+    remove_files_of(partial);
+    const Salvaged result = salvage(PageFile(file), partial);
+    if (result.cells == 0) {
+      throw InputError(file.string() + ": no intact cell found; nothing was written");
+    }
+    require_intact_store(partial);
+    rename_file(partial, out);
+    return result;
+  } catch (const std::filesystem::filesystem_error& error) {
+    remove_files_of(partial);
+    throw InputError(out.string() + ": cannot be written: " + error.code().message());
+  } catch (...) {
+    remove_files_of(partial);
+    throw;
+  }
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,202 @@
+#include "harness/tables/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "harness/compare/compare.hpp"
+#include "harness/compare/name_order.hpp"
+#include "harness/tables/mean_ranks.hpp"
+#include "harness/tables/notes.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr std::size_t kMostSequences = 6;
+constexpr std::size_t kMostMethods = 30;
+constexpr std::size_t kMostVerdicts = 5;
+constexpr std::size_t kMostReasons = 5;
+
+bool is_derived(const Record& r) {
+  return r.metric == "gain" || r.metric == "pairs" || r.metric == "time";
+}
+
+bool is_same_score(const Record& a, const Record& b) {
+  return a.protocol == b.protocol && a.times == b.times && metric_label(a) == metric_label(b) &&
+         a.relation == b.relation && a.axis == b.axis;
+}
+
+/// The records that can lead the summary: one protocol, one kind of times, with a direction.
+std::vector<Record> comparable(const std::vector<Record>& records, const SummaryOptions& options) {
+  std::vector<Record> out;
+  const auto has_direction = [](const Record& r) {
+    return !r.metric.empty() && !is_derived(r) && r.better != metrics::Better::neither;
+  };
+  const auto first = std::ranges::find_if(records, has_direction);
+  if (first == records.end()) return out;
+  const bool has_dense = std::ranges::any_of(
+      records, [&](const Record& r) { return has_direction(r) && r.times == "dense"; });
+  const std::string times = has_dense ? "dense" : first->times;
+  const auto is_shown = [&](const Record& r) {
+    return options.show.empty() || std::ranges::count(options.show, field(r, "score")) > 0;
+  };
+  const auto is_wanted = [&](const Record& r) {
+    return has_direction(r) && r.times == times && r.protocol == first->protocol;
+  };
+  const bool any_shown =
+      std::ranges::any_of(records, [&](const Record& r) { return is_wanted(r) && is_shown(r); });
+  for (const Record& r : records) {
+    if (r.metric.empty() || (is_wanted(r) && (!any_shown || is_shown(r)))) out.push_back(r);
+  }
+  return out;
+}
+
+/// Texts by row name of the derived score with that label: "gain", "time".
+std::map<std::string, std::string> derived_texts(const std::vector<Record>& records,
+                                                 const std::string& label,
+                                                 const Record& lead,
+                                                 const std::string& value) {
+  std::vector<Record> own;
+  for (const Record& r : records) {
+    if (r.status == "ok" && r.times == lead.times && r.protocol == lead.protocol && is_derived(r) &&
+        metric_label(r) == label) {
+      own.push_back(r);
+    }
+  }
+  std::map<std::string, std::string> out;
+  if (own.empty()) return out;
+  const TableSpec spec{.columns = {"metric"}, .split = {}, .value = value, .show = {}, .where = {}};
+  for (const auto& line : table_view(pivot(own, spec).front()).lines)
+    out[line[0].text] = line[1].text;
+  return out;
+}
+
+/// "(oracle)" is a suffix of a row's name.
+std::string method_of(const std::string& row) {
+  constexpr std::string_view kSuffix = " (oracle)";
+  return row.ends_with(kSuffix) ? row.substr(0, row.size() - kSuffix.size()) : row;
+}
+
+void add_column(TableView& out,
+                const std::string& heading,
+                const std::map<std::string, std::string>& texts) {
+  if (texts.empty()) return;
+  out.headings.push_back(heading);
+  for (auto& line : out.lines) {
+    const auto found = texts.find(line[0].text);
+    line.push_back({found == texts.end() ? "-" : found->second, Mark::none});
+  }
+}
+
+std::vector<std::string> verdicts(const std::vector<Record>& candidates,
+                                  const SummaryOptions& options) {
+  CompareOptions how;
+  how.baseline = options.baseline;
+  how.value = options.value;
+  std::vector<std::string> out;
+  std::vector<std::string> seen;
+  std::size_t left_out = 0;
+  for (const Comparison& c : compare(candidates, how)) {
+    const std::string score = field(c.kind, "score");
+    // The rotation of a score that also has a translation is in `compare`.
+    if (std::ranges::count(seen, score) > 0) continue;
+    seen.push_back(score);
+    if (out.size() < kMostVerdicts) {
+      out.push_back(score + ": " + verdict(c));
+    } else {
+      ++left_out;
+    }
+  }
+  if (left_out > 0) out.push_back(fmt::format("{} more scores: see compare", left_out));
+  return out;
+}
+
+/// Why methods have no value, grouped.
+std::vector<std::string> reasons(const std::vector<Record>& records) {
+  std::vector<Missing> missing;
+  for (const Record& r : records) {
+    if (r.status == "ok") continue;
+    missing.push_back({r.method, r.metric.empty() ? "" : metric_label(r), r.status, r.why});
+  }
+  std::vector<std::string> out = grouped(missing);
+  if (out.size() > kMostReasons) {
+    const std::size_t more = out.size() - kMostReasons;
+    out.resize(kMostReasons);
+    out.push_back(fmt::format("{} more reasons: see table", more));
+  }
+  return out;
+}
+
+}  // namespace
+
+TableView summary(const std::vector<Record>& records, const SummaryOptions& options) {
+  const std::vector<Record> candidates = comparable(records, options);
+  const auto lead =
+      std::ranges::find_if(candidates, [](const Record& r) { return !r.metric.empty(); });
+  if (lead == candidates.end()) return {};
+  std::vector<Record> own;
+  NameOrder sequences;
+  for (const Record& r : candidates) {
+    if (!r.metric.empty() && !is_same_score(r, *lead)) continue;
+    own.push_back(r);
+    sequences.index(r.sequence);
+  }
+  const bool has_sequences = sequences.names().size() <= kMostSequences;
+  const TableSpec spec{.columns = {has_sequences ? "sequence" : "score"},
+                       .split = {},
+                       .value = options.value,
+                       .show = {},
+                       .where = {}};
+  TableView out;
+  if (has_sequences) {
+    // Records without a score belong to their sequence's column.
+    out = table_view(pivot(own, spec).front());
+    for (std::string& heading : out.headings) {
+      const std::string unit = " [" + lead->unit + "]";
+      if (heading.ends_with(unit)) heading.resize(heading.size() - unit.size());
+    }
+  } else {
+    const Table all = pivot(own, spec).front();
+    out.headings = {all.corner};
+    for (const std::string& row : all.rows) out.lines.push_back({{row, Mark::none}});
+  }
+  out.notes.clear();
+  const std::string unit = lead->unit.empty() ? "" : " [" + lead->unit + "]";
+  out.title = fmt::format("{}{}, {}, {}{}",
+                          field(*lead, "score"),
+                          unit,
+                          lead->times,
+                          options.value,
+                          has_sequences ? " by sequence" : "");
+
+  const std::map<std::string, double> ranks = mean_ranks(own, options.value);
+  std::map<std::string, std::string> rank_texts;
+  for (const auto& [method, rank] : ranks) rank_texts[method] = fixed(rank, 1);
+  add_column(out, "mean rank", rank_texts);
+  const bool is_labelled = lead->metric == "ate" && metric_label(*lead) != "ate";
+  const std::string gain = is_labelled ? "gain (" + metric_label(*lead) + ")" : "gain";
+  add_column(out, "gain [%]", derived_texts(records, gain, *lead, options.value));
+  add_column(out, "time [ms]", derived_texts(records, "time", *lead, options.value));
+
+  const auto rank_of = [&](const auto& line) {
+    const auto found = ranks.find(method_of(line[0].text));
+    return found == ranks.end() ? std::numeric_limits<double>::infinity() : found->second;
+  };
+  std::ranges::stable_sort(out.lines, {}, rank_of);
+  if (out.lines.size() > kMostMethods) {
+    out.notes.push_back(fmt::format("and {} more methods", out.lines.size() - kMostMethods));
+    out.lines.resize(kMostMethods);
+  }
+  if (!has_sequences) out.notes.push_back(fmt::format("{} sequences", sequences.names().size()));
+  for (std::string& line : reasons(own)) out.notes.push_back(std::move(line));
+  const auto is_baseline = [&](const Record& r) { return r.method == options.baseline; };
+  if (std::ranges::any_of(candidates, is_baseline)) {  // `run --only` can leave it out
+    for (std::string& line : verdicts(candidates, options)) out.notes.push_back(std::move(line));
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,23 @@
+/// Lines and names that fit a terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace loopbench::harness {
+
+/// Width on a terminal: code points, not bytes.
+std::size_t width(const std::string& text);
+
+/// `text` broken at spaces into lines of at most `columns` characters; a longer word has a line of
+/// its own. 0 columns: one line.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns);
+
+/// `text` in at most `columns` (at least 3) characters: a path loses its first folders, other text
+/// its middle, replaced by an ellipsis.
+std::string shortened(const std::string& text, std::size_t columns);
+
+/// The first `columns` characters of `text`, the last of them an ellipsis if something is missing.
+std::string cut(const std::string& text, std::size_t columns);
+
+}  // namespace loopbench::harness

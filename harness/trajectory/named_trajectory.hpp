@@ -1,0 +1,50 @@
+/// Trajectory files as arguments of a command.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/formats/trajectory_file.hpp"
+
+namespace loopbench::harness {
+
+/// How all files of a command are read; strings as on the command line.
+struct ReadArguments {
+  std::string format = "auto";
+  std::string times = {};
+  std::optional<double> period = {};
+  std::string repeats = "refuse";
+  std::string tf = {};      ///< PARENT.CHILD for bags named without a topic; empty: none
+  bool all_topics = false;  ///< every trajectory of bags named without a topic
+};
+
+struct NamedTrajectory {
+  std::string name;  ///< as given, with the topic of a bag
+  TrajectoryFile file;
+  ReadFindings findings;
+};
+
+/// The names with `tf` and `all_topics` applied to bags without a topic. Throws InputError.
+std::vector<std::string> expanded_names(const std::vector<std::string>& names,
+                                        const ReadArguments& arguments);
+
+/// Reads one file. Damage of a bag is printed to standard error, too. Throws InputError.
+NamedTrajectory read_named(const std::string& name, const ReadArguments& arguments);
+
+std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& names,
+                                            const ReadArguments& arguments);
+
+/// A file name without folder and extension: "runs/0.txt" -> "0", "bag:a.bag#/odom" -> "odom".
+std::string output_stem(const std::string& name);
+
+/// The file for each name: `out` itself for a single name unless it is a folder or ends in '/';
+/// otherwise OUT/STEM.EXTENSION. Creates the folder. Throws InputError if two names have the same
+/// file, or several names would be printed.
+std::vector<std::string> output_files(const std::vector<std::string>& names,
+                                      const std::string& out,
+                                      Format format,
+                                      const std::string& suffix = "");
+
+}  // namespace loopbench::harness

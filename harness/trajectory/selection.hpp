@@ -1,0 +1,42 @@
+/// Selection of poses: by time range, number, or motion since the last selected pose.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "datasets/formats/trajectory_file.hpp"
+
+namespace loopbench::harness {
+
+/// Indices of the poses with start <= stamp <= end, as evo's --t_start and --t_end. O(n).
+std::vector<std::size_t> within(const Trajectory& poses,
+                                std::optional<double> start,
+                                std::optional<double> end);
+
+/// `count` evenly spaced indices from the first to the last pose, rounded down as evo's
+/// --downsample (numpy.linspace); all if there are fewer. `count` must be at least 1. O(count).
+std::vector<std::size_t> evenly_spaced(std::size_t poses, std::size_t count);
+
+/// Thresholds of motion; nothing: no limit. Reaching any of them is enough.
+struct MotionStep {
+  std::optional<double> seconds;
+  std::optional<double> metres;   ///< path length
+  std::optional<double> degrees;  ///< accumulated rotation angle
+};
+
+/// The first pose, then each pose at which a threshold is reached since the last selected one, as
+/// evo's --motion_filter. O(n).
+std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& step);
+
+/// Poses interpolated (linear, SLERP) at multiples of exactly one of the three steps: of time from
+/// the first stamp, of path length or of accumulated rotation along the polyline. Throws
+/// InputError unless exactly one is given and positive, or if there would be more than 1e8 poses.
+/// O(n + result).
+Trajectory resampled(const Trajectory& poses, const MotionStep& step);
+
+/// All poses in the order of their stamps. Poses with equal stamps keep the order of the files, and
+/// all but the first are dropped. O(n log n).
+TrajectoryFile merged(const std::vector<TrajectoryFile>& files);
+
+}  // namespace loopbench::harness

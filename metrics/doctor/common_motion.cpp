@@ -1,0 +1,62 @@
+#include "metrics/doctor/common_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/core/interpolate.hpp"
+
+namespace loopbench::metrics {
+
+double median_value(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr std::size_t kFewest = 5;
+  if (a.size() != b.size() || a.size() < kFewest) return 0.0;
+  const auto n = static_cast<double>(a.size());
+  double mean_a = 0.0, mean_b = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    mean_a += a[i] / n;
+    mean_b += b[i] / n;
+  }
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+CommonPoses common_poses(const Trajectory& reference,
+                         const Trajectory& estimate,
+                         double offset,
+                         std::size_t most) {
+  CommonPoses out;
+  if (reference.size() < 2 || estimate.empty()) return out;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < reference.size(); ++i) {
+    intervals.push_back(reference[i].stamp - reference[i - 1].stamp);
+  }
+  const double longest = std::max(1.0, 10.0 * median_value(intervals));
+  const std::size_t step = std::max<std::size_t>(1, (estimate.size() + most - 1) / most);
+  std::size_t after = 1;
+  for (std::size_t i = 0; i < estimate.size(); i += step) {
+    const double stamp = estimate[i].stamp + offset;
+    while (after + 1 < reference.size() && reference[after].stamp < stamp) ++after;
+    const StampedPose& a = reference[after - 1];
+    const StampedPose& b = reference[after];
+    if (stamp < a.stamp || stamp > b.stamp || b.stamp - a.stamp > longest) continue;
+    const double u = (stamp - a.stamp) / (b.stamp - a.stamp);
+    out.reference.push_back(interpolate(a.world_from_body, b.world_from_body, u));
+    out.estimate.push_back(estimate[i].world_from_body);
+    out.stamps.push_back(estimate[i].stamp);
+  }
+  return out;
+}
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,38 @@
+/// Motion of reference and estimate over the same intervals.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench::metrics {
+
+/// Poses of both trajectories at the same times.
+struct CommonPoses {
+  std::vector<Pose> reference;
+  std::vector<Pose> estimate;
+  std::vector<double> stamps;  ///< of the estimate [s]
+};
+
+/// The estimate's poses, at most `most` of them, evenly chosen, with the reference interpolated at
+/// stamp + offset; without those outside the reference or in its gaps above 1 s (or ten times its
+/// median interval). O(n + m).
+CommonPoses common_poses(const Trajectory& reference,
+                         const Trajectory& estimate,
+                         double offset,
+                         std::size_t most);
+
+/// Magnitudes of motion over consecutive intervals: independent of world frames and of the body's
+/// axes.
+struct MotionSignals {
+  std::vector<double> reference_angle, estimate_angle;        ///< [rad]
+  std::vector<double> reference_distance, estimate_distance;  ///< [m]
+};
+
+/// Pearson's correlation; 0 for fewer than five values or a constant.
+double correlation(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Median; 0 for an empty list.
+double median_value(std::vector<double> values);
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,39 @@
+/// A likely mistake in the input of an evaluation.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace loopbench::metrics {
+
+enum class Fault {
+  time_offset,
+  quaternion_order,
+  conjugated,         ///< rotations are inverted, positions are not
+  inverted_poses,     ///< world and body are exchanged
+  axes,               ///< mirrored or permuted axes
+  angle_unit,         ///< degrees for radians, or radians for degrees
+  length_unit,        ///< millimetres or centimetres for metres
+  scale,              ///< an estimate without metric scale, aligned without scale
+  swapped,            ///< reference and estimate are exchanged
+  closure_direction,  ///< closures from `to` to `from`
+  closure_gap,        ///< closures that the odometry contradicts
+  information_order,  ///< blocks of rotation and translation exchanged
+  information_scale   ///< stated covariances contradict the residuals
+};
+
+/// "time_offset": short name of a fault.
+std::string fault_name(Fault fault);
+
+struct InputFinding {
+  Fault fault{};
+  std::string evidence;     ///< numbers that show the mistake
+  std::string fix;          ///< what to do, as an option where there is one
+  double confidence = 0.0;  ///< 0..1: 1 - residual after / residual before the fix
+  double value = 0.0;       ///< offset [s], ratio, or number of edges; see `evidence`
+};
+
+/// "time_offset: EVIDENCE; FIX (confidence 0.93)".
+std::string text(const InputFinding& finding);
+
+}  // namespace loopbench::metrics

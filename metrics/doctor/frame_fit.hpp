@@ -1,0 +1,36 @@
+/// Least-squares fits of two lists of poses, up to constant transforms.
+#pragma once
+
+#include <vector>
+
+#include "datasets/core/pose.hpp"
+
+namespace loopbench::metrics {
+
+struct PositionFit {
+  Matrix3 rotation = Matrix3::Identity();    ///< reference_from_estimate
+  Matrix3 reflection = Matrix3::Identity();  ///< the same with determinant -1
+  double scale = 1.0;
+  double similarity = 1.0;  ///< rmse after a similarity over the reference's standard deviation [-]
+  double rigid = 1.0;       ///< the same after a rigid transform
+  double reflected = 1.0;   ///< the same after a similarity with a reflection
+  double flatness = 0.0;    ///< third over first singular value of the covariance [-]
+  double width = 0.0;       ///< second over first singular value [-]
+  double rmse_rigid = 0.0;  ///< [m]
+  double rmse_similarity = 0.0;  ///< [m]
+};
+
+/// Fits positions (Umeyama 1991). Residuals are 1 for fewer than four poses. O(n).
+PositionFit fit_positions(const std::vector<Pose>& reference, const std::vector<Pose>& estimate);
+
+struct ConstantRotations {
+  Rotation left = Rotation::Identity();   ///< reference_world_from_estimate_world
+  Rotation right = Rotation::Identity();  ///< estimate_body_from_reference_body
+  double residual = 3.15;                 ///< median angle of R_ref^T left R_est right [rad]
+};
+
+/// Fits R_ref = left R_est right: `right` from relative rotations (Kabsch), then `left`. O(n).
+ConstantRotations fit_rotations(const std::vector<Pose>& reference,
+                                const std::vector<Pose>& estimate);
+
+}  // namespace loopbench::metrics

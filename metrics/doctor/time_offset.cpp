@@ -1,0 +1,257 @@
+#include "metrics/doctor/time_offset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/core/interpolate.hpp"
+#include "metrics/doctor/common_motion.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+constexpr std::size_t kMostPairs = 600;
+constexpr double kSearch = 10.0;  // [s]
+
+double usual_interval(const Trajectory& poses) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    intervals.push_back(poses[i].stamp - poses[i - 1].stamp);
+  }
+  return median_value(std::move(intervals));
+}
+
+/// Motion of the estimate between two of its stamps.
+struct TimedMotion {
+  double begin = 0.0;
+  double end = 0.0;
+  double angle = 0.0;
+  double distance = 0.0;
+};
+
+/// Correlation of speeds for offsets between two trajectories, over at most kMostPairs intervals
+/// that do not overlap.
+class SpeedMatch {
+ public:
+  SpeedMatch(const Trajectory& reference, const Trajectory& estimate) : reference_(reference) {
+    constexpr double kShortest = 0.1, kLongest = 10.0;  // [s]; of intervals
+    const double usual = usual_interval(reference);
+    interval_ = std::max({kShortest, usual, 0.99 * usual_interval(estimate)});
+    longest_gap_ = std::max(1.0, 10.0 * usual);
+    const std::size_t step = std::max<std::size_t>(1, estimate.size() / kMostPairs);
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < estimate.size(); i = std::max(j, i + step)) {
+      j = std::max(j, i);
+      while (j < estimate.size() && estimate[j].stamp - estimate[i].stamp < interval_) ++j;
+      if (j == estimate.size()) break;
+      const double duration = estimate[j].stamp - estimate[i].stamp;
+      if (duration > kLongest * interval_) continue;
+      const Pose& from = estimate[i].world_from_body;
+      const Pose& to = estimate[j].world_from_body;
+      motions_.push_back({estimate[i].stamp,
+                          estimate[j].stamp,
+                          angle_between(from.rotation, to.rotation),
+                          (to.translation - from.translation).norm()});
+    }
+  }
+
+  double interval() const { return interval_; }
+
+  MotionSignals signals(double offset) const { return signals(offset, offset, 0.0); }
+
+  /// Only intervals that are known at all offsets within `margin` of `centre`, so that the lists
+  /// for these offsets have the same intervals.
+  MotionSignals signals(double offset, double centre, double margin) const {
+    MotionSignals out;
+    for (const TimedMotion& motion : motions_) {
+      const bool is_known = margin == 0.0 || (reference_at(motion.begin + centre - margin) &&
+                                              reference_at(motion.begin + centre + margin) &&
+                                              reference_at(motion.end + centre - margin) &&
+                                              reference_at(motion.end + centre + margin));
+      if (!is_known) continue;
+      const std::optional<Pose> from = reference_at(motion.begin + offset);
+      const std::optional<Pose> to = reference_at(motion.end + offset);
+      if (!from || !to) continue;
+      out.reference_angle.push_back(angle_between(from->rotation, to->rotation));
+      out.estimate_angle.push_back(motion.angle);
+      out.reference_distance.push_back((to->translation - from->translation).norm());
+      out.estimate_distance.push_back(motion.distance);
+    }
+    return out;
+  }
+
+  struct Score {
+    double angle = 0.0;
+    double distance = 0.0;
+    bool is_known = false;  ///< at least a fifth of the intervals are common
+
+    /// One of the speeds is enough: a vehicle at constant speed, a drifting scale.
+    double best() const {
+      constexpr double kPenalty = 0.15;
+      if (!is_known) return -1.0;
+      return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
+    }
+  };
+
+  Score score(double offset) const {
+    constexpr std::size_t kFewest = 10;
+    const MotionSignals s = signals(offset);
+    if (s.reference_angle.size() < std::max(kFewest, motions_.size() / 5)) return {};
+    return {correlation(s.reference_angle, s.estimate_angle),
+            correlation(s.reference_distance, s.estimate_distance),
+            true};
+  }
+
+  double at(double offset) const { return score(offset).best(); }
+
+ private:
+  std::optional<Pose> reference_at(double stamp) const {
+    const auto after = std::ranges::lower_bound(reference_, stamp, {}, &StampedPose::stamp);
+    if (after == reference_.end()) return std::nullopt;
+    if (after->stamp == stamp) return after->world_from_body;
+    if (after == reference_.begin()) return std::nullopt;
+    const StampedPose& before = *(after - 1);
+    const double gap = after->stamp - before.stamp;
+    if (gap > longest_gap_) return std::nullopt;
+    return interpolate(
+        before.world_from_body, after->world_from_body, (stamp - before.stamp) / gap);
+  }
+
+  const Trajectory& reference_;
+  std::vector<TimedMotion> motions_;
+  double interval_ = 0.0;
+  double longest_gap_ = 0.0;
+};
+
+struct Best {
+  double offset = 0.0;
+  double score = -1.0;
+};
+
+Best search(const SpeedMatch& match, double low, double high, double step) {
+  Best best;
+  for (double offset = low; offset <= high + 1e-9; offset += step) {
+    const double score = match.at(offset);
+    if (score > best.score) best = {offset, score};
+  }
+  return best;
+}
+
+/// Vertex of the parabola through three scores.
+double vertex(const SpeedMatch& match, double offset, double step) {
+  const double left = match.at(offset - step);
+  const double middle = match.at(offset);
+  const double right = match.at(offset + step);
+  const double curvature = left - 2.0 * middle + right;
+  if (!(curvature < 0.0)) return offset;
+  return offset + std::clamp(0.5 * step * (left - right) / curvature, -step, step);
+}
+
+/// Standard deviation of the offset in least squares of the angles and of the distances.
+double deviation_of(const SpeedMatch& match, double offset, double step) {
+  const MotionSignals here = match.signals(offset, offset, step);
+  const MotionSignals after = match.signals(offset + step, offset, step);
+  const MotionSignals before = match.signals(offset - step, offset, step);
+  double information = 0.0;
+  const auto add = [&](const std::vector<double>& reference,
+                       const std::vector<double>& estimate,
+                       const std::vector<double>& later,
+                       const std::vector<double>& earlier) {
+    if (later.size() != reference.size() || earlier.size() != reference.size()) return;
+    double rr = 0.0, re = 0.0, slopes = 0.0, residuals = 0.0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      rr += reference[i] * reference[i];
+      re += reference[i] * estimate[i];
+    }
+    const double ratio = rr > 0.0 ? re / rr : 0.0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      const double slope = ratio * (later[i] - earlier[i]) / (2.0 * step);
+      const double residual = estimate[i] - ratio * reference[i];
+      slopes += slope * slope;
+      residuals += residual * residual;
+    }
+    if (residuals > 0.0) {
+      information += slopes * static_cast<double>(reference.size()) / residuals;
+    }
+  };
+  add(here.reference_angle, here.estimate_angle, after.reference_angle, before.reference_angle);
+  add(here.reference_distance,
+      here.estimate_distance,
+      after.reference_distance,
+      before.reference_distance);
+  return information > 0.0 ? 1.0 / std::sqrt(information) : INFINITY;
+}
+
+}  // namespace
+
+std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
+                                               const Trajectory& estimate) {
+  constexpr std::size_t kFewestPoses = 20;
+  constexpr double kLeastCorrelation = 0.6;
+  if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
+  const SpeedMatch match(reference, estimate);
+  TimeOffset out;
+  const SpeedMatch::Score before = match.score(0.0);
+  const double at_zero = before.best();
+  out.before = std::max(0.0, at_zero);
+  const double coarse = std::clamp(match.interval(), 0.1, 0.5);
+  Best best = search(match, -kSearch, kSearch, coarse);
+  if (best.score < 0.0) {
+    constexpr double kMostSteps = 2000.0;
+    // At least half of the shorter one must be common: a short overlap can fit by chance.
+    const double duration = std::min(reference.back().stamp - reference.front().stamp,
+                                     estimate.back().stamp - estimate.front().stamp);
+    const double low = reference.front().stamp - estimate.back().stamp + 0.5 * duration;
+    const double high = reference.back().stamp - estimate.front().stamp - 0.5 * duration;
+    best = search(match, low, high, std::max(coarse, (high - low) / kMostSteps));
+    const double step = std::max(coarse, (high - low) / kMostSteps);
+    best = search(match, best.offset - step, best.offset + step, 0.2 * coarse);
+  }
+  if (at_zero > best.score) best = {0.0, at_zero};
+  const double fine = 0.2 * coarse;
+  best = search(match, best.offset - coarse, best.offset + coarse, fine);
+  out.offset = vertex(match, best.offset, fine);
+  const SpeedMatch::Score after = match.score(out.offset);
+  out.correlation = after.best();
+  if (out.correlation < kLeastCorrelation) return std::nullopt;
+  const auto unexplained = [](double now, double then) {
+    constexpr double kUseful = 0.7;
+    return now < kUseful ? 1.0 : (1.0 - now) / std::max(1e-9, 1.0 - std::max(0.0, then));
+  };
+  out.unexplained = std::min(unexplained(after.angle, before.angle),
+                             unexplained(after.distance, before.distance));
+  out.deviation = deviation_of(match, out.offset, 0.5 * fine);
+  return out;
+}
+
+std::optional<InputFinding> check_time_offset(const Trajectory& reference,
+                                              const Trajectory& estimate) {
+  constexpr double kSmallest = 0.04;   // [s]; smaller ones are common and hardly matter
+  constexpr double kOfInterval = 0.6;  // a scan has no exact time within its duration
+  constexpr double kDeviations = 4.0;
+  constexpr double kMostUnexplained = 0.75;  // 1 - correlation, after over before
+  constexpr double kClear = 8.0;             // deviations that need less explanation
+  constexpr double kMostIfClear = 0.95;
+  const std::optional<TimeOffset> found = estimate_time_offset(reference, estimate);
+  if (!found) return std::nullopt;
+  const double size = std::abs(found->offset);
+  const double interval = std::min(0.2, usual_interval(estimate));
+  const double remaining = found->unexplained;
+  if (size < std::max(kSmallest, kOfInterval * interval)) return std::nullopt;
+  const double most = size > kClear * found->deviation ? kMostIfClear : kMostUnexplained;
+  if (size < kDeviations * found->deviation || remaining > most) return std::nullopt;
+  return InputFinding{Fault::time_offset,
+                      fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the reference's "
+                                  "(correlation of speeds {:.3f}, without offset {:.3f})",
+                                  size,
+                                  found->deviation,
+                                  found->offset > 0.0 ? "behind" : "ahead of",
+                                  found->correlation,
+                                  found->before),
+                      fmt::format("--offset {:.4f}", found->offset),
+                      std::clamp(1.0 - remaining, 0.0, 1.0),
+                      found->offset};
+}
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,134 @@
+#include <sstream>
+#include <stdexcept>
+
+#include "datasets/core/error.hpp"
+#include "harness/config/calibration.hpp"
+#include "harness/eval/arguments.hpp"
+#include "harness/eval/evaluate_files.hpp"
+#include "harness/eval/layout.hpp"
+#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/gate/formats.hpp"
+#include "harness/model/where.hpp"
+#include "tests/fuzz/scratch_file.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace loopbench {
+
+using namespace harness;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> out;
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  return out;
+}
+
+template <class Act>
+void or_rejected(Act act) {
+  try {
+    act();
+  } catch (const InputError&) {
+    // rejected with a message, as expected
+  } catch (const OptionError&) {
+  }
+}
+
+}  // namespace
+
+void fuzz_gate(const std::filesystem::path& file) {
+  or_rejected([&] { read_limits(file); });
+  or_rejected([&] {
+    const std::string text = json(read_baseline(file));
+    std::string again;
+    try {
+      again = json(parse_baseline(text, "again"));
+    } catch (const InputError& error) {
+      throw std::logic_error("a written baseline is rejected: " + std::string(error.what()));
+    }
+    if (again != text) throw std::logic_error("a baseline changes when it is written and read");
+  });
+}
+
+void fuzz_calibration(const std::filesystem::path& file) {
+  or_rejected([&] { read_calibration(file, {"motion_drift", "dual"}, "c.yaml", 1); });
+}
+
+void fuzz_where(const std::filesystem::path& file) {
+  or_rejected([&] {
+    Record record;
+    record.sequence = "room";
+    record.method = "uniform";
+    record.metric = "ate";
+    where(lines_of(fuzz_bytes(file)))(record);
+  });
+}
+
+/// The input is split at lines into the text arguments of `eval`.
+void fuzz_eval(const std::filesystem::path& file) {
+  const std::vector<std::string> lines = lines_of(fuzz_bytes(file));
+  const auto line = [&](std::size_t i) { return i < lines.size() ? lines[i] : std::string(); };
+  EvalArguments arguments;
+  arguments.reference_body = line(0);
+  arguments.protocols = {line(1)};
+  arguments.settings = {line(2)};
+  arguments.association = line(3);
+  arguments.align = line(4);
+  arguments.project = line(5);
+  arguments.relation = line(6);
+  arguments.delta_unit = line(7);
+  arguments.times = line(8);
+  or_rejected([&] { reference_body(arguments); });
+  or_rejected([&] {
+    for (const metrics::NamedProtocol& protocol : protocols(arguments)) {
+      requested_metrics(arguments, protocol.rules);
+    }
+  });
+}
+
+/// The input is the settings file and every trajectory of an rpg folder, and of ov_eval folders.
+void fuzz_eval_folder(const std::filesystem::path& file) {
+  const std::string bytes = fuzz_bytes(file);
+  const std::filesystem::path folder = fuzz_folder();
+  for (const char* name :
+       {"eval_cfg.yaml", "stamped_groundtruth.txt", "stamped_traj_estimate.txt"}) {
+    fuzz_file(folder, name, bytes);
+  }
+  or_rejected([&] { rpg_settings(folder); });
+  or_rejected([&] {
+    EvalArguments arguments;
+    arguments.reference = folder;
+    evaluate_files(arguments);
+  });
+  std::filesystem::create_directories(folder / "truths");
+  std::filesystem::create_directories(folder / "algorithms" / "one" / "room");
+  fuzz_file(folder / "truths", "room.txt", bytes);
+  fuzz_file(folder / "algorithms" / "one" / "room", "run.txt", bytes);
+  or_rejected([&] {
+    EvalArguments arguments;
+    arguments.reference = folder / "truths";
+    arguments.estimates = {folder / "algorithms"};
+    evaluate_files(arguments);
+  });
+  std::filesystem::remove_all(folder);
+}
+
+void fuzz_messages(const std::filesystem::path& file) {
+  const std::string bytes = fuzz_bytes(file);
+  try {
+    CellResult result;
+    Unpacker unpack(bytes);
+    unpack(result);
+  } catch (const std::runtime_error&) {
+    // truncated, as expected
+  }
+  try {
+    SequenceMetadata metadata;
+    Unpacker unpack(bytes);
+    unpack(metadata);
+  } catch (const std::runtime_error&) {
+  }
+}
+
+}  // namespace loopbench

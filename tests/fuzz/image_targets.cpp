@@ -1,0 +1,99 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "datasets/core/error.hpp"
+#include "datasets/rgbd/camera.hpp"
+#include "datasets/rgbd/folder/image_list.hpp"
+#include "datasets/rgbd/folder/layouts.hpp"
+#include "datasets/rgbd/folder/read_image.hpp"
+#include "datasets/rgbd/pack_stages.hpp"
+#include "tests/fuzz/scratch_file.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace loopbench {
+
+using namespace rgbd;
+
+namespace {
+
+void check_holds(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("violated postcondition: ") + what);
+}
+
+template <class Act>
+void unless_rejected(Act act) {
+  try {
+    act();
+  } catch (const InputError&) {
+    // rejected with a message, as expected
+  }
+}
+
+}  // namespace
+
+void fuzz_camera(const std::filesystem::path& file) {
+  unless_rejected([&] {
+    const Camera camera = read_camera(file);
+    check_holds(camera.width > 0 && camera.height > 0, "positive size");
+    check_holds(camera.fx > 0.0 && camera.fy > 0.0, "positive focal lengths");
+    check_holds(camera.cx >= 0.0 && camera.cx < camera.width, "principal point in the image");
+    check_holds(camera.cy >= 0.0 && camera.cy < camera.height, "principal point in the image");
+    check_holds(std::isfinite(camera.depth_scale) && camera.depth_scale > 0.0, "depth scale");
+  });
+}
+
+void fuzz_image_list(const std::filesystem::path& file) {
+  unless_rejected([&] {
+    const std::vector<ListedImage> list = read_image_list(file);
+    check_holds(!list.empty(), "images");
+    for (std::size_t i = 1; i < list.size(); ++i) {
+      check_holds(list[i - 1].stamp < list[i].stamp, "stamps increase");
+    }
+    pair_images(list, list, 0.02, "folder");
+  });
+}
+
+/// The input is every text file of a recording, in each layout.
+void fuzz_layout(const std::filesystem::path& file) {
+  const std::string bytes = fuzz_bytes(file);
+  const std::filesystem::path folder = fuzz_folder();
+  for (const char* name : {"rgb.txt",
+                           "depth.txt",
+                           "associations.txt",
+                           "groundtruth.txt",
+                           "room.gt.freiburg",
+                           "frame-000000.pose.txt",
+                           "frame-000000.color.png",
+                           "frame-000000.depth.png"}) {
+    fuzz_file(folder, name, bytes);
+  }
+  FolderOptions options;
+  options.camera = CameraChoice::fr1;
+  unless_rejected([&] { read_tum_layout(folder, options); });
+  unless_rejected([&] { read_seven_scenes_layout(folder, FolderOptions{}); });
+  std::filesystem::remove(folder / "rgb.txt");
+  unless_rejected([&] { read_icl_nuim_layout(folder, FolderOptions{}); });
+  std::filesystem::remove_all(folder);
+}
+
+void fuzz_image(const std::filesystem::path& file) {
+  unless_rejected([&] { read_grey(file); });
+  unless_rejected([&] { read_depth(file); });
+}
+
+void fuzz_cache(const std::filesystem::path& file) {
+  const std::string bytes = fuzz_bytes(file);
+  const auto unpack = [&](auto deserialise) {
+    try {
+      deserialise(bytes);
+    } catch (const std::runtime_error&) {
+      // bytes in another layout, as expected
+    }
+  };
+  unpack(deserialise_frame);
+  unpack(deserialise_tracked);
+  unpack(deserialise_loops);
+  unpack(deserialise_edges);
+}
+
+}  // namespace loopbench

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# tests/fuzz/run.sh HOURS [TARGET...]   fuzzes all targets, or these, for equal times, two at a time, HOURS in all
+# Corpora are kept in build/corpus, logs in build/corpus/<target>.log, findings in build/corpus/<target>-crash-*.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+(($#)) || { sed -n 2,3p "${BASH_SOURCE[0]}"; exit 2; }
+hours=$1
+shift
+cmake --preset fuzz -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
+cmake --build --preset fuzz
+(($#)) || set -- $(cd build/fuzz/tests/fuzz && ls -d fuzz_* | grep -v -e random -e corpus -e '\.' | sed 's/^fuzz_//')
+seconds=$(awk -v h="$hours" -v n=$# 'BEGIN { printf "%d", h * 3600 * 2 / n }')
+
+fuzz_one() {
+  mkdir -p "build/corpus/$1"
+  local seeds=(tests/data/good tests/data/bad)
+  [[ -d tests/data/fuzz/$1 ]] && seeds+=("tests/data/fuzz/$1")
+  [[ $1 == salvage || $1 == report ]] && seeds+=(tests/data/fuzz/store)
+  nice -n 15 "build/fuzz/tests/fuzz/fuzz_$1" -max_total_time="$2" -max_len=65536 -rss_limit_mb=4096 -timeout=30 \
+    -print_final_stats=1 -artifact_prefix="build/corpus/$1-" "build/corpus/$1" "${seeds[@]}" \
+    >"build/corpus/$1.log" 2>&1 || echo "$1: finding, see build/corpus/$1.log"
+  echo "$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "build/corpus/$1.log") executions"
+}
+export -f fuzz_one
+printf '%s\n' "$@" | xargs -P 2 -I{} bash -c "fuzz_one {} $seconds"

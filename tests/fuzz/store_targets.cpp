@@ -1,0 +1,65 @@
+#include <stdexcept>
+
+#include "datasets/core/error.hpp"
+#include "harness/report/content.hpp"
+#include "harness/report/report.hpp"
+#include "harness/store/damage.hpp"
+#include "harness/store/read.hpp"
+#include "harness/store/salvage.hpp"
+#include "harness/store/traces.hpp"
+#include "tests/fuzz/scratch_file.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace loopbench {
+
+using namespace harness;
+
+namespace {
+
+/// Calls `act` with the input as a store; InputError is expected.
+template <class Act>
+void with_store(const std::filesystem::path& input, Act act) {
+  const std::filesystem::path folder = fuzz_folder();
+  const std::filesystem::path store = fuzz_file(folder, "results.sqlite", fuzz_bytes(input));
+  try {
+    act(store);
+  } catch (const InputError&) {
+    // rejected with a message, as expected
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+
+void fuzz_store(const std::filesystem::path& file) {
+  with_store(file, [](const std::filesystem::path& store) {
+    Traces traces(store);
+    for (const CellRecord& cell : read_cells(store)) {
+      traces.cell(cell.position);
+      traces.sequence(cell.position);
+    }
+    read_records(store);
+    read_run(store);
+    read_provenance(store);
+    read_inputs(store);
+  });
+}
+
+void fuzz_salvage(const std::filesystem::path& file) {
+  with_store(file, [](const std::filesystem::path& store) {
+    const std::filesystem::path out = store.parent_path() / "new.sqlite";
+    salvage_store(store, out);
+    try {
+      require_intact_store(out);
+    } catch (const InputError& error) {
+      throw std::logic_error(std::string("violated postcondition: ") + error.what());
+    }
+  });
+}
+
+void fuzz_report(const std::filesystem::path& file) {
+  with_store(file,
+             [](const std::filesystem::path& store) { report_html(read_report_content(store)); });
+}
+
+}  // namespace loopbench

@@ -1,0 +1,62 @@
+/// The script of the GitHub action.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench::action_test {
+namespace {
+
+class Action : public testing::Test {
+ protected:
+  int action(const std::string& arguments) {
+    const std::string line = "cd '" + folder_.path().string() +
+                             "' && LOOPBENCH='" LOOPBENCH_BINARY "' bash '" LOOPBENCH_CONFIGS
+                             "/../harness/package/action.sh' " +
+                             arguments + " >out 2>err";
+    return WEXITSTATUS(std::system(line.c_str()));
+  }
+  std::string text(const std::string& file) { return read_all(folder_.path() / file); }
+  void SetUp() override {
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: simulated, label: a, keyframes: 40}]\n"
+                 "methods: [raw, uniform]\nmetrics: [ate]\n");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Action, WritesCommentAndReport) {
+  ASSERT_EQ(action("c.yaml report"), 0) << text("err");
+  const std::string comment = text("report/comment.md");
+  EXPECT_EQ(comment.find("## loopbench: c.yaml\n\n### ate [m], dense"), 0u) << comment;
+  EXPECT_NE(comment.find("\n- ate: "), std::string::npos) << comment;
+  EXPECT_EQ(comment.find("next:"), std::string::npos) << comment;
+  EXPECT_EQ(text("report/report.html").find("<!DOCTYPE html>"), 0u);
+  EXPECT_EQ(text("out"), comment);
+}
+
+TEST_F(Action, FailsIfTheSweepGotWorse) {
+  ASSERT_EQ(action("c.yaml report"), 0);
+  ASSERT_EQ(
+      loopbench_command("check report/results --baseline b.json --update --allow-dirty", folder_)
+          .exit_code,
+      0);
+  const std::string baseline = text("b.json");
+  EXPECT_EQ(action("c.yaml report b.json"),
+            loopbench_command("check report/results --baseline b.json", folder_).exit_code);
+  folder_.file("c.yaml",
+               "datasets: [{dataset: simulated, label: a, keyframes: 40, noise: {gain: 3}}]\n"
+               "methods: [raw, uniform]\nmetrics: [ate]\n");
+  EXPECT_NE(action("c.yaml worse b.json"), 0);
+  EXPECT_NE(text("worse/comment.md").find("### Comparison with b.json"), std::string::npos)
+      << text("worse/comment.md");
+}
+
+TEST_F(Action, ReportsABadConfig) {
+  folder_.file("c.yaml", "datasets: [simulated]\nmethods: [rw]\nmetrics: [ate]\n");
+  EXPECT_EQ(action("c.yaml report"), 2);
+  EXPECT_NE(text("report/comment.md").find("c.yaml:2: no method is named 'rw'"), std::string::npos)
+      << text("report/comment.md");
+}
+
+}  // namespace
+}  // namespace loopbench::action_test

@@ -1,0 +1,255 @@
+/// Results of methods are checked before they are evaluated: what breaks a rule fails its own cell.
+#include "harness/execution/run/check_output.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "tests/support/tiny_store.hpp"
+
+namespace loopbench::check_output_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using namespace tiny_store;  // NOLINT: the fixture
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+using Correct = std::function<void(Trajectory&, Report&)>;
+
+struct Corrected final : Corrector {
+  explicit Corrected(Correct function) : change(std::move(function)) {}
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    Trajectory out = problem.keyframes;
+    change(out, report);
+    return out;
+  }
+  Correct change;
+};
+
+/// A polyline whose poses, start and end a function changes.
+struct Changed final : Curve {
+  using Sampled = std::function<void(std::span<const double>, std::span<Pose>)>;
+  Changed(Trajectory poses, Sampled function)
+      : line(std::move(poses)), change(std::move(function)) {}
+  double start() const override { return first.value_or(line.start()); }
+  double end() const override { return last.value_or(line.end()); }
+  using Curve::sample;
+  void sample(std::span<const double> times, std::span<Pose> poses) const override {
+    if (fills) line.sample(times, poses);
+    change(times, poses);
+  }
+  Polyline line;
+  Sampled change;
+  std::optional<double> first, last;
+  bool fills = true;
+};
+
+using Smooth = std::function<std::unique_ptr<Changed>(const Problem&)>;
+
+struct Smoothed final : Smoother {
+  explicit Smoothed(Smooth function) : make(std::move(function)) {}
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
+    return make(problem);
+  }
+  Smooth make;
+};
+
+std::unique_ptr<Changed> unchanged(const Problem& problem) {
+  return std::make_unique<Changed>(problem.keyframes, [](auto, auto) {});
+}
+
+class CheckOutput : public TinyStore {
+ protected:
+  std::string why_failed() {
+    run("datasets: [line]\nprotocol: {base: loopbench, align: none}\nmethods: [straight, bad]\n"
+        "metrics: [ate]\ntiming: 2\n");
+    const std::vector<CellRecord> cells = read_cells(file_);
+    EXPECT_EQ(cells.size(), 2u);
+    EXPECT_EQ(cells.at(0).status, "ok");
+    EXPECT_EQ(cells.at(1).status, "failed");
+    return cells.at(1).why;
+  }
+  std::string why(Correct change) {
+    known_.methods.push_back({"bad", Kind::corrector, "breaks a rule", {}, [=](const Params&) {
+                                return Stage(std::make_unique<const Corrected>(change));
+                              }});
+    return why_failed();
+  }
+  std::string why_smoothed(Smooth make) {
+    known_.methods.push_back({"bad", Kind::smoother, "breaks a rule", {}, [=](const Params&) {
+                                return Stage(std::make_unique<const Smoothed>(make));
+                              }});
+    return why_failed();
+  }
+};
+
+TEST_F(CheckOutput, QuaternionsScaledByFiveFailTheCell) {
+  EXPECT_EQ(why([](Trajectory& poses, Report&) {
+              for (StampedPose& p : poses) p.world_from_body.rotation.coeffs() *= 5.0;
+            }),
+            "corrected keyframe 1 of 4, at 0.0 s: the quaternion has norm 5.0, expected 1 within "
+            "1e-6 (4 such poses)");
+}
+
+TEST_F(CheckOutput, QuaternionsOfASmoothersCurveAreChecked) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              return std::make_unique<Changed>(problem.keyframes, [](auto, auto poses) {
+                for (Pose& p : poses) p.rotation.coeffs() *= 1.0 + 2e-6;
+              });
+            }).substr(0, 54),
+            "keyframe 1 of 4, at 0.0 s: the quaternion has norm 1.0");
+}
+
+TEST_F(CheckOutput, RoundingOfAQuaternionIsAccepted) {
+  known_.methods.push_back({"bad", Kind::corrector, "", {}, [](const Params&) {
+                              return Stage(
+                                  std::make_unique<const Corrected>([](Trajectory& poses, Report&) {
+                                    poses[0].world_from_body.rotation.coeffs() *= 1.0 + 9e-7;
+                                  }));
+                            }});
+  run("datasets: [line]\nmethods: [bad]\nmetrics: [ate]\n");
+  EXPECT_EQ(read_cells(file_).at(0).status, "ok");
+}
+
+TEST_F(CheckOutput, RotationsThatAreNotANumberFailTheCell) {
+  EXPECT_EQ(why([](Trajectory& poses, Report&) {
+              for (StampedPose& p : poses) p.world_from_body.rotation.coeffs().setConstant(kNan);
+            }),
+            "corrected keyframe 1 of 4, at 0.0 s: the rotation is not finite (4 such poses)");
+}
+
+TEST_F(CheckOutput, PositionsThatAreNotFiniteFailWithThatReason) {
+  EXPECT_EQ(
+      why([](Trajectory& poses, Report&) { poses[2].world_from_body.translation.y() = kNan; }),
+      "corrected keyframe 3 of 4, at 2.0 s: the position is not finite");
+}
+
+TEST_F(CheckOutput, PositionsBeyondAnyMapFailTheCell) {
+  EXPECT_EQ(
+      why([](Trajectory& poses, Report&) { poses[3].world_from_body.translation.x() = -1e200; }),
+      "corrected keyframe 4 of 4, at 3.0 s: the position is beyond 1e12 m");
+}
+
+TEST_F(CheckOutput, AMissingPoseFailsTheCell) {
+  EXPECT_EQ(why([](Trajectory& poses, Report&) { poses.pop_back(); }),
+            "the corrector returned 3 poses, expected 4, one per keyframe");
+}
+
+TEST_F(CheckOutput, AChangedStampFailsTheCell) {
+  EXPECT_EQ(why([](Trajectory& poses, Report&) { poses[1].stamp = kNan; }),
+            "the corrector changed the stamp of keyframe 2 from 1.0 to nan s");
+}
+
+TEST_F(CheckOutput, ACurveThatIsTooShortFailsTheCell) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              auto out = unchanged(problem);
+              out->last = 2.5;
+              return out;
+            }),
+            "the curve spans 0.0 to 2.5 s, expected the span of the keyframes, 0.0 to 3.0 s");
+}
+
+TEST_F(CheckOutput, ACurveWithoutAStartFailsTheCell) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              auto out = unchanged(problem);
+              out->first = kNan;
+              return out;
+            }),
+            "the curve spans nan to 3.0 s, expected the span of the keyframes, 0.0 to 3.0 s");
+}
+
+TEST_F(CheckOutput, NoCurveFailsTheCell) {
+  EXPECT_EQ(why_smoothed([](const Problem&) { return std::unique_ptr<Changed>(); }),
+            "the method returned no curve");
+}
+
+TEST_F(CheckOutput, ACurveThatWritesNoPosesFailsTheCell) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              auto out = unchanged(problem);
+              out->fills = false;
+              return out;
+            }),
+            "keyframe 1 of 4, at 0.0 s: the position is not finite (4 such poses)");
+}
+
+TEST_F(CheckOutput, TextsAreUtf8WithoutControlCharacters) {
+  EXPECT_EQ(why([](Trajectory&, Report& report) {
+              report.notes = {"größer", "red \x1b[31m"};
+            }),
+            "note 2 has byte 0x1b at position 5, expected UTF-8 without control characters");
+}
+
+TEST_F(CheckOutput, EveryPartOfAReportIsChecked) {
+  const std::string utf8 = ", expected UTF-8 without control characters";
+  const auto reason = [](const Report& report) -> std::string {
+    try {
+      check_report(report);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Report report;
+  report.sections = {{"segment", 0.0, 0.0, "cubic"}};
+  report.notes = {std::string(kLongestNote, 'x')};
+  report.phases = {{"solve", 0.0}};
+  report.counts = {{"iterations", -1.0}};
+  EXPECT_EQ(reason(report), "");
+
+  report.sections.push_back({"seg\xff", 0.0, 1.0, ""});
+  EXPECT_EQ(reason(report), "section 2 ('seg\\xff') has byte 0xff at position 4" + utf8);
+  report.sections[1] = {"segment", 0.0, 1.0, std::string(kLongestName + 1, 'x')};
+  EXPECT_EQ(reason(report),
+            "the text of section 2 ('segment') has 201 bytes, expected at most 200");
+  report.sections[1] = {"segment", 1.0, 0.5, ""};
+  EXPECT_EQ(reason(report),
+            "section 2 ('segment') is from 1.0 to 0.5 s, expected an end after its begin");
+  report.sections.resize(kMostSections + 1);
+  EXPECT_EQ(reason(report), "the method reports 100001 sections, expected at most 100000");
+  report.sections.clear();
+  report.notes[0] += 'x';
+  EXPECT_EQ(reason(report), "note 1 has 2001 bytes, expected at most 2000");
+  report.notes.assign(kMostItems + 1, "");
+  EXPECT_EQ(reason(report), "the method reports 1001 notes, expected at most 1000");
+  report.notes.clear();
+  report.counts[0].value = kNan;
+  EXPECT_EQ(reason(report), "count 'iterations' is nan, expected a finite number");
+  report.counts[0].name = "a\nb";
+  EXPECT_EQ(reason(report), "count 'a\nb' has byte 0x0a at position 2" + utf8);
+  report.counts.clear();
+  report.phases[0].seconds = -1.0;
+  EXPECT_EQ(reason(report), "phase 'solve' takes -1 s, expected a finite time >= 0");
+}
+
+TEST_F(CheckOutput, ALongExceptionTextIsCutOnceWhereItEnters) {
+  const std::string stored =
+      why([](Trajectory&, Report&) { throw std::runtime_error(std::string(50'000'000, '\xff')); });
+  EXPECT_EQ(stored.size(), kLongestNote + std::string(" ... (49998000 more bytes)").size());
+  EXPECT_TRUE(stored.starts_with("\\xff\\xff")) << stored.substr(0, 40);
+  EXPECT_TRUE(stored.ends_with(" ... (49998000 more bytes)"));
+}
+
+TEST_F(CheckOutput, AnExceptionWithoutAMessageHasAReason) {
+  struct Silent : std::exception {
+    const char* what() const noexcept override { return nullptr; }
+  };
+  EXPECT_EQ(why([](Trajectory&, Report&) { throw Silent(); }),
+            "threw an exception without a message");
+}
+
+TEST(StoredReason, IsOneLineAndKeepsWholeCharacters) {
+  EXPECT_EQ(stored_reason("two\nlines \x1b"), "two lines \\x1b");
+  std::string umlauts;
+  while (umlauts.size() < kLongestNote - 1) umlauts += "ü";
+  const std::string cut = stored_reason("x" + umlauts + "ü");  // its last 'ü' is cut in two
+  EXPECT_LE(cut.size(), kLongestNote + 30);
+  EXPECT_EQ(cut.find("\\xc3\xbc"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace loopbench::check_output_test

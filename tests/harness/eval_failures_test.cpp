@@ -1,0 +1,114 @@
+/// Output of `eval` when metrics are undefined or fail, and when estimates cannot be evaluated.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/support/eval_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace loopbench::eval_failures_test {
+
+using namespace harness;
+
+namespace {
+
+using namespace test;
+
+TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "short.txt").string();
+  std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+  const Json judged = eval_json({file, file});
+  EXPECT_EQ(find(judged, "ate", "translation")["count"], 3);
+  ASSERT_EQ(judged["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
+  EXPECT_EQ(judged["undefined"][0]["why"],
+            "rpe: found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
+  EXPECT_EQ(judged["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
+  EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
+}
+
+// If pairs 1 m apart are selected on the estimate and there are none, the estimate is at fault and
+// not the data, as in sweeps.
+TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "short.txt").string();
+  std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+  const std::string why = "rpe: none of 3 poses is 1.0 m before another";
+  const std::string from_estimate = "--set=pairs_from=estimate";
+  const Json evaluated = eval_json({file, file, from_estimate});
+  EXPECT_EQ(evaluated["status"], "ok");
+  EXPECT_EQ(evaluated["undefined"].size(), 2u);  // rpe over 1 frame and 1 s
+  ASSERT_EQ(evaluated["failed"].size(), 1u);
+  EXPECT_EQ(evaluated["failed"][0]["metric"], "rpe");
+  EXPECT_EQ(evaluated["failed"][0]["why"], why);
+  EXPECT_NE(eval({file, file, from_estimate}).find("\nrpe 1 m failed: " + why), std::string::npos);
+  EXPECT_NE(eval({file, file, from_estimate, "--csv"}).find(",failed," + why + ","),
+            std::string::npos);
+
+  const Json alone =
+      eval_json({file, file, from_estimate, "-d", "1", "-u", "m"}, kExitSomeCellsFailed);
+  EXPECT_EQ(alone["status"], "failed");
+  EXPECT_EQ(alone["why"], why);
+}
+
+TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.file("bad.txt", "1 0 0 \x1b[31m 0 0 0 1\n").string();
+  const std::string why = bad + ":1: column 4 (tz): '\x1b[31m' is not a number";
+  const std::vector<std::string> files{golden("gt.txt"), bad, golden("est_corrected.txt")};
+  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), bad}), why);  // a single estimate is an error
+
+  const Json judged = eval_json(files, kExitSomeCellsFailed);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[0]["status"], "failed");
+  EXPECT_EQ(judged[0]["why"], why);
+  EXPECT_TRUE(judged[0]["metrics"].empty());
+  EXPECT_FALSE(judged[0].contains("pairs"));
+  EXPECT_EQ(judged[1]["status"], "ok");
+  EXPECT_EQ(judged[1]["pairs"], 635);
+
+  std::vector<std::string> as_csv = files;
+  as_csv.push_back("--csv");
+  const std::string csv = eval(as_csv, kExitSomeCellsFailed);
+  const std::string row =
+      golden("gt.txt") + "," + bad + ",loopbench,3,,,,,,,,,,,,,,,,,failed," + why + ",";
+  EXPECT_NE(csv.find("\n" + row + "\n"), std::string::npos) << csv;
+  const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
+  EXPECT_EQ(commas(row), commas(csv.substr(0, csv.find('\n'))));
+
+  const std::string text = eval(files, kExitSomeCellsFailed);
+  EXPECT_NE(text.find("failed |"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n- " + bad + ": failed: " + bad + ":1: column 4 (tz): ' [31m' is not"),
+            std::string::npos)
+      << text;  // no terminal escape sequences
+}
+
+TEST(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
+  const std::vector<std::string> both{
+      golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,kitti"};
+  const Json judged = eval_json(both, kExitSomeCellsFailed);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_EQ(judged[0]["status"], "ok");
+  EXPECT_EQ(judged[1]["status"], "failed");
+  EXPECT_EQ(judged[1]["protocol"]["name"], "kitti");
+  EXPECT_NE(eval(both, kExitSomeCellsFailed).find("\n- " + golden("est_drift.txt") + ": failed: "),
+            std::string::npos);
+  EXPECT_EQ(refusal<InputError>({golden("absent.txt"), golden("gt.txt"), golden("gt.txt")}),
+            golden("absent.txt") + ": no such file");
+}
+
+TEST(EvalFailures, NothingThatWasAskedForIsNoSuccess) {
+  const Json judged =
+      eval_json({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
+  EXPECT_EQ(judged["status"], "undefined");
+  EXPECT_EQ(judged["why"], "none of the requested metrics is defined");
+  EXPECT_TRUE(judged["metrics"].empty());
+  EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 635 poses is 1e+09 frames before another");
+  const std::string text =
+      eval({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
+  EXPECT_NE(text.find(" undefined: rpe: none of 635 poses"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace loopbench::eval_failures_test

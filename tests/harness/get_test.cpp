@@ -1,0 +1,152 @@
+/// Downloads from a local server: hashes, pins, continued downloads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/get/download.hpp"
+#include "harness/get/sha256.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/file_server.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench::get_test {
+
+using namespace harness;
+
+namespace {
+
+std::string sha256(const std::string& text) {
+  Sha256 out;
+  out.add(text);
+  return out.hex();
+}
+
+/// FIPS 180-4 examples.
+TEST(Sha256, MatchesThePublishedExamples) {
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256(std::string(1'000'000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(PublicFiles, AreCompleteAndHaveDistinctNames) {
+  std::vector<std::string> names;
+  for (const PublicFile& each : public_files()) {
+    EXPECT_EQ(std::ranges::count(names, each.name), 0) << each.name;
+    names.push_back(each.name);
+    EXPECT_FALSE(each.licence.empty() || each.summary.empty()) << each.name;
+    EXPECT_TRUE(each.url.starts_with("http")) << each.url;
+  }
+  EXPECT_GE(names.size(), 5u);
+}
+
+TEST(PublicFiles, RejectWrongEntries) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    const std::filesystem::path file = folder.file("c.yaml", text);
+    const std::string out = refusal_of([&] { read_public_files(file); });
+    return out.substr(std::min(out.size(), file.string().size()));
+  };
+  const std::string start = "- {name: a, url: b, licence: c, file: ";
+  EXPECT_EQ(refusal(start + "d}"), "");
+  EXPECT_EQ(refusal(start + "../d}"),
+            ":1: file: expected a path below the data folder, found ../d");
+  EXPECT_EQ(refusal(start + "/d}"), ":1: file: expected a path below the data folder, found /d");
+  EXPECT_EQ(refusal(start + "d, sha256: ab}"),
+            ":1: sha256: expected 64 lower-case hexadecimal digits, found ab");
+  EXPECT_EQ(refusal(start + "d, md5: ab}"), ":1: no field is named 'md5'");
+  EXPECT_EQ(refusal("- {name: a}"), ":1: expected an entry with name, url, licence and file");
+  EXPECT_EQ(refusal("a: b"), ":1: expected a list of {name, url, licence, sha256, file}");
+}
+
+class Get : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v curl >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs curl";
+  }
+  PublicFile wanted(const std::string& hash) const {
+    return {"a", server_.url(), "none", hash, "below/a.bin", "test"};
+  }
+  Fetched get(const std::string& hash) { return fetch(wanted(hash), folder_.path()); }
+  std::string why_not(const std::string& hash) {
+    return refusal_of([&] { get(hash); });
+  }
+
+  const std::string content_ = std::string(100'000, 'x') + "end";
+  const std::string hash_ = sha256(content_);
+  TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "below/a.bin";
+  FileServer server_{content_};
+};
+
+TEST_F(Get, DownloadsAndVerifies) {
+  EXPECT_EQ(get(hash_), Fetched::downloaded);
+  EXPECT_EQ(read_all(file_), content_);
+  EXPECT_EQ(get(hash_), Fetched::present);
+  EXPECT_EQ(server_.starts().size(), 1u);
+  folder_.file("below/a.bin", "damaged");
+  EXPECT_NE(why_not(hash_).find("remove the file to download it again"), std::string::npos);
+  EXPECT_EQ(read_all(file_), "damaged");
+}
+
+TEST_F(Get, RejectsChangedContent) {
+  server_.set_content("other");
+  EXPECT_NE(why_not(hash_).find("the content has changed and was rejected"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  EXPECT_FALSE(std::filesystem::exists(file_.string() + ".part"));
+}
+
+TEST_F(Get, PinsTheFirstDownload) {
+  EXPECT_EQ(get(""), Fetched::pinned);
+  EXPECT_EQ(read_all(pin_of(file_)), hash_ + "  a.bin\n");
+  EXPECT_EQ(get(""), Fetched::present);
+  std::filesystem::remove(file_);
+  server_.set_content("other");
+  EXPECT_NE(why_not("").find("was rejected"), std::string::npos);
+  server_.set_content(content_);
+  EXPECT_EQ(get(""), Fetched::downloaded);
+}
+
+TEST_F(Get, ContinuesAnInterruptedDownload) {
+  server_.cut_after = 60'000;
+  EXPECT_NE(why_not(hash_).find("run the command again to continue"), std::string::npos);
+  EXPECT_EQ(std::filesystem::file_size(file_.string() + ".part"), 60'000u);
+  server_.cut_after = 0;
+  EXPECT_EQ(get(hash_), Fetched::downloaded);
+  EXPECT_EQ(server_.starts(), (std::vector<std::size_t>{0, 60'000}));
+  EXPECT_EQ(read_all(file_), content_);
+}
+
+TEST_F(Get, StartsAgainWithoutRanges) {
+  server_.knows_ranges = false;
+  std::filesystem::create_directories(file_.parent_path());
+  folder_.file("below/a.bin.part", content_.substr(0, 1000));
+  EXPECT_EQ(get(hash_), Fetched::downloaded);
+  EXPECT_EQ(read_all(file_), content_);
+}
+
+TEST_F(Get, AcceptsAPartThatIsComplete) {
+  std::filesystem::create_directories(file_.parent_path());
+  folder_.file("below/a.bin.part", content_);
+  EXPECT_EQ(get(hash_), Fetched::downloaded);
+}
+
+TEST_F(Get, TheCommandPrintsSourceAndLicence) {
+  folder_.file("c.yaml", "- {name: a, url: '" + server_.url() + "', licence: CC0, file: a.bin}\n");
+  const CommandResult first = loopbench_command("get a --catalogue c.yaml --data data", folder_);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out,
+            "a: " + server_.url() +
+                ", licence: CC0\n"
+                "data/a.bin: downloaded for the first time: its SHA-256 is now expected, not "
+                "verified\n");
+  EXPECT_EQ(loopbench_command("get b --catalogue c.yaml", folder_).err,
+            "loopbench: no sequence is named 'b'; did you mean 'a'?\n");
+  EXPECT_NE(loopbench_command("get", folder_).out.find("tum_fr1_room "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace loopbench::get_test

@@ -1,0 +1,75 @@
+/// Manual pages and completions of the real commands.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench::pages_test {
+namespace {
+
+class Pages : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    ASSERT_EQ(loopbench_command("pages pages", *folder_).exit_code, 0);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string page(const std::string& name) {
+    return read_all(folder_->path() / "pages" / name);
+  }
+  /// Exit code of a shell command in the folder of the pages; 127 if the program is missing.
+  static int shell(const std::string& program, const std::string& line) {
+    if (std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) != 0) return 127;
+    const std::string in = "cd '" + (folder_->path() / "pages").string() + "' && " + line;
+    return WEXITSTATUS(std::system(in.c_str()));
+  }
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* Pages::folder_ = nullptr;
+
+TEST_F(Pages, ManualsContainTheTextsOfHelp) {
+  const std::string run = page("loopbench-run.1");
+  EXPECT_NE(run.find(".SH NAME\nloopbench\\-run \\- Run the sweep of a config"), std::string::npos)
+      << run;
+  EXPECT_NE(run.find("\\fB\\-j\\fR, \\fB\\-\\-jobs\\fR \\fI"), std::string::npos) << run;
+  EXPECT_NE(run.find("\\fInone|failed|damaged|all\\fR"), std::string::npos) << run;
+  EXPECT_NE(run.find("Examples:\n  loopbench run"), std::string::npos);
+  const std::string program = page("loopbench.1");
+  EXPECT_NE(program.find("\\fBloopbench\\-eval\\fR(1)"), std::string::npos) << program;
+  EXPECT_EQ(program.find("pages"), std::string::npos) << "hidden";
+}
+
+TEST_F(Pages, ManualsAreValidRoff) {
+  const int code = shell("groff", "groff -man -Tutf8 -ww *.1 >/dev/null 2>log && ! grep -q . log");
+  if (code == 127) GTEST_SKIP() << "needs groff";
+  EXPECT_EQ(code, 0) << page("log");
+}
+
+TEST_F(Pages, BashCompletesCommandsOptionsAndChoices) {
+  const auto completed = [](const std::string& words) {
+    const std::string line =
+        "bash -c '. ./loopbench.bash; COMP_WORDS=(loopbench " + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _loopbench; echo ${COMPREPLY[@]}' >out";
+    EXPECT_EQ(shell("bash", line), 0);
+    return page("out");
+  };
+  EXPECT_EQ(completed("ta"), "table\n");
+  EXPECT_EQ(completed("table x --sp"), "--split\n");
+  EXPECT_EQ(completed("table x --format la"), "latex\n");
+  EXPECT_EQ(completed("run c --retry f"), "failed\n");
+  EXPECT_EQ(completed("help ru"), "run\n");
+  EXPECT_EQ(completed("run som"), "\n");  // files, by bash itself
+}
+
+TEST_F(Pages, OtherShellsAcceptTheirs) {
+  const int zsh = shell("zsh", "zsh -n _loopbench");
+  EXPECT_TRUE(zsh == 0 || zsh == 127) << zsh;
+  const int fish = shell("fish", "fish --no-execute loopbench.fish");
+  EXPECT_TRUE(fish == 0 || fish == 127) << fish;
+  EXPECT_EQ(page("_loopbench").find("#compdef loopbench\n"), 0u);
+  EXPECT_NE(page("loopbench.fish").find("__fish_seen_subcommand_from run' -s j -l jobs -r"),
+            std::string::npos)
+      << page("loopbench.fish");
+}
+
+}  // namespace
+}  // namespace loopbench::pages_test

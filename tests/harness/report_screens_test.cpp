@@ -1,0 +1,92 @@
+/// The report in a browser: phone, laptop and large screen, light, dark and printed.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.hpp"
+
+namespace loopbench::report_screens_test {
+namespace {
+
+/// Reports in its title what does not fit the window.
+const char* const kProbe = R"probe(<script>
+  const said = [];
+  const wide = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
+  for (const chart of document.querySelectorAll("figure > svg")) {
+    const box = chart.getBoundingClientRect();
+    if (box.width > 0 && (box.right > wide || box.left < 0)) said.push("chart outside: " + chart.getAttribute("aria-label"));
+  }
+  if (wide >= 1200) {
+    for (const heading of document.querySelectorAll("#scores figure:not([hidden]) thead th")) {
+      const isWanted = /^(gain|time)/.test(heading.textContent);
+      if (isWanted && heading.getBoundingClientRect().right > wide) said.push("hidden column " + heading.textContent);
+    }
+  }
+  for (const figure of document.querySelectorAll("#sweep-figures figure")) {
+    const [chart, text] = [figure.querySelector("svg"), figure.querySelector("svg text")];
+    const size = parseFloat(getComputedStyle(text).fontSize) * chart.getBoundingClientRect().width / chart.viewBox.baseVal.width;
+    if (size < 8 || size > 16) said.push("text of " + size + " px");
+  }
+  if (document.querySelectorAll("#sweep-figures rect[style*=fill]").length !== 4) said.push("no heat map");
+  if (document.querySelectorAll("#sweep-figures path.curve").length !== 1) said.push("no curve");
+  const dark = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  const option = document.querySelector("#controls select").selectedOptions[0].textContent;
+  document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");
+  if (parent !== window) parent.postMessage(document.title, "*");
+</script></body>)probe";
+
+class ReportScreens : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs chromium";
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: simulated, label: a, keyframes: 40}, {dataset: simulated, "
+                 "label: b, keyframes: 40, path: office}]\n"
+                 "methods:\n  - raw\n  - uniform\n"
+                 "  - {method: dm, label: one, sweep: {turn_max: [0.1, 0.5, 2]}}\n"
+                 "  - {method: dm, label: two, sweep: {turn_max: [0.1, 1], speed_band: [0.1, 1]}}\n"
+                 "metrics: [ate, axis_error, rpe]\nrepeats: 2\n");
+    ASSERT_EQ(loopbench_command("run c.yaml", folder_).exit_code, 0);
+    ASSERT_EQ(loopbench_command("report results/c -o page.html", folder_).exit_code, 0);
+    std::string page = read_all(folder_.path() / "page.html");
+    page.replace(page.rfind("</body>"), 7, kProbe);
+    folder_.file("page.html", page);
+    // Chromium has no window narrower than 500 pixels, but frames.
+    folder_.file("phone.html",
+                 "<title></title><iframe src='page.html' width='390' height='844' "
+                 "style='border: 0'></iframe><script>onmessage = (event) => { document.title = "
+                 "event.data; };</script>");
+  }
+  /// The title of the page after the probe, and complaints of the console.
+  std::string title(const std::string& options, const std::string& page = "page.html") {
+    const std::string in = "cd '" + folder_.path().string() + "' && HOME=\"$PWD\" timeout 150 ";
+    const std::string line =
+        in +
+        "chromium --headless --no-sandbox --disable-gpu --no-first-run --hide-scrollbars "
+        "--disable-background-networking --disable-component-update --disable-sync "
+        "--enable-logging=stderr --user-data-dir=\"$PWD/profile\" " +
+        options + " \"file://$PWD/" + page + "\" >dom 2>log";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    const std::string log = read_all(folder_.path() / "log");
+    EXPECT_EQ(log.find("CONSOLE"), std::string::npos) << log;
+    const std::string dom = read_all(folder_.path() / "dom");
+    const std::size_t begin = dom.find("<title>");
+    return begin == std::string::npos
+               ? ""
+               : dom.substr(begin + 7, dom.find("</title>", begin) - begin - 7);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportScreens, FitAndPrint) {
+  EXPECT_EQ(title("--virtual-time-budget=5000 --dump-dom", "phone.html"), "390 light a: well");
+  EXPECT_EQ(title("--window-size=1280,800 --blink-settings=preferredColorScheme=0 --dump-dom",
+                  "page.html#sequence=b"),
+            "1280 dark b: well");
+  EXPECT_EQ(title("--window-size=1920,1080 --dump-dom", "page.html?sequence=b"),
+            "1920 light b: well");
+  title("--print-to-pdf=\"$PWD/page.pdf\"");
+  EXPECT_EQ(read_all(folder_.path() / "page.pdf").compare(0, 5, "%PDF-"), 0);
+}
+
+}  // namespace
+}  // namespace loopbench::report_screens_test

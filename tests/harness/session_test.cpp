@@ -1,0 +1,73 @@
+// A day's work: bag -> trajectories -> doctor -> runs of two systems -> verdict -> LaTeX and PDF ->
+// gate, with the real binary.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "datasets/formats/formats.hpp"
+#include "tests/support/bag_writer.hpp"
+#include "tests/support/command.hpp"
+
+namespace loopbench::session_test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A path through space with varied speed.
+Pose at(double t) {
+  return {exp_so3({0, 0, 0.6 * t}) * exp_so3({0.5 * std::sin(0.9 * t), 0.4 * std::cos(t), 0}),
+          {4 * std::cos(0.6 * t + 0.2 * std::sin(t)), 3 * std::sin(0.6 * t), std::sin(0.35 * t)}};
+}
+
+/// Poses of a system whose clock is `late` [s] behind.
+Trajectory estimated(double error, int run, double late) {
+  Trajectory out;
+  for (double t = 0.5; t < 19.0; t += 0.05) {
+    const double wave = error * std::sin(3.0 * t + run);
+    out.push_back({1e9 + t - late, at(t) * Pose{Rotation::Identity(), {wave, 0.5 * wave, -wave}}});
+  }
+  return out;
+}
+
+TEST(Session, FromABagToTheGate) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& name) { return folder.path() / name; };
+  std::vector<std::string> messages;
+  for (int i = 0; i < 400; ++i) {
+    messages.push_back(
+        test::ros1_pose_stamped(1'000'000'000'000'000'000 + i * 50'000'000LL, at(0.05 * i)));
+  }
+  std::ofstream(path("day.bag"), std::ios::binary) << test::ros1_bag(messages);
+  for (int run = 0; run < 10; ++run) {
+    const std::string tail = "_run" + std::to_string(run) + ".txt";
+    write_tum(path("good" + tail), estimated(0.01 + 0.001 * run, run, 0.2));
+    write_tum(path("bad" + tail), estimated(0.04 + 0.002 * run, run, 0.2));
+  }
+  const auto run = [&](const std::string& arguments, int expected = 0) {
+    const CommandResult result = loopbench_command(arguments, folder);
+    EXPECT_EQ(result.exit_code, expected) << arguments << "\n" << result.out << result.err;
+    return result.out;
+  };
+  run("traj convert bag:day.bag#/pose -o groundtruth.txt");
+  EXPECT_THAT(run("doctor groundtruth.txt *_run*.txt --apply fixed", 1), HasSubstr("time_offset"));
+  run("doctor groundtruth.txt fixed/*.txt");  // nothing is left to correct
+  const std::string verdict =
+      run("eval groundtruth.txt fixed/*.txt --sequence day --store results");
+  EXPECT_THAT(verdict, HasSubstr("| day | good | 10 of 10 |"));
+  EXPECT_THAT(verdict, HasSubstr("verdict on ate: good is"));
+  EXPECT_THAT(run("compare results"), HasSubstr("good is"));
+  run("table results --format latex -o table.tex");
+  EXPECT_THAT(read_all(path("table.tex")), HasSubstr("tabular"));
+  run("report results -o report.html");
+  run("check results --baseline baseline.json --update --allow-dirty");
+  run("check results --baseline baseline.json --allow-dirty");
+  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "needs gnuplot";
+  run("plot results -o figures --format pdf");
+  EXPECT_EQ(read_all(path("figures/01_day_errors.pdf")).substr(0, 5), "%PDF-");
+  run("eval groundtruth.txt fixed/good_run0.txt --plot one --report one.html");
+  EXPECT_EQ(read_all(path("one_errors.pdf")).substr(0, 5), "%PDF-");
+  EXPECT_EQ(read_all(path("one_axes.png")).substr(1, 3), "PNG");
+  EXPECT_THAT(read_all(path("one.html")), HasSubstr("data:image/svg+xml;base64,"));
+}
+
+}  // namespace
+}  // namespace loopbench::session_test

@@ -1,0 +1,225 @@
+// `traj` follows evo's semantics; golden numbers of evo are in tests/data/golden.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "datasets/formats/trajectory_file.hpp"
+#include "harness/trajectory/named_trajectory.hpp"
+#include "harness/trajectory/selection.hpp"
+#include "harness/trajectory/transformation.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/eval_command.hpp"
+
+namespace loopbench::traj_test {
+namespace {
+
+using test::golden;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using namespace harness;
+
+/// Output of `loopbench traj ARGS`, which must succeed.
+std::string traj(std::vector<std::string> arguments) {
+  CLI::App app;
+  int exit_code = -1;
+  add_traj(app, exit_code);
+  arguments.insert(arguments.begin(), "traj");
+  std::ranges::reverse(arguments);  // order required by CLI11
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  try {
+    app.parse(arguments);
+  } catch (...) {
+    testing::internal::GetCapturedStdout();
+    testing::internal::GetCapturedStderr();
+    throw;
+  }
+  EXPECT_EQ(exit_code, kExitOk);
+  testing::internal::GetCapturedStderr();
+  return testing::internal::GetCapturedStdout();
+}
+
+std::string traj_refusal(const std::vector<std::string>& arguments) {
+  try {
+    traj(arguments);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
+double ate(const std::string& reference, const std::string& estimate, const std::string& align) {
+  const test::Json json = test::eval_json(
+      {reference, estimate, "--protocol", "evo", "--align=" + align, "--association", "index"});
+  return test::find(json, "ate", "translation")["rmse"];
+}
+
+TEST(Traj, SyncGivesThePairsOfEvo) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "sync").string();
+  traj({"sync",
+        golden("est_drift.txt"),
+        golden("est_corrected.txt"),
+        "--ref",
+        golden("gt.txt"),
+        "-o",
+        out});
+  EXPECT_EQ(read_trajectory(out + "/est_drift.txt").size(), 635u);
+  // evo's APE of the paired poses, without alignment: see golden.json.
+  EXPECT_NEAR(ate(out + "/est_drift_reference.txt", out + "/est_drift.txt", "none"),
+              12.6565235225568,
+              1e-12);
+  EXPECT_NEAR(ate(out + "/est_corrected_reference.txt", out + "/est_corrected.txt", "none"),
+              11.0497073968323,
+              1e-12);
+  EXPECT_NEAR(ate(out + "/est_drift_reference.txt", out + "/est_drift.txt", "se3"),
+              0.676208260682124,
+              1e-12);
+}
+
+TEST(Traj, SyncUsesMaxDiffAndOffsetOfEvo) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "sync").string();
+  traj({"sync",
+        golden("est_drift.txt"),
+        "--ref",
+        golden("gt.txt"),
+        "-o",
+        out,
+        "--t_max_diff",
+        "0.003",
+        "--t_offset",
+        "-0.004"});
+  EXPECT_EQ(read_trajectory(out + "/est_drift.txt").size(), 578u);
+}
+
+TEST(Traj, AlignMovesThePosesAsEvo) {
+  const TemporaryFolder folder;
+  for (const auto& [how, expected] : {std::pair{"se3", 0.676208260682124},
+                                      std::pair{"sim3", 0.660473127811482},
+                                      std::pair{"origin", 2.12100433850654}}) {
+    const std::string out = (folder.path() / how).string();
+    traj({"align", golden("est_drift.txt"), "--ref", golden("gt.txt"), "--align", how, "-o", out});
+    EXPECT_EQ(read_trajectory(out).size(), 657u);  // all poses, not only the paired ones
+    const test::Json json = test::eval_json({golden("gt.txt"), out, "--protocol", "evo"});
+    EXPECT_NEAR(test::find(json, "ate", "translation")["rmse"].get<double>(), expected, 1e-9)
+        << how;
+  }
+}
+
+TEST(Traj, DownsampleTakesTheIndicesOfNumpyLinspace) {
+  EXPECT_THAT(evenly_spaced(10, 4), ElementsAre(0, 3, 6, 9));
+  EXPECT_THAT(evenly_spaced(11, 4), ElementsAre(0, 3, 6, 10));  // floor(3.33), floor(6.67)
+  EXPECT_THAT(evenly_spaced(3, 7), ElementsAre(0, 1, 2));
+  EXPECT_THAT(evenly_spaced(5, 1), ElementsAre(0));
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "some.txt").string();
+  traj({"downsample", golden("est_drift.txt"), "--count", "100", "-o", out});
+  EXPECT_EQ(read_trajectory(out).size(), 100u);
+  EXPECT_EQ(read_trajectory(out).back().stamp,
+            read_trajectory(golden("est_drift.txt")).back().stamp);
+}
+
+Trajectory line(std::size_t count) {
+  Trajectory out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<double>(i);
+    out.push_back({at, {exp_so3({0, 0, 0.1 * at}), {0.5 * at, 0, 0}}});
+  }
+  return out;
+}
+
+TEST(Traj, MotionFilterKeepsAPoseWhenAThresholdIsReached) {
+  EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 1.5, .degrees = {}}),
+              ElementsAre(0, 3, 6));
+  EXPECT_THAT(by_motion(line(8), {.seconds = 2.5, .metres = {}, .degrees = {}}),
+              ElementsAre(0, 3, 6));
+  EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 100.0, .degrees = 22.0}),
+              ElementsAre(0, 4));
+}
+
+TEST(Traj, ResampleInterpolatesInEqualSteps) {
+  const Trajectory poses = resampled(line(4), {.seconds = {}, .metres = 0.6, .degrees = {}});
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_DOUBLE_EQ(poses[1].world_from_body.translation.x(), 0.6);
+  EXPECT_DOUBLE_EQ(poses[1].stamp, 1.2);
+  EXPECT_NEAR(log_so3(poses[2].world_from_body.rotation).z(), 0.24, 1e-12);
+  EXPECT_EQ(resampled(line(4), {.seconds = 1.0, .metres = {}, .degrees = {}}).size(), 4u);
+}
+
+TEST(Traj, TransformIsAppliedLeftRightOrToTheSteps) {
+  const Similarity quarter{{exp_so3({0, 0, M_PI / 2}), {1, 0, 0}}, 1.0};
+  const Trajectory left = transformed(line(2), quarter, TransformSide::left);
+  EXPECT_TRUE(left[1].world_from_body.translation.isApprox(Vector3(1, 0.5, 0)));
+  const Trajectory right = transformed(line(2), quarter, TransformSide::right);
+  EXPECT_NEAR(right[1].world_from_body.translation.x(), 0.5 + std::cos(0.1), 1e-12);
+  const Similarity drift{{Rotation::Identity(), {0, 0.01, 0}}, 1.0};
+  EXPECT_NEAR(transformed(line(1), drift, TransformSide::right_propagated)[0]
+                  .world_from_body.translation.y(),
+              0.0,
+              1e-15);
+  const Trajectory back =
+      transformed(transformed(line(3), {quarter.pose, 2.0}, TransformSide::left),
+                  inverse({quarter.pose, 2.0}),
+                  TransformSide::left);
+  EXPECT_TRUE(back[2].world_from_body.translation.isApprox(Vector3(1.0, 0, 0), 1e-12));
+}
+
+TEST(Traj, TransformReadsEvosJson) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "t.json").string();
+  std::ofstream(file)
+      << R"({"x": 1, "y": 2, "z": 3, "qx": 0, "qy": 0, "qz": 0, "qw": 1, "scale": 2})";
+  EXPECT_EQ(read_similarity(file).scale, 2.0);
+  EXPECT_EQ(read_similarity("1,2,3").pose.translation, Vector3(1, 2, 3));
+  std::ofstream(file) << R"({"x": 1})";
+  EXPECT_THROW(read_similarity(file), InputError);
+  EXPECT_THROW(read_similarity("1,2"), InputError);
+}
+
+TEST(Traj, CropMergeAndProject) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  traj({"crop", golden("gt.txt"), "--relative", "--end", "10", "-o", path("a.txt")});
+  traj({"crop", golden("gt.txt"), "--relative", "--start", "5", "-o", path("b.txt")});
+  traj({"merge", path("a.txt"), path("b.txt"), "-o", path("all.txt")});
+  EXPECT_EQ(read_trajectory(path("all.txt")).size(), 1995u);
+  traj({"project", path("a.txt"), "--plane", "xy", "-o", path("flat.txt")});
+  for (const StampedPose& pose : read_trajectory(path("flat.txt"))) {
+    ASSERT_EQ(pose.world_from_body.translation.z(), 0.0);
+    ASSERT_NEAR(log_so3(pose.world_from_body.rotation).head<2>().norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(Traj, InfoPrintsSizeSpeedAndGaps) {
+  const test::Json info = test::Json::parse(traj({"info", golden("gt.txt"), "--json"}))[0];
+  EXPECT_EQ(info["poses"], 1995);
+  EXPECT_NEAR(info["rate"].get<double>(), 50.0, 0.5);
+  EXPECT_THAT(traj({"info", golden("gt.txt")}), HasSubstr("bounding box"));
+}
+
+TEST(Traj, SeveralFilesNeedAFolderWithOneFileEach) {
+  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt")}),
+              HasSubstr("-o: found several trajectories, expected a folder"));
+  EXPECT_THAT(output_stem("bag:x.bag#/robot/odom"), "robot_odom");
+  EXPECT_THAT(output_stem("a/b.txt.gz"), "b");
+  const TemporaryFolder folder;
+  EXPECT_THAT(
+      traj_refusal({"convert", golden("gt.txt"), golden("gt.txt"), "-o", folder.path().string()}),
+      HasSubstr("would be written twice"));
+}
+
+TEST(Traj, PipesConnectVerbs) {
+  const std::string program = "'" LOOPBENCH_BINARY "' traj ";
+  const std::string line = program + "crop '" + golden("gt.txt") + "' --relative --end 1 | " +
+                           program + "convert - --to euroc";
+  std::FILE* const pipe = popen(line.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::array<char, 64> text{};
+  const std::size_t count = std::fread(text.data(), 1, text.size() - 1, pipe);
+  pclose(pipe);
+  EXPECT_THAT(std::string(text.data(), count), HasSubstr("# timestamp [ns],p_x [m]"));
+}
+
+}  // namespace
+}  // namespace loopbench::traj_test

@@ -1,0 +1,29 @@
+#include <fcntl.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "tests/plugin/zoo/beast.hpp"
+
+namespace loopbench::zoo {
+namespace {
+
+void open_socket(const Scene&) { require(socket(AF_INET, SOCK_DGRAM, 0), "socket"); }
+void trace_parent(const Scene&) {
+  require(ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr), "ptrace");
+}
+void read_file(const Scene& scene) { require(open(scene.path.c_str(), O_RDONLY), "open"); }
+void write_file(const Scene& scene) {
+  require(open((scene.path + ".zoo").c_str(), O_WRONLY | O_CREAT, 0600), "create");
+}
+
+}  // namespace
+
+std::vector<methods::MethodEntry> breaking_out() {
+  return {beast<open_socket>("open_socket"),
+          beast<trace_parent>("trace_parent"),
+          beast<read_file>("read_file"),
+          beast<write_file>("write_file")};
+}
+
+}  // namespace loopbench::zoo

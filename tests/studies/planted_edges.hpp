@@ -1,0 +1,26 @@
+/// Faults planted in the edges of real pose graphs, for planted_faults.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "metrics/doctor/finding.hpp"
+
+namespace loopbench {
+
+struct PlantedEdges {
+  std::string name;
+  metrics::Fault fault;
+  std::function<void(Problem&)> plant;
+};
+
+std::vector<PlantedEdges> edge_faults();
+
+/// The real pose graphs below `data` that are a complete chain with closures, with their names.
+std::vector<std::pair<std::string, Problem>> graphs(const std::filesystem::path& data);
+
+}  // namespace loopbench
