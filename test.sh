@@ -13,7 +13,7 @@ install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[
 # Runs shellcheck for all scripts, clang-format for all files; clang-tidy for the product, each library as one source.
 lint() {
   install_missing "${lint_packages[@]}"
-  shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh .ci/*
+  shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint >/dev/null
   find build/lint/CMakeFiles -path '*/Unity/*.cxx' -print0 |

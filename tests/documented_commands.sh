@@ -17,8 +17,10 @@ while IFS= read -r hit; do
   read -ra words <<<"${line//[\'\"]/}"    # quotes do not matter here: only words are compared
   command=${words[0]:-}
   [[ $command =~ ^[a-z]+$ ]] || continue # './run.sh' alone, or options only
+  [[ $command != traj || ! ${words[1]:-} =~ ^[a-z]+$ ]] || command="traj ${words[1]}"
   checked=$((checked + 1))
-  [[ -v help_of[$command] ]] || help_of[$command]=$("$loopbench" "$command" --help 2>&1) ||
+  read -ra verbs <<<"$command"
+  [[ -v help_of[$command] ]] || help_of[$command]=$("$loopbench" "${verbs[@]}" --help 2>&1) ||
     { fail "$where" "no command is named '$command'"; help_of[$command]=''; continue; }
   for word in "${words[@]:1}"; do
     case $word in

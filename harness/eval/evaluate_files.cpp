@@ -78,6 +78,9 @@ std::string why_two_clocks(const EvalArguments& a,
          "--period S or --association index";
 }
 
+/// Least confidence of a remark; `doctor` itself prints all findings.
+constexpr double kSureFinding = 0.5;
+
 /// Likely mistakes in the files, and what is missing of a damaged bag.
 std::vector<std::string> doctor_remarks(const FilePair& pair,
                                         const Trajectory& reference,
@@ -88,7 +91,7 @@ std::vector<std::string> doctor_remarks(const FilePair& pair,
   const bool has_stamps = unstamped.empty() && estimate.unstamped.empty();
   for (const metrics::InputFinding& finding :
        metrics::diagnose(reference, estimate.poses, pair.reference, pair.estimate, has_stamps)) {
-    out.push_back("doctor: " + text(finding));
+    if (finding.confidence >= kSureFinding) out.push_back("doctor: " + text(finding));
   }
   return out;
 }

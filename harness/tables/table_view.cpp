@@ -31,14 +31,20 @@ int digits_of(const Table& table, std::size_t column) {
   return all_integers && largest > 0.0 ? 0 : decimals(largest);
 }
 
-/// All columns if none has a value.
+/// Whether the entry says more than that there is no value.
+bool has_content(const TableEntry& entry) {
+  return entry.value || (!entry.status.empty() && entry.status != "undefined" &&
+                         entry.status != "declined" && entry.status != kNoCommonRun);
+}
+
+/// Columns with values or failures; all columns if there are none.
 std::vector<std::size_t> columns_with_values(const Table& table) {
   std::vector<std::size_t> out;
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     all.push_back(c);
-    const auto has_value = [&](const auto& row) { return row[c].value.has_value(); };
-    if (std::ranges::any_of(table.entries, has_value)) out.push_back(c);
+    const auto is_filled = [&](const auto& row) { return has_content(row[c]); };
+    if (std::ranges::any_of(table.entries, is_filled)) out.push_back(c);
   }
   return out.empty() ? all : out;
 }

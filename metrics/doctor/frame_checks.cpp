@@ -11,12 +11,12 @@
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/frame_fit.hpp"
 #include "metrics/doctor/unit_checks.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kMostPoses = 2000;
-constexpr double kDegrees = 180.0 / M_PI;
 
 using Change = std::function<Pose(const Pose&)>;
 

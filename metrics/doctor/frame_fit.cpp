@@ -49,7 +49,7 @@ PositionFit fit_positions(const std::vector<Pose>& reference, const std::vector<
   }
   if (!(var_r > 0.0) || !(var_e > 0.0)) return out;
   const Svd svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector3 d = svd.singularValues();
+  const Vector3& d = svd.singularValues();
   if (!(d[0] > 0.0)) return out;
   out.rotation = closest(svd, false);
   out.reflection = closest(svd, true);

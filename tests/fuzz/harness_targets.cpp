@@ -82,7 +82,7 @@ void fuzz_eval(const std::filesystem::path& file) {
   or_rejected([&] { reference_body(arguments); });
   or_rejected([&] {
     for (const metrics::NamedProtocol& protocol : protocols(arguments)) {
-      requested_metrics(arguments, protocol.rules);
+      metric_requests(arguments, protocol.rules);
     }
   });
 }

@@ -8,7 +8,12 @@ hours=$1
 shift
 cmake --preset fuzz -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
 cmake --build --preset fuzz
-(($#)) || set -- $(cd build/fuzz/tests/fuzz && ls -d fuzz_* | grep -v -e random -e corpus -e '\.' | sed 's/^fuzz_//')
+if (($# == 0)); then
+  for program in build/fuzz/tests/fuzz/fuzz_*; do
+    name=${program##*/fuzz_}
+    [[ $name == *.* || $name == random || $name == corpus* ]] || set -- "$@" "$name"
+  done
+fi
 seconds=$(awk -v h="$hours" -v n=$# 'BEGIN { printf "%d", h * 3600 * 2 / n }')
 
 fuzz_one() {

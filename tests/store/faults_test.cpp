@@ -33,7 +33,7 @@ class Faults : public TinyStore {
     Store store(file_, keys, {{"commit", commit_}}, fresh);
     const Resumed resumed = store.resume(all, all, retry);
     Sequences sequences(sweep, known_, root_, resumed.missing);
-    const std::atomic<bool> stop = false;
+    const StopRequests stop = 0;
     run_sweep(sweep, resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
       store.write(r);
       done_.insert(sweep.datasets[r.cell.dataset].label + " / " +
@@ -254,7 +254,7 @@ TEST_F(Faults, APowerCutLosesNoCellThatWasSynced) {
       Store store(file_, keys, {{"commit", commit_}});
       const Resumed resumed = store.resume(all, all, Retry::none);
       Sequences sequences(plan, known_, root_, resumed.missing);
-      const std::atomic<bool> stop = false;
+      const StopRequests stop = 0;
       std::set<std::string> written;
       run_sweep(plan, resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
         store.write(r);

@@ -185,7 +185,7 @@ TEST_F(Salvage, ATruncatedOrDamagedLogCostsItsOwnCellsOnly) {
     const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
     const Resumed resumed = store.resume(all, all, Retry::none);
     Sequences sequences(sweep, known_, root_, resumed.missing);
-    const std::atomic<bool> stop = false;
+    const StopRequests stop = 0;
     run_sweep(sweep, resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
       store.write(r);
       if (r.cell.index == 60) raise(SIGKILL);
