@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, all tests
 # ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
-# ./test.sh NAME...    only these (lint, package, or a preset: release, debug, tsan, clang)
+# ./test.sh NAME...    only these (lint, package, slurm, or a preset: release, debug, tsan, clang)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
@@ -35,6 +35,15 @@ for preset in "$@"; do
     counts+=("package: installed and run in a bare Debian")
     continue
   fi
+  if [[ $preset == slurm ]]; then
+    # Not part of `all`: it starts the daemons of a cluster, which needs root.
+    install_missing "${slurm_packages[@]}"
+    cmake --preset release >/dev/null
+    cmake --build build/release --target loopbench
+    tests/slurm/run.sh build/release/loopbench
+    counts+=("slurm: a sweep on four nodes, with and without failures")
+    continue
+  fi
   cmake --preset "$preset" -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   cmake --build --preset "$preset"
   ctest --preset "$preset"
@@ -52,5 +61,6 @@ for preset in "$@"; do
     $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
   fi
 done
+[[ $* == "tsan debug release" || $* == "lint tsan debug release" ]] && counts+=("slurm: skipped, run ./test.sh slurm")
 printf 'loopbench: all tests passed\n'
 printf '  %s\n' "${counts[@]}"

@@ -14,6 +14,7 @@ image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)
 get_packages=(curl ca-certificates)
 lint_packages=(clang-format clang-tidy shellcheck)
+slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
 package_packages=(dpkg-dev file lintian debootstrap)
 test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
   python3-numpy python3-scipy)

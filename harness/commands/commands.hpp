@@ -35,6 +35,6 @@ void add_profile(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_traj(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
-void add_verify(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code, const Source& source);
 
 }  // namespace loopbench::harness

@@ -64,6 +64,18 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench merge results/a results/b -o results/all\n"
      "  loopbench table results/all\n"
      "  loopbench compare results/all\n"},
+    {"submit",
+     "  loopbench submit mine.yaml --array 16 --time 2:00:00 --memory 16GiB --dry-run\n"
+     "  loopbench submit mine.yaml --array 16 --time 2:00:00 --memory 16GiB --partition long\n"
+     "  loopbench submit mine.yaml --engine local --array 2\n"},
+    {"watch",
+     "  loopbench watch results/mine\n"
+     "  loopbench watch results/mine --every 60\n"
+     "  loopbench watch results/mine --once\n"},
+    {"cancel",
+     "  loopbench cancel results/mine\n"
+     "  loopbench watch results/mine --once\n"
+     "  loopbench submit mine.yaml\n"},
     {"salvage",
      "  loopbench salvage results/damaged -o results/saved\n"
      "  loopbench table results/saved\n"

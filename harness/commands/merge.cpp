@@ -5,33 +5,77 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/commands.hpp"
+#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+constexpr std::size_t kShardsWidth = 100;
+
+/// Lines about a mixed cluster; empty for one instruction set.
+std::string mixed_text(const Merged& merged) {
+  if (merged.instruction_sets.size() < 2) return "";
+  std::string out = "computed on processors with different instruction sets:\n";
+  for (const std::string& set : merged.instruction_sets) out += "  " + printable(set) + "\n";
+  return out +
+         "`verify CONFIG --sample 0.01` compares a sample with this machine; `run "
+         "--pin-instructions` avoids differences\n";
+}
+
+/// Lines about the cells that no store has; empty if none is known to be missing.
+std::string missing_text(const Merged& merged) {
+  if (merged.missing == 0) return "";
+  std::string shards;
+  for (const std::string& shard : merged.missing_shards) {
+    if (shards.size() > kShardsWidth) {
+      shards += ", ...";
+      break;
+    }
+    shards += (shards.empty() ? "; shards without a cell: " : ", ") + shard;
+  }
+  std::string out =
+      fmt::format("{} of {} cells are missing{}\n", merged.missing, merged.planned, shards);
+  for (const std::string& label : merged.first_missing) out += "  " + printable(label) + "\n";
+  if (merged.missing > merged.first_missing.size()) {
+    out += fmt::format("  and {} more\n", merged.missing - merged.first_missing.size());
+  }
+  return out;
+}
+
+}  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
   struct Arguments {
     std::vector<std::filesystem::path> stores;
     std::filesystem::path out;
-    bool mixed_builds = false;
+    MergeOptions options;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("merge", "Merge several stores of results into one");
   command->add_option("stores", arguments->stores, "Folders of results, or their results.sqlite")
       ->required()
-      ->expected(2, -1);
+      ->expected(1, -1);
   command->add_option("-o,--out", arguments->out, "Store to create, or a folder for it")
       ->required();
-  command->add_flag("--mixed-builds", arguments->mixed_builds, "Accept cells of different builds");
+  command->add_flag(
+      "--mixed-builds", arguments->options.mixed_builds, "Accept cells of different builds");
+  command->add_flag("--add",
+                    arguments->options.add,
+                    "Keep the cells of an existing output store, instead of rejecting it");
+  command->footer(
+      "`loopbench run CONFIG --missing` computes the cells that are listed as missing.");
   command->callback([arguments, &exit_code] {
     reject_standard_output("-o", arguments->out);
     std::filesystem::path out = arguments->out;
     if (out.extension() != ".sqlite") out /= "results.sqlite";
-    const Merged merged = merge_stores(arguments->stores, out, arguments->mixed_builds);
-    fmt::print("{} cells{} in {}\n",
+    const Merged merged = merge_stores(arguments->stores, out, arguments->options);
+    fmt::print("{} cells{} in {}\n{}{}",
                merged.cells,
                merged.duplicates == 0 ? "" : fmt::format(" ({} duplicates)", merged.duplicates),
-               out.string());
+               out.string(),
+               missing_text(merged),
+               mixed_text(merged));
     exit_code = kExitOk;
   });
 }

@@ -6,10 +6,15 @@
 #include <thread>
 
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/cluster/progress_file.hpp"
+#include "harness/cluster/stage.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/commands/pin_instructions.hpp"
+#include "harness/commands/run_messages.hpp"
 #include "harness/commands/run_output.hpp"
+#include "harness/commands/run_part.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
@@ -37,36 +42,15 @@ struct RunArguments {
   std::string out;
   std::vector<std::filesystem::path> plugins;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  PartArguments part;
   std::string retry = "none";
   bool fresh = false;
   bool in_process = false;
   bool no_sandbox = false;
   bool save_trajectories = false;
-  bool dry_run = false;
+  bool pin_instructions = false;
+  std::filesystem::path stage;
 };
-
-void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
-  for (const Cell& cell : planned) {
-    const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
-    fmt::print("{:5}  {}{} / {}\n",
-               cell.index,
-               printable(sweep.datasets[cell.dataset].label),
-               repeat,
-               printable(sweep.methods[cell.method].label));
-  }
-  fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
-}
-
-/// Prints the reasons why sequences cannot be loaded to standard error.
-int report_bad_inputs(const std::vector<std::string>& reasons) {
-  if (reasons.empty()) return kExitOk;
-  for (const std::string& reason : reasons) {
-    print_error("loopbench: {}\n", printable(reason));
-  }
-  print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
-              reasons.size());
-  return kExitBadInput;
-}
 
 /// Whether the method or a metric failed.
 bool has_failure(const CellResult& result) {
@@ -83,39 +67,35 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
-  if (!resumed.damaged.empty()) {
-    print_error(
-        "loopbench: {}: damaged cells are recomputed: {}{}\n",
-        store.string(),
-        printable(resumed.damaged.front()),
-        resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
-  } else if (resumed.lost) {
-    print_error("loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
-                store.string());
-  }
-}
-
 int run(const RunArguments& arguments, const Source& source) {
+  if (arguments.pin_instructions) pin_instructions();
   const Catalogue known = catalogue(arguments.plugins);
   const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
-  const DataRoot root = data_root(sweep, arguments.data);
+  DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
-  const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
-  if (planned.empty()) throw InputError(arguments.config + ": no cells to run");
+  const std::vector<Cell> all = cells(sweep, with_seed, "");
+  const std::vector<Cell> selected = cells(sweep, with_seed, arguments.only);
+  if (selected.empty()) throw InputError(arguments.config + ": no cells to run");
+  reject_standard_output("--out", arguments.out);
+  const std::filesystem::path given(arguments.out.empty() ? "results/" + sweep.name
+                                                          : arguments.out);
+  CellKeys keys(sweep, known, root, build_id(source.code));
+  const RunPart part = select_part(arguments.part, keys, all, selected, known, root, given);
+  const std::vector<Cell>& planned = part.planned;
+  const std::filesystem::path& out = part.out;
   require_parts(sweep, planned, known);
-  if (arguments.dry_run) {
+  if (arguments.part.dry_run) {
     print_plan(sweep, planned);
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));
   }
-
-  reject_standard_output("--out", arguments.out);
-  const std::filesystem::path out(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
+  if (planned.empty() && !part.shard.empty()) {
+    fmt::print("shard {} has no cells\n", arguments.part.shard);
+    return kExitOk;
+  }
   const std::filesystem::path file = out / "results.sqlite";
-  CellKeys keys(sweep, known, root, build_id(source.code));
   SandboxOptions sandbox;
   sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
-  sandbox.unreachable = {out};
+  sandbox.unreachable = {given};
   if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
   std::map<std::string, std::string> made = provenance(source, sweep, known);
   if (arguments.save_trajectories) {
@@ -128,8 +108,8 @@ int run(const RunArguments& arguments, const Source& source) {
   }
   made["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
-  const Resumed resumed =
-      store->resume(cells(sweep, with_seed, ""), planned, *from_text<Retry>(arguments.retry));
+  store->set_shard(part.shard);
+  const Resumed resumed = store->resume(all, planned, *from_text<Retry>(arguments.retry));
   report_damage(resumed, file);
   const std::vector<Cell>& missing = resumed.missing;
   std::size_t done = 0;
@@ -144,7 +124,12 @@ int run(const RunArguments& arguments, const Source& source) {
         resumed.there);
   }
   if (!missing.empty()) {
+    if (!arguments.stage.empty()) {
+      root = stage_inputs(sweep, missing, known, root, arguments.stage);
+      sandbox.unreachable.push_back(arguments.stage);
+    }
     Progress progress(missing.size());
+    ProgressFile progress_file(out);
     const std::vector<InputFile> no_inputs;
     const auto finished = [&](const CellResult& r) {
       if (r.status == Status::interrupted) {
@@ -158,6 +143,9 @@ int run(const RunArguments& arguments, const Source& source) {
       if (r.status == Status::incomplete) ++incomplete;
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
+      if (!part.shard.empty()) {
+        progress_file.update({done + resumed.there, planned.size(), failed});
+      }
     };
     if (arguments.in_process) {
       Sequences sequences(sweep, known, root, missing);
@@ -168,6 +156,27 @@ int run(const RunArguments& arguments, const Source& source) {
     }
   }
   if (done + resumed.there == 0) return kExitInterrupted;
+
+  const int exit_code = interrupted > 0 ? kExitInterrupted
+                        : failed > 0    ? kExitSomeCellsFailed
+                                        : kExitOk;
+  const auto report_interruption = [&] {
+    if (interrupted == 0) return;
+    print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
+                abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
+  };
+  if (!part.shard.empty()) {
+    ProgressFile(out).write({done + resumed.there, planned.size(), failed});
+    fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
+               arguments.part.shard,
+               done + resumed.there,
+               planned.size(),
+               failed,
+               printable(file.string()),
+               merge_command(given));
+    report_interruption();
+    return exit_code;
+  }
 
   // Writing the tables of many cells takes longer than checking that none is missing.
   const auto is_there = [&](const char* name) {  // links are replaced, not followed
@@ -197,12 +206,8 @@ int run(const RunArguments& arguments, const Source& source) {
              fitted(status),
              printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()),
              next_commands(out));
-  if (interrupted > 0) {
-    print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
-                abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
-    return kExitInterrupted;
-  }
-  return failed > 0 ? kExitSomeCellsFailed : kExitOk;
+  report_interruption();
+  return exit_code;
 }
 
 }  // namespace
@@ -216,8 +221,22 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->required();
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
+  command
+      ->add_option("--shard",
+                   arguments->part.shard,
+                   "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`")
+      ->type_name("I/N");
+  command
+      ->add_option("--costs",
+                   arguments->part.costs,
+                   "Balance the shards by the times in an earlier store of the sweep")
+      ->type_name("STORE");
+  command->add_flag("--missing",
+                    arguments->part.missing,
+                    "Complete an existing store, for example after `merge`; with --shard, divide "
+                    "the missing cells");
   command->add_flag("--dry-run",
-                    arguments->dry_run,
+                    arguments->part.dry_run,
                     "Check the config and its input files and list the cells without running them");
   command->add_option("-j,--jobs", arguments->jobs, "Number of workers; does not affect results")
       ->check(CLI::Range(1, 1024))
@@ -229,6 +248,13 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_flag("--save-trajectories",
                     arguments->save_trajectories,
                     "Save every cell's estimate at full length, see `export --what trajectories`");
+  command->add_flag("--pin-instructions",
+                    arguments->pin_instructions,
+                    "Use the code paths of old processors in the C library and OpenCV, so that "
+                    "bits do not depend on the node");
+  command
+      ->add_option("--stage", arguments->stage, "Copy inputs into this folder first, once per node")
+      ->type_name("DIR");
   command->add_flag("--no-sandbox",
                     arguments->no_sandbox,
                     "Do not restrict what methods can reach (files, network, other processes)");

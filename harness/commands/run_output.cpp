@@ -56,6 +56,11 @@ std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n";
 }
 
+std::string merge_command(const std::filesystem::path& out) {
+  const std::string folder = shell_quoted(out.string());
+  return program_name() + " merge " + folder + "/shards/* -o " + folder;
+}
+
 std::string next_commands(const std::filesystem::path& out) {
   const std::string name = program_name();
   const std::string folder = shell_quoted(out.string());

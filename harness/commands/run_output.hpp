@@ -20,6 +20,9 @@ void write_tables(const std::filesystem::path& store,
 /// The summary, as fits the terminal or as Markdown. Without any score, the reasons.
 std::string summary_text(std::vector<Record> records, const Sweep& sweep);
 
+/// The command that merges the stores of all shards in the folder `out`.
+std::string merge_command(const std::filesystem::path& out);
+
 /// Commands that continue from the results in the folder `out`.
 std::string next_commands(const std::filesystem::path& out);
 

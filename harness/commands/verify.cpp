@@ -5,12 +5,15 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/commands/verify_sample.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/progress.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -21,11 +24,19 @@ struct VerifyArguments {
   std::string only;
   std::string data;
   std::vector<std::filesystem::path> plugins;
+  SampleArguments sample;
 };
 
-int run_verify(const VerifyArguments& arguments) {
+int run_verify(const VerifyArguments& arguments, const Source& source) {
   const Catalogue known = catalogue(arguments.plugins);
   Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
+  if (arguments.sample.share > 0.0) {
+    SampleArguments sample = arguments.sample;
+    sample.only = arguments.only;
+    if (sample.store.empty()) sample.store = "results/" + sweep.name;
+    return verify_sample(
+        sweep, known, data_root(sweep, arguments.data), build_id(source.code), sample);
+  }
   sweep.timing = 1;  // times are not compared
   sweep.serial = false;
   sweep.traces = true;
@@ -68,10 +79,11 @@ int run_verify(const VerifyArguments& arguments) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, int& exit_code) {
+void add_verify(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
-      "verify", "Check that results are bit-identical for any number of workers");
+      "verify",
+      "Check that results are bit-identical for any number of workers, or on this machine");
   command
       ->add_option(
           "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
@@ -81,9 +93,24 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
+  command
+      ->add_option("--sample",
+                   arguments->sample.share,
+                   "Instead, recompute this share of the cells of a store and compare bits [-]")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--store",
+                   arguments->sample.store,
+                   "With --sample: folder of results (default: results/CONFIG)")
+      ->type_name("DIR");
+  command->add_option("-j,--jobs", arguments->sample.jobs, "With --sample: number of workers")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
       ->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
+  command->callback(
+      [arguments, source, &exit_code] { exit_code = run_verify(*arguments, source); });
 }
 
 }  // namespace loopbench::harness

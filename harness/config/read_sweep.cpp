@@ -14,20 +14,22 @@
 namespace loopbench::harness {
 namespace {
 
-const std::vector<std::string> kKeys{"description",
-                                     "datasets",
-                                     "methods",
-                                     "metrics",
-                                     "times",
-                                     "protocol",
-                                     "baseline",
-                                     "min_coverage",
-                                     "repeats",
-                                     "timing",
-                                     "traces",
-                                     "limits",
-                                     "exclude",
-                                     "table"};
+const std::vector<std::string> kKeys{
+    "description",
+    "datasets",
+    "methods",
+    "metrics",
+    "times",
+    "protocol",
+    "baseline",
+    "min_coverage",
+    "repeats",
+    "timing",
+    "traces",
+    "limits",
+    "exclude",
+    "table",
+    "cluster"};  // read by `submit`, see harness/cluster/settings.hpp
 
 /// With `timing: true`: enough runs for a median that one disturbance does not change.
 constexpr int kRunsWhenAlone = 5;

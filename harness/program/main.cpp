@@ -17,6 +17,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
+#include "harness/commands/cluster.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/correct.hpp"
@@ -127,13 +128,16 @@ int main(int argc, char** argv) {
   add_correct(app, exit_code);
   add_export(app, exit_code);
   add_merge(app, exit_code);
+  add_submit(app, exit_code);
+  add_watch(app, exit_code);
+  add_cancel(app, exit_code);
   add_salvage(app, exit_code);
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);
   add_traj(app, exit_code);
   add_doctor(app, exit_code);
-  add_verify(app, exit_code);
+  add_verify(app, exit_code, source);
   add_get(app, exit_code);
   add_help(app, exit_code);
   add_pages(app, exit_code);

@@ -4,7 +4,10 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include "harness/catalogue/libraries.hpp"
@@ -48,6 +51,38 @@ std::string seeds(const Sweep& sweep, const Catalogue& catalogue) {
 
 }  // namespace
 
+std::string instruction_set() {
+  if (std::getenv(kPinnedVariable) != nullptr) return "pinned";
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    const bool is_list = line.starts_with("flags") || line.starts_with("Features");
+    const std::size_t colon = line.find(':');
+    if (!is_list || colon == std::string::npos) continue;
+    std::istringstream words(line.substr(colon + 1));
+    std::set<std::string> found;
+    for (std::string word; words >> word;) found.insert(word);
+    std::string out;
+    for (const char* name : {"sse4_2",
+                             "avx",
+                             "avx2",
+                             "fma",
+                             "fma4",
+                             "f16c",
+                             "avx512f",
+                             "avx512dq",
+                             "avx512bw",
+                             "avx512vl",
+                             "avx512_vnni",
+                             "asimd",
+                             "sve",
+                             "sve2"}) {
+      if (found.contains(name)) out += (out.empty() ? "" : " ") + std::string(name);
+    }
+    return out.empty() ? "none of those by which libraries choose" : out;
+  }
+  return "unknown";
+}
+
 std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue) {
@@ -63,6 +98,7 @@ std::map<std::string, std::string> provenance(const Source& source,
   }
   out["libraries"] = libraries;
   out["cpu"] = cpu_name();
+  out["instructions"] = instruction_set();
   out["cores"] = std::to_string(std::thread::hardware_concurrency());
   const std::int64_t memory =
       std::int64_t{sysconf(_SC_PHYS_PAGES)} * std::int64_t{sysconf(_SC_PAGESIZE)};

@@ -16,11 +16,19 @@ struct Source {
   std::string code = "unknown";   ///< hash of the libraries whose code decides the results of cells
 };
 
-/// build_metadata(), commit, state, build, C library, shared libraries, CPU, cores, memory, kernel,
-/// the seeds of every seeded dataset and the versions of plugins. Does not depend on the time of
-/// the call.
+/// build_metadata(), commit, state, build, C library, shared libraries, CPU, instruction set,
+/// cores, memory, kernel, the seeds of every seeded dataset and the versions of plugins. Does not
+/// depend on the time of the call.
 std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue);
+
+/// Environment variable set by `run --pin-instructions`.
+inline constexpr const char* kPinnedVariable = "LOOPBENCH_PINNED_INSTRUCTIONS";
+
+/// Extensions by which libraries choose code paths, on which last digits of results can depend:
+/// "sse4_2 avx avx2 fma avx512f"; "pinned" if kPinnedVariable is set, "unknown" without
+/// /proc/cpuinfo.
+std::string instruction_set();
 
 }  // namespace loopbench::harness

@@ -18,39 +18,67 @@ std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
   return none ? std::nullopt : std::optional<T>(value);
 }
 
-CellRow cell_row(Statement& row) {
-  CellRow out;
-  CellRecord& c = out.record;
-  out.id = row.integer();
-  out.placed = !row.is_null();
-  c.position = row.integer();
-  c.key = row.text();
-  c.build = row.text();
-  out.sequence_key = row.text();
-  row.text();  // made
-  c.sequence = row.text();
-  c.repeat = row.integer();
-  c.method = row.text();
-  c.dataset_options = row.text();
-  c.method_options = row.text();
-  c.closures = row.text();
-  c.oracle_closures = row.integer() != 0;
-  c.oracle = row.integer() != 0;
-  c.worker = row.text();
-  c.runs = row.integer();
-  c.seconds = row.real();
-  c.seconds_min = row.real();
-  c.seconds_max = row.real();
-  c.cpu_seconds = maybe(row, &Statement::real);
-  c.peak_memory = maybe(row, &Statement::integer);
-  c.added_memory = maybe(row, &Statement::integer);
-  c.allocations = maybe(row, &Statement::integer);
-  c.status = row.text();
-  c.signal = row.text();
-  c.why = row.text();
-  out.failed_scores = row.integer();
-  for (std::size_t i = 0; i < out.details.size(); ++i) out.details[i] = row.text();
-  out.digest = row.text();
+class RowReader {
+ public:
+  RowReader(CellRows& out, WithRecords with) : out_(out), with_(with) {}
+
+  void add(Statement& row) {
+    CellRow& cell = out_.cells.emplace_back();
+    CellRecord own;
+    CellRecord& c = with_ == WithRecords::yes ? out_.records.emplace_back() : own;
+    cell.id = row.integer();
+    cell.placed = !row.is_null();
+    cell.position = c.position = row.integer();
+    c.key = row.text();
+    cell.key = hash_of(c.key);
+    c.build = row.text();
+    cell.sequence_key = shared(row.text());
+    row.text();  // made
+    c.sequence = row.text();
+    cell.sequence = shared(c.sequence);
+    cell.repeat = c.repeat = row.integer();
+    c.method = row.text();
+    cell.method = shared(c.method);
+    c.dataset_options = row.text();
+    c.method_options = row.text();
+    c.closures = row.text();
+    c.oracle_closures = row.integer() != 0;
+    c.oracle = row.integer() != 0;
+    c.worker = row.text();
+    c.runs = row.integer();
+    c.seconds = row.real();
+    c.seconds_min = row.real();
+    c.seconds_max = row.real();
+    c.cpu_seconds = maybe(row, &Statement::real);
+    c.peak_memory = maybe(row, &Statement::integer);
+    c.added_memory = maybe(row, &Statement::integer);
+    c.allocations = maybe(row, &Statement::integer);
+    c.status = row.text();
+    cell.status = shared(c.status);
+    c.signal = row.text();
+    c.why = row.text();
+    cell.failed_scores = row.integer();
+    for (Hash& digest : cell.details) digest = parsed_digest(row.text());
+    cell.digest = parsed_digest(row.text());
+    cell.intact = digest_of_row(row, 0, row.columns() - 1) == cell.digest;
+  }
+
+ private:
+  /// Neighbouring cells mostly have the same texts.
+  const std::string* shared(const std::string& text) { return &*out_.texts.insert(text).first; }
+
+  CellRows& out_;
+  WithRecords with_;
+};
+
+std::string cell_label(const std::string& sequence,
+                       std::int64_t repeat,
+                       const std::string& method) {
+  const std::string number = repeat > 0 ? " (repeat " + std::to_string(repeat) + ")" : "";
+  std::string out = sequence + number + " / " + method;
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // in a damaged name
+  }
   return out;
 }
 
@@ -60,14 +88,14 @@ std::size_t detail_number(const std::string& table) {
   return static_cast<std::size_t>(std::ranges::find(kDetailTables, table) - kDetailTables);
 }
 
-CellRows read_cell_rows(Database& database) {
+CellRows read_cell_rows(Database& database, WithRecords with) {
   CellRows out;
+  RowReader reader(out, with);
   SumOfDigests sum;
   Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
   while (rows.step()) {
-    CellRow& cell = out.cells.emplace_back(cell_row(rows));
-    cell.intact = digest_of_columns(rows, 0, rows.columns() - 1) == cell.digest;
-    sum.add(cell.digest);
+    reader.add(rows);
+    sum.add(out.cells.back().digest);
   }
   out.complete = sum.text() == written_digest(database, "cell");
   return out;
@@ -94,7 +122,7 @@ void read_details(Database& database,
   }
   const std::size_t number = detail_number(table);
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    if (digests[i].text() != rows.cells[i].details[number]) rows.cells[i].intact = false;
+    if (digests[i].value() != rows.cells[i].details[number]) rows.cells[i].intact = false;
   }
 }
 
@@ -110,17 +138,16 @@ void require_intact(const CellRows& rows, const std::filesystem::path& file) {
   if (damaged == 0) throw_damaged(file, "its list of cells is");
   const auto first = std::ranges::find(rows.cells, false, &CellRow::intact);
   throw_damaged(file,
-                label_of(first->record) +
+                label_of(*first) +
                     (damaged == 1 ? " is" : " and " + std::to_string(damaged - 1) + " more are"));
 }
 
 std::string label_of(const CellRecord& cell) {
-  const std::string repeat = cell.repeat > 0 ? " (repeat " + std::to_string(cell.repeat) + ")" : "";
-  std::string out = cell.sequence + repeat + " / " + cell.method;
-  for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // in a damaged name
-  }
-  return out;
+  return cell_label(cell.sequence, cell.repeat, cell.method);
+}
+
+std::string label_of(const CellRow& cell) {
+  return cell_label(*cell.sequence, cell.repeat, *cell.method);
 }
 
 std::vector<std::size_t> in_order(const CellRows& rows) {
@@ -128,7 +155,7 @@ std::vector<std::size_t> in_order(const CellRows& rows) {
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     if (rows.cells[i].placed) out.push_back(i);
   }
-  std::ranges::stable_sort(out, {}, [&](std::size_t i) { return rows.cells[i].record.position; });
+  std::ranges::stable_sort(out, {}, [&](std::size_t i) { return rows.cells[i].position; });
   return out;
 }
 

@@ -5,32 +5,52 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "harness/model/record.hpp"
 #include "harness/store/sqlite.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 
+/// About 200 bytes: a store can have millions. Texts that cells share are pointers into
+/// CellRows::texts.
 struct CellRow {
   std::int64_t id = 0;
-  bool placed = false;  ///< part of the current config
-  std::string sequence_key;
+  std::int64_t position = 0;  ///< in the sweep, if placed
+  std::int64_t repeat = 0;
   std::int64_t failed_scores = 0;
-  std::array<std::string, 6> details;  ///< digests of its rows by detail_number()
-  std::string digest;
+  const std::string* sequence_key = nullptr;
+  const std::string* sequence = nullptr;
+  const std::string* method = nullptr;
+  const std::string* status = nullptr;
+  Hash key;                     ///< of the text of CellRecord::key
+  std::array<Hash, 6> details;  ///< digests of its rows by detail_number(); zero: none
+  Hash digest;
+  bool placed = false;  ///< part of the current config
   bool intact = false;  ///< unchanged since it was written, as far as checked
-  CellRecord record;    ///< without phases, counts, notes and sequence data
 };
 
 struct CellRows {
-  std::vector<CellRow> cells;  ///< by id
-  bool complete = false;       ///< no row is missing: the digests match the stored sum
+  std::vector<CellRow> cells;       ///< by id
+  std::vector<CellRecord> records;  ///< parallel to cells, if requested; see read_cell_rows()
+  std::set<std::string> texts = {};
+  bool complete = false;  ///< no row is missing: the digests match the stored sum
+
+  CellRows() = default;
+  CellRows(CellRows&&) = default;  // keeps the texts where they are
+  CellRows& operator=(CellRows&&) = default;
+  CellRows(const CellRows&) = delete;
+  CellRows& operator=(const CellRows&) = delete;
 };
 
+/// Contents of CellRows::records: none, or all without phases, counts, notes and sequence data.
+enum class WithRecords { no, yes };
+
 /// Reads the table cell. O(cells).
-CellRows read_cell_rows(Database& database);
+CellRows read_cell_rows(Database& database, WithRecords with = WithRecords::no);
 
 /// Visits every row of `table` (score, phase, count, note or section) whose cell exists, in order
 /// of writing, from its second column; then marks the damaged cells. O(rows).
@@ -50,6 +70,7 @@ void require_intact(const CellRows& rows, const std::filesystem::path& file);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
 std::string label_of(const CellRecord& cell);
+std::string label_of(const CellRow& cell);
 
 /// Indices in `rows.cells` of the cells of the current config, in sweep order.
 std::vector<std::size_t> in_order(const CellRows& rows);

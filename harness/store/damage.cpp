@@ -29,31 +29,6 @@ bool all_intact(const SequenceRows& sequences) {
                              [](const auto& entry) { return entry.second.intact; });
 }
 
-CheckedStore look(Database& database, bool traces) {
-  CheckedStore out;
-  out.cells = read_cell_rows(database);
-  for (const char* table : {"score", "phase", "count", "note", "section"}) {
-    read_details(database, table, out.cells);
-  }
-  out.sequences = read_sequence_rows(database);
-  if (traces) {
-    read_details(database, "trace", out.cells);
-    check_sequence_traces(database, out.sequences);
-  }
-  const bool lost = !out.sequences.complete || !all_intact(out.sequences);
-  for (CellRow& cell : out.cells.cells) {
-    const auto sequence = out.sequences.by_key.find(cell.sequence_key);
-    if (sequence != out.sequences.by_key.end()) {
-      if (!sequence->second.intact) cell.intact = false;
-      continue;
-    }
-    // Only a failed cell can have none, because its sequence could not be loaded.
-    const auto status = from_text<Status>(cell.record.status);
-    if (lost && !(status && is_failure(*status))) cell.intact = false;
-  }
-  return out;
-}
-
 bool is_intact(const CheckedStore& found) {
   return found.cells.complete && found.sequences.complete &&
          std::ranges::all_of(found.cells.cells, &CellRow::intact) && all_intact(found.sequences);
@@ -82,14 +57,39 @@ void remove(Database& database, const CheckedStore& found) {
 
 }  // namespace
 
+CheckedStore check_rows(Database& database, bool traces) {
+  CheckedStore out;
+  out.cells = read_cell_rows(database);
+  for (const char* table : {"score", "phase", "count", "note", "section"}) {
+    read_details(database, table, out.cells);
+  }
+  out.sequences = read_sequence_rows(database);
+  if (traces) {
+    read_details(database, "trace", out.cells);
+    check_sequence_traces(database, out.sequences);
+  }
+  const bool lost = !out.sequences.complete || !all_intact(out.sequences);
+  for (CellRow& cell : out.cells.cells) {
+    const auto sequence = out.sequences.by_key.find(*cell.sequence_key);
+    if (sequence != out.sequences.by_key.end()) {
+      if (!sequence->second.intact) cell.intact = false;
+      continue;
+    }
+    // Only a failed cell can have none, because its sequence could not be loaded.
+    const auto status = from_text<Status>(*cell.status);
+    if (lost && !(status && is_failure(*status))) cell.intact = false;
+  }
+  return out;
+}
+
 CheckedStore remove_damaged(Database& database, const std::filesystem::path& file, bool traces) {
   require_intact_texts(database, "run", file);
   require_intact_texts(database, "provenance", file);
   if (traces) database.execute("REINDEX");
-  CheckedStore found = look(database, traces);
+  CheckedStore found = check_rows(database, traces);
   if (is_intact(found)) return found;
   remove(database, found);
-  CheckedStore out = look(database, traces);
+  CheckedStore out = check_rows(database, traces);
   if (!is_intact(out)) {
     throw InputError(
         file.string() +
@@ -97,7 +97,7 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
         "--fresh starts a new store");
   }
   for (const CellRow& cell : found.cells.cells) {
-    if (!cell.intact) out.removed.push_back(label_of(cell.record));
+    if (!cell.intact) out.removed.push_back(label_of(cell));
   }
   out.lost = !found.cells.complete;
   return out;
@@ -106,7 +106,7 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
 void require_intact_store(const std::filesystem::path& file) {
   Database database = open_store(file);
   for (const char* table : {"run", "provenance"}) require_intact_texts(database, table, file);
-  const CheckedStore found = look(database, true);
+  const CheckedStore found = check_rows(database, true);
   require_intact(found.sequences, file);
   require_intact(found.cells, file);
 }

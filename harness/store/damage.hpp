@@ -17,6 +17,10 @@ struct CheckedStore {
   bool lost = false;                 ///< further cells are missing completely
 };
 
+/// Compares all rows with their digests; the traces (nearly all of the file) only with `traces`.
+/// O(rows).
+CheckedStore check_rows(Database& database, bool traces);
+
 /// Removes every cell that is damaged, or whose sequence is; it counts as not run. Checks traces
 /// (nearly all of the file) and indexes only with `traces`. Call within a transaction. O(rows).
 /// Throws InputError if the damage is outside the cells.

@@ -21,6 +21,9 @@ class RowsDigest {
   /// 32 hexadecimal digits; empty without rows.
   std::string text() const { return any_ ? hex(state_) : ""; }
 
+  /// The number behind text(); zero without rows.
+  const Hash& value() const { return state_; }
+
  private:
   Hash state_;
   bool any_ = false;
@@ -28,13 +31,19 @@ class RowsDigest {
 
 /// Digest of the columns in [from, to) of one row, equal to that of a list of this row.
 std::string digest_of_columns(Statement& row, int from, int to);
+Hash digest_of_row(Statement& row, int from, int to);  ///< as a number
+
+/// The number of 32 lower-case hexadecimal digits; zero for any other text.
+Hash parsed_digest(std::string_view digest);
 
 /// Digest of rows in any order, updated row by row: the sum of their digests, 64 bits at a time
 /// (AdHash; Bellare and Micciancio 1997).
 class SumOfDigests {
  public:
-  /// `digest`: a text() of this class or of RowsDigest; any other text counts as zero.
-  void add(std::string_view digest);
+  /// `digest`: a text() of this class or of RowsDigest, or its number; any other text counts as
+  /// zero.
+  void add(std::string_view digest) { add(parsed_digest(digest)); }
+  void add(const Hash& digest);
   void remove(std::string_view digest);
   std::string text() const { return hex(sum_); }
 

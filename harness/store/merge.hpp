@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace loopbench::harness {
@@ -9,17 +10,30 @@ namespace loopbench::harness {
 struct Merged {
   std::size_t cells = 0;
   std::size_t duplicates = 0;  ///< duplicate cells that were skipped
+  std::size_t planned = 0;     ///< cells of the sweep; 0: unknown, because the plans differ
+  std::size_t missing = 0;     ///< of these, cells that no store has
+  std::vector<std::string> first_missing;     ///< labels of up to kListedMissing of them
+  std::vector<std::string> instruction_sets;  ///< of the processors that computed the cells
+  std::vector<std::string> missing_shards;  ///< "3/8": of divisions of which other shards are there
 };
 
-/// Writes the cells of all `stores` (those of their current configs) into the new store `out`; on
-/// error nothing is written. Skips a cell with the same key and labels as an earlier one, unless
-/// the earlier one failed and this one did not; two labels for the same key are both kept. Cells
-/// keep their positions where these are free. With `mixed_builds`, the build is added to the method
-/// label of a cell that another build also computed. Throws InputError if `out` exists, for cells
-/// of several builds, cells with equal labels but other differences, and sequences read from
+inline constexpr std::size_t kListedMissing = 10;
+
+struct MergeOptions {
+  bool mixed_builds = false;  ///< accept cells of several builds
+  bool add = false;           ///< keep the cells of an existing output store, and replace the file
+};
+
+/// Writes the cells of all `stores` (those of their current configs) into the new store `out`, one
+/// store after the other; on error nothing is written. Skips a cell with the same key and labels as
+/// an earlier one, unless the earlier one failed and this one did not; two labels for the same key
+/// are both kept. Cells keep their positions where these are free. With `mixed_builds`, the build
+/// is added to the method label of a cell that another build also computed. O(bytes), about 300
+/// bytes of memory per cell of the output. Throws InputError if `out` exists (without `add`), for
+/// cells of several builds, cells with equal labels but other differences, and sequences read from
 /// different files.
 Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
-                    bool mixed_builds);
+                    const MergeOptions& options = {});
 
 }  // namespace loopbench::harness

@@ -25,9 +25,9 @@ void add_lines(std::string& text, const std::string& more) {
 }
 
 /// "LABEL" or "LABEL (repeat N)".
-std::string sequence_label(const CellRecord& cell) {
-  return cell.repeat > 0 ? cell.sequence + " (repeat " + std::to_string(cell.repeat) + ")"
-                         : cell.sequence;
+std::string sequence_label(const CellRow& cell) {
+  return cell.repeat > 0 ? *cell.sequence + " (repeat " + std::to_string(cell.repeat) + ")"
+                         : *cell.sequence;
 }
 
 /// The common fields of all records of a cell.
@@ -89,10 +89,10 @@ void for_sequences(const std::filesystem::path& file, Add add) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const std::size_t i : in_order(rows)) {
     const CellRow& cell = rows.cells[i];
-    const auto found = sequences.by_key.find(cell.sequence_key);
+    const auto found = sequences.by_key.find(*cell.sequence_key);
     if (found == sequences.by_key.end()) continue;
-    const std::string label = sequence_label(cell.record);
-    if (seen.emplace(label, cell.sequence_key).second) add(label, found->second);
+    const std::string label = sequence_label(cell);
+    if (seen.emplace(label, *cell.sequence_key).second) add(label, found->second);
   }
 }
 
@@ -100,19 +100,19 @@ void for_sequences(const std::filesystem::path& file, Add add) {
 
 std::vector<Record> read_records(const std::filesystem::path& file) {
   Database database = open_store(file);
-  CellRows rows = read_cell_rows(database);
+  CellRows rows = read_cell_rows(database, WithRecords::yes);
   std::vector<std::vector<Record>> scores(rows.cells.size());
   read_details(database, "score", rows, [&](std::size_t cell, Statement& row) {
-    if (rows.cells[cell].placed) add_score(rows.cells[cell].record, row, scores[cell]);
+    if (rows.cells[cell].placed) add_score(rows.records[cell], row, scores[cell]);
   });
   require_intact(rows, store_file(file));
   const SequenceRows sequences = read_sequence_rows(database);
   require_intact(sequences, store_file(file));
   std::vector<Record> out;
   for (const std::size_t cell : in_order(rows)) {
-    const auto sequence = sequences.by_key.find(rows.cells[cell].sequence_key);
+    const auto sequence = sequences.by_key.find(*rows.cells[cell].sequence_key);
     // A declined or failed cell has no scores.
-    if (scores[cell].empty()) scores[cell].push_back(record_of(rows.cells[cell].record));
+    if (scores[cell].empty()) scores[cell].push_back(record_of(rows.records[cell]));
     for (Record& r : scores[cell]) {
       if (sequence == sequences.by_key.end()) break;
       r.content = sequence->second.content;
@@ -126,8 +126,8 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
 
 std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
-  CellRows rows = read_cell_rows(database);
-  const auto record = [&](std::size_t cell) -> CellRecord& { return rows.cells[cell].record; };
+  CellRows rows = read_cell_rows(database, WithRecords::yes);
+  const auto record = [&](std::size_t cell) -> CellRecord& { return rows.records[cell]; };
   read_details(database, "phase", rows, [&](std::size_t cell, Statement& row) {
     std::string name = row.text();
     record(cell).phases.push_back({std::move(name), row.real()});
@@ -145,7 +145,7 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   std::vector<CellRecord> out;
   for (const std::size_t cell : in_order(rows)) {
     out.push_back(std::move(record(cell)));
-    const auto found = sequences.by_key.find(rows.cells[cell].sequence_key);
+    const auto found = sequences.by_key.find(*rows.cells[cell].sequence_key);
     if (found == sequences.by_key.end()) continue;
     out.back().keyframes = found->second.keyframes;
     out.back().closure_count = found->second.closures;

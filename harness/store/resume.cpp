@@ -2,42 +2,14 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
 
+#include "harness/store/open.hpp"
 #include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-/// A cell in the store.
-struct Row {
-  std::int64_t id = 0;
-  std::int64_t position = -1;  ///< -1: none
-  std::string sequence;
-  std::int64_t repeat = 0;
-  std::string method;
-  Status status = Status::ok;
-  bool failed = false;  ///< the method, or one of its metrics
-  bool claimed = false;
-};
-
-using Rows = std::unordered_map<std::string, std::vector<Row>>;  // by key
-
-Rows rows_of(const CellRows& cells) {
-  Rows out;
-  for (const CellRow& cell : cells.cells) {
-    const CellRecord& c = cell.record;
-    const Status status = from_text<Status>(c.status).value_or(Status::failed);
-    out[c.key].push_back({cell.id,
-                          cell.placed ? c.position : -1,
-                          c.sequence,
-                          c.repeat,
-                          c.method,
-                          status,
-                          is_failure(status) || cell.failed_scores > 0});
-  }
-  return out;
-}
 
 using Inputs = std::vector<InputFile>;
 
@@ -56,43 +28,57 @@ Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, 
   return now;
 }
 
-/// The key of every cell with the current inputs.
-std::vector<std::string> keys_now(const SequenceRows& sequences,
-                                  CellKeys& keys,
-                                  const std::vector<Cell>& all) {
+/// CellRow::key of every cell with the current inputs.
+std::vector<Hash> keys_now(const SequenceRows& sequences,
+                           CellKeys& keys,
+                           const std::vector<Cell>& all) {
   std::map<std::string, std::vector<const SequenceRow*>> known;
   for (const auto& [key, row] : sequences.by_key) known[row.asked].push_back(&row);
   std::map<std::string, Inputs> inputs;
-  std::vector<std::string> out;
+  std::vector<Hash> out;
   out.reserve(all.size());
   for (const Cell& cell : all) {
     const std::string& asked = keys.asked(cell);
     const auto [entry, is_new] = inputs.try_emplace(asked);
     if (is_new) entry->second = inputs_now(known[asked], keys, cell);
-    out.push_back(keys.key(cell, entry->second));
+    out.push_back(hash_of(keys.key(cell, entry->second)));
   }
   return out;
 }
 
-bool same_labels(const Row& row, const Cell& cell, const Sweep& sweep) {
-  return row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
-         row.method == sweep.methods[cell.method].label;
+bool same_labels(const CellRow& row, const Cell& cell, const Sweep& sweep) {
+  return *row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
+         *row.method == sweep.methods[cell.method].label;
 }
 
-/// The row of each cell, or null. If two cells have the same key, the labels decide.
-std::vector<Row*> claim(Rows& rows,
-                        const std::vector<std::string>& keys,
-                        const std::vector<Cell>& all,
-                        const Sweep& sweep) {
-  std::vector<Row*> out(all.size(), nullptr);
+bool has_failed(const CellRow& row) {
+  return is_failure(from_text<Status>(*row.status).value_or(Status::failed)) ||
+         row.failed_scores > 0;
+}
+
+/// The intact row of each cell, or null. If two cells have the same key, the labels decide.
+std::vector<const CellRow*> claim(const CheckedStore& stored,
+                                  CellKeys& keys,
+                                  const std::vector<Cell>& all) {
+  const auto key_of = [](const CellRow* row) { return std::pair(row->key.low, row->key.high); };
+  std::vector<const CellRow*> rows;
+  for (const CellRow& row : stored.cells.cells) {
+    if (row.intact) rows.push_back(&row);
+  }
+  std::ranges::stable_sort(rows, {}, key_of);
+  const std::vector<Hash> wanted = keys_now(stored.sequences, keys, all);
+  std::vector<bool> is_claimed(rows.size(), false);
+  std::vector<const CellRow*> out(all.size(), nullptr);
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto found = rows.find(keys[i]);
-      if (out[i] != nullptr || found == rows.end()) continue;
-      for (Row& row : found->second) {
-        if (row.claimed || (exact && !same_labels(row, all[i], sweep))) continue;
-        row.claimed = true;
-        out[i] = &row;
+      if (out[i] != nullptr) continue;
+      const auto same =
+          std::ranges::equal_range(rows, std::pair(wanted[i].low, wanted[i].high), {}, key_of);
+      for (auto row = same.begin(); row != same.end(); ++row) {
+        const auto number = static_cast<std::size_t>(row - rows.begin());
+        if (is_claimed[number] || (exact && !same_labels(**row, all[i], keys.sweep()))) continue;
+        is_claimed[number] = true;
+        out[i] = *row;
         break;
       }
     }
@@ -109,9 +95,7 @@ Resumed match(Database& database,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  Rows rows = rows_of(stored_rows.cells);
-  const std::vector<Row*> claimed =
-      claim(rows, keys_now(stored_rows.sequences, keys, all), all, sweep);
+  const std::vector<const CellRow*> claimed = claim(stored_rows, keys, all);
   DigestWriter digests(database);
 
   Resumed out;
@@ -119,26 +103,26 @@ Resumed match(Database& database,
   out.lost = stored_rows.lost;
   out.unchanged = true;
   Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
-  for (const auto& [key, same_key] : rows) {
-    for (const Row& row : same_key) {
-      if (row.claimed || row.position < 0) continue;
-      set_aside.bind(row.id).run();
-      digests.update_cell(row.id);
-      out.unchanged = false;
-    }
+  std::vector<const CellRow*> in_use = claimed;
+  std::ranges::sort(in_use);
+  for (const CellRow& row : stored_rows.cells.cells) {
+    if (!row.placed || std::ranges::binary_search(in_use, &row)) continue;
+    set_aside.bind(row.id).run();
+    digests.update_cell(row.id);
+    out.unchanged = false;
   }
   Statement entry = database.prepare(
       "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
-  std::unordered_map<std::size_t, const Row*> by_position;
+  std::unordered_map<std::size_t, const CellRow*> by_position;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (claimed[i] == nullptr) {
       out.unchanged = false;
       continue;
     }
-    const Row& row = *claimed[i];
+    const CellRow& row = *claimed[i];
     by_position.emplace(all[i].index, &row);
     const auto position = static_cast<std::int64_t>(all[i].index);
-    if (row.position == position && same_labels(row, all[i], sweep)) continue;
+    if (row.placed && row.position == position && same_labels(row, all[i], sweep)) continue;
     out.unchanged = false;
     entry.bind(position)
         .bind(sweep.datasets[all[i].dataset].label)
@@ -151,16 +135,34 @@ Resumed match(Database& database,
   if (!out.unchanged) update_sum(database, "cell");
   for (const Cell& cell : planned) {
     const auto found = by_position.find(cell.index);
-    const Row* row = found == by_position.end() ? nullptr : found->second;
+    const CellRow* row = found == by_position.end() ? nullptr : found->second;
     const bool again =
-        row != nullptr && (retry == Retry::all || (retry == Retry::failed && row->failed));
+        row != nullptr && (retry == Retry::all || (retry == Retry::failed && has_failed(*row)));
     if (row == nullptr || again) {
       out.missing.push_back(cell);
       continue;
     }
     ++out.there;
-    if (row->failed) ++out.failed;
-    if (row->status == Status::incomplete) ++out.incomplete;
+    if (has_failed(*row)) ++out.failed;
+    if (*row->status == to_text(Status::incomplete)) ++out.incomplete;
+  }
+  return out;
+}
+
+std::vector<Cell> missing_cells(const std::filesystem::path& store,
+                                CellKeys& keys,
+                                const std::vector<Cell>& all,
+                                const std::vector<Cell>& planned) {
+  Database database = open_store(store);
+  const CheckedStore there = check_rows(database, false);
+  const std::vector<const CellRow*> claimed = claim(there, keys, all);
+  std::set<std::size_t> missing;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (claimed[i] == nullptr) missing.insert(all[i].index);
+  }
+  std::vector<Cell> out;
+  for (const Cell& cell : planned) {
+    if (missing.contains(cell.index)) out.push_back(cell);
   }
   return out;
 }

@@ -16,4 +16,11 @@ Resumed match(Database& database,
               const std::vector<Cell>& planned,
               Retry retry);
 
+/// The planned cells without an intact result in a store, which is not changed. Throws InputError
+/// if it is not a store. O(cells + bytes of input).
+std::vector<Cell> missing_cells(const std::filesystem::path& store,
+                                CellKeys& keys,
+                                const std::vector<Cell>& all,
+                                const std::vector<Cell>& planned);
+
 }  // namespace loopbench::harness

@@ -86,7 +86,7 @@ Found write_view(const PageFile& damaged, const PageView& view, const std::files
       "trace) WHERE cell NOT IN (SELECT id FROM cell)");
   const CellRows rows = read_cell_rows(database);
   out.complete = rows.complete;
-  for (const CellRow& cell : rows.cells) out.cells.emplace(cell.id, label_of(cell.record));
+  for (const CellRow& cell : rows.cells) out.cells.emplace(cell.id, label_of(cell));
   check_texts(database);
   out.traces = remove_damaged_traces(database);
   remove_damaged(database, file, true);

@@ -8,6 +8,7 @@
 #include "harness/store/damage.hpp"
 #include "harness/store/made_key.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/write_digests.hpp"
 
@@ -106,14 +107,16 @@ void write_run(Database& database, const CellKeys& keys) {
   update_texts(database, "run");
 }
 
+bool has_value(Database& database, const std::string& key, const std::string& text) {
+  Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
+  return row.bind(key).step() && row.text() == text;
+}
+
 /// Whether the stored description of the run is current: a default in the code can have changed.
 bool is_run_current(Database& database, const CellKeys& keys) {
-  const auto is = [&](const std::string& key, const std::string& text) {
-    Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
-    return row.bind(key).step() && row.text() == text;
-  };
-  return is("config", keys.sweep().text) && is("metrics", keys.metric_definitions()) &&
-         is("methods", keys.method_definitions());
+  return has_value(database, "config", keys.sweep().text) &&
+         has_value(database, "metrics", keys.metric_definitions()) &&
+         has_value(database, "methods", keys.method_definitions());
 }
 
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
@@ -174,14 +177,27 @@ void Store::create() {
   make_ready(*database_);
   Transaction transaction(*database_);
   create_tables(*database_);
-  write_run(*database_, keys_);
+  write_description();
   update_texts(*database_, "provenance");
   update_sum(*database_, "cell");
   update_sum(*database_, "sequence");
   transaction.commit();
 }
 
+void Store::write_description() {
+  Statement insert = database_->prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
+  if (!plan_.empty()) insert.bind("plan").bind(plan_).run();
+  if (!shard_.empty()) insert.bind("shard").bind(shard_).run();
+  write_run(*database_, keys_);
+}
+
+bool Store::is_description_current() {
+  return is_run_current(*database_, keys_) && has_value(*database_, "plan", plan_) &&
+         (shard_.empty() || has_value(*database_, "shard", shard_));
+}
+
 Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry) {
+  plan_ = plan_text(keys_.sweep(), all);
   if (!database_) {
     Resumed nothing;
     nothing.missing = planned;
@@ -190,7 +206,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   Transaction transaction(*database_);
   const CheckedStore there = remove_damaged(*database_, file_, retry == Retry::damaged);
   Resumed out = match(*database_, there, keys_, all, planned, retry);
-  out.unchanged = out.unchanged && is_run_current(*database_, keys_);
+  out.unchanged = out.unchanged && is_description_current();
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
@@ -198,7 +214,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
-    write_run(*database_, keys_);
+    write_description();
   }
   transaction.commit();
   return out;

@@ -70,6 +70,10 @@ class Store {
   /// --only. O(cells + bytes of input).
   Resumed resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry);
 
+  /// Records that this store holds one shard of a sweep: "3/8 DIVISION", see division_hash(). Call
+  /// before resume().
+  void set_shard(const std::string& shard) { shard_ = shard; }
+
   /// Writes a cell in one transaction; replaces the cell at its position. Throws InputError, for
   /// example if the disk is full.
   void write(const CellResult& result);
@@ -85,11 +89,15 @@ class Store {
 
   void create();
   void changes();
+  void write_description();
+  bool is_description_current();
 
   std::filesystem::path file_;
   CellKeys& keys_;
   std::map<std::string, std::string> provenance_;
   bool fresh_;
+  std::string plan_;    ///< plan_text(); empty: unknown
+  std::string shard_;   ///< empty: not a shard
   bool empty_ = false;  ///< the file exists, but without tables
   std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
   std::unique_ptr<FolderLock> lock_;  // released after the database is closed

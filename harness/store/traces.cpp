@@ -38,8 +38,7 @@ Traces::Traces(const std::filesystem::path& file)
   require_intact(rows_, file_);
   require_intact(sequences_, file_);
   database_.execute("COMMIT");  // a report takes long and must not block writers
-  for (const std::size_t i : in_order(rows_))
-    by_position_.emplace(rows_.cells[i].record.position, i);
+  for (const std::size_t i : in_order(rows_)) by_position_.emplace(rows_.cells[i].position, i);
 }
 
 const CellRow* Traces::row(std::int64_t position) const {
@@ -50,11 +49,11 @@ const CellRow* Traces::row(std::int64_t position) const {
 std::optional<CellTrace> Traces::cell(std::int64_t position) {
   const CellRow* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  if (cell->details[detail_number("trace")].empty()) return std::nullopt;
+  if (cell->details[detail_number("trace")] == Hash{}) return std::nullopt;
   Statement found = database_.prepare("SELECT * FROM trace WHERE cell = ?");
   if (!found.bind(cell->id).step() ||
-      digest_of_columns(found, 1, found.columns()) != cell->details[detail_number("trace")]) {
-    throw_damaged(file_, "the trace of " + label_of(cell->record) + " is");
+      digest_of_row(found, 1, found.columns()) != cell->details[detail_number("trace")]) {
+    throw_damaged(file_, "the trace of " + label_of(*cell) + " is");
   }
   CellTrace out;
   found.integer();  // cell
@@ -71,13 +70,13 @@ std::vector<methods::Section> Traces::sections(std::int64_t position) {
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   const CellRow* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  const auto sequence = sequences_.by_key.find(cell->sequence_key);
+  const auto sequence = sequences_.by_key.find(*cell->sequence_key);
   if (sequence == sequences_.by_key.end()) return std::nullopt;
   if (sequence->second.trace_digest.empty()) return std::nullopt;
   Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?");
-  if (!found.bind(cell->sequence_key).step() ||
+  if (!found.bind(*cell->sequence_key).step() ||
       digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
-    throw_damaged(file_, "the trace of sequence " + cell->record.sequence + " is");
+    throw_damaged(file_, "the trace of sequence " + *cell->sequence + " is");
   }
   SequenceTrace out;
   found.text();  // sequence_key

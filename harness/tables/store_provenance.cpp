@@ -22,6 +22,11 @@ void add_entry(std::vector<std::string>& out, const std::string& key, const std:
   for (const std::string& line : lines) out.push_back("  " + line);
 }
 
+/// Rows of the table run that describe the state of the store, not its contents.
+bool is_internal(const std::string& key) {
+  return key == "exported" || key == "plan" || key == "shard";
+}
+
 std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
   std::vector<std::string> out;
   for (const auto& [key, value] : provenance.provenance) add_entry(out, key, value);
@@ -33,7 +38,7 @@ std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
     add_entry(out, "read for " + sequence, text);
   }
   for (const auto& [key, value] : provenance.run) {
-    if (key != "exported") add_entry(out, key, value);
+    if (!is_internal(key)) add_entry(out, key, value);
   }
   return out;
 }
@@ -48,7 +53,7 @@ ProvenanceJson json_of(const StoreProvenance& provenance) {
     inputs[sequence] = std::move(list);
   }
   std::map<std::string, std::string> run = provenance.run;
-  run.erase("exported");
+  std::erase_if(run, [](const auto& entry) { return is_internal(entry.first); });
   return {{"run", run}, {"provenance", provenance.provenance}, {"inputs", std::move(inputs)}};
 }
 

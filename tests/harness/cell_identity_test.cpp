@@ -54,8 +54,8 @@ TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMerge) {
       config("straight, {method: shift, label: one}, {method: shift, label: two}");
   run(twins);
   const std::filesystem::path out = folder_.path() / "merged.sqlite";
-  EXPECT_EQ(merge_stores({file_}, out, false).cells, 6u);
-  const Merged again = merge_stores({file_, out}, folder_.path() / "again.sqlite", false);
+  EXPECT_EQ(merge_stores({file_}, out).cells, 6u);
+  const Merged again = merge_stores({file_, out}, folder_.path() / "again.sqlite");
   EXPECT_EQ(again.cells, 6u);
   EXPECT_EQ(again.duplicates, 6u);
   file_ = folder_.path() / "again.sqlite";
@@ -69,7 +69,7 @@ TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMergeOfTheirStores) {
   const std::filesystem::path two = file_ = folder_.path() / "2.sqlite";
   run(config("straight, {method: shift, label: two}"));
   file_ = folder_.path() / "merged.sqlite";
-  EXPECT_EQ(merge_stores({one, two}, file_, false).duplicates, 2u);
+  EXPECT_EQ(merge_stores({one, two}, file_).duplicates, 2u);
   EXPECT_EQ(methods_of("b"), (Labels{"straight", "one", "two"}));
 }
 

@@ -170,11 +170,11 @@ TEST_F(Damage, ADamagedStoreIsNotMerged) {
   run(kUsual);
   change("UPDATE trace SET samples = zeroblob(length(samples)) WHERE cell = 1");
   const std::filesystem::path out = folder_.path() / "merged.sqlite";
-  EXPECT_THROW(merge_stores({file_}, out, false), InputError);
+  EXPECT_THROW(merge_stores({file_}, out), InputError);
   EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_EQ(run(kUsual).cells, Labels{}) << "traces are checked on request only";
   EXPECT_EQ(run(kUsual, Retry::damaged).cells, Labels{"a / straight"});
-  EXPECT_EQ(merge_stores({file_}, out, false).cells, 4u);
+  EXPECT_EQ(merge_stores({file_}, out).cells, 4u);
 }
 
 TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {

@@ -23,11 +23,11 @@ TEST_F(MergeTest, MergedHalvesAreTheWhole) {
   file_ = parts[1];
   run(kUsual, Retry::none, "b / ");
   const std::filesystem::path out = folder_.path() / "merged" / "results.sqlite";
-  const Merged merged = merge_stores({parts[1], parts[0]}, out, false);
+  const Merged merged = merge_stores({parts[1], parts[0]}, out);
   EXPECT_EQ(merged.cells, 4u);
   EXPECT_EQ(merged.duplicates, 1u);
   EXPECT_EQ(store_text(out), complete);
-  EXPECT_THROW(merge_stores({parts[0], parts[1]}, out, false), InputError) << "it is there";
+  EXPECT_THROW(merge_stores({parts[0], parts[1]}, out), InputError) << "it is there";
   file_ = out;
   EXPECT_EQ(run(kUsual).cells, Labels{}) << "and goes on like any other";
 }
@@ -48,7 +48,7 @@ TEST_F(MergeTest, PrefersWhatDidNotFail) {
   file_ = folder_.path() / "2.sqlite";
   run(kUsual, Retry::none, "a / ");
   const std::filesystem::path out = folder_.path() / "3.sqlite";
-  merge_stores({folder_.path() / "1.sqlite", file_}, out, false);
+  merge_stores({folder_.path() / "1.sqlite", file_}, out);
   for (const CellRecord& cell : read_cells(out)) EXPECT_EQ(cell.status, "ok");
   EXPECT_EQ(read_cells(out).size(), 2u);
 }
@@ -62,10 +62,10 @@ TEST_F(MergeTest, RefusesWhatDoesNotBelongTogether) {
   build_ = "build two";
   run(kUsual);
   const std::filesystem::path out = folder_.path() / "out.sqlite";
-  EXPECT_THROW(merge_stores({one, other_options}, out, false), InputError);
-  EXPECT_THROW(merge_stores({one, other_build}, out, false), InputError);
+  EXPECT_THROW(merge_stores({one, other_options}, out), InputError);
+  EXPECT_THROW(merge_stores({one, other_build}, out), InputError);
   EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_EQ(merge_stores({one, other_build}, out, true).cells, 8u);
+  EXPECT_EQ(merge_stores({one, other_build}, out, {.mixed_builds = true, .add = false}).cells, 8u);
   Labels methods;
   for (const CellRecord& cell : read_cells(out)) {
     if (cell.sequence == "a") methods.push_back(cell.method);

@@ -173,7 +173,7 @@ TEST_F(Faults, MergeAndSalvageOnADiskThatFailsOnceAreCompleteOrAbsent) {
     EXPECT_TRUE(store_text(file_) == expected);
   };
   in_turn(
-      disk, 7, [&] { merge_stores({file_}, target, false); }, check);
+      disk, 7, [&] { merge_stores({file_}, target); }, check);
   in_turn(
       disk, 7, [&] { salvage_store(file_, target); }, check);
 }
