@@ -56,10 +56,11 @@ set(order
 
   "harness/text harness/statistics"
   "harness/model"
+  "harness/execution/sandbox"
   "harness/oracle harness/external"
   "harness/catalogue"
   "harness/config harness/provenance"
-  "harness/execution/run harness/execution/sandbox"
+  "harness/execution/run"
   "harness/execution/isolate"
   "harness/execution/verify harness/store"
   "harness/compare"

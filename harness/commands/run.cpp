@@ -19,6 +19,7 @@
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/store/store.hpp"
@@ -122,10 +123,8 @@ int run(const RunArguments& arguments, const Source& source) {
     set_estimate_folder(out / "trajectories");
     sandbox.writable.push_back(out / "trajectories");
   }
-  if (uses_programs(sweep)) {
-    sandbox.writable.push_back(std::filesystem::temp_directory_path());
-    sandbox.pid_namespace = false;  // serving programs outlive cells, and are spared by number
-  }
+  sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
+  set_dataset_sandbox({sandbox.enabled, false, {out}, {}});
   made["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
   const Resumed resumed =

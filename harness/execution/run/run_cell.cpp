@@ -101,7 +101,8 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     last = timed_run(method, problem);
     if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
     check_report(last.report);
-    if (run == 0 && is_freshly_forked() && last.seconds < kShortRun) {
+    const bool is_first = run == 0 && is_freshly_forked() && !uses_exchange(last.report);
+    if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
       last.seconds = warm.seconds;
       last.cpu_seconds = warm.cpu_seconds;
