@@ -32,7 +32,7 @@ set(order
 
   "methods/report"
   "methods/method"
-  "methods/plugin methods/pipeline"
+  "methods/pipeline"
   "methods/smoothers/parts methods/smoothers/stretches methods/smoothers/penalised"
   "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"
   "methods/smoothers/manifold/frame"
@@ -57,7 +57,7 @@ set(order
   "harness/text harness/statistics"
   "harness/model"
   "harness/execution/sandbox"
-  "harness/oracle harness/external"
+  "harness/oracle harness/external harness/plugin"
   "harness/catalogue"
   "harness/config harness/provenance"
   "harness/execution/run"

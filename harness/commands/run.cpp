@@ -98,7 +98,8 @@ void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
 }
 
 int run(const RunArguments& arguments, const Source& source) {
-  const Catalogue known = catalogue(arguments.plugins);
+  const Catalogue known =
+      catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
@@ -236,7 +237,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("DIR");
   command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
-  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
+  command
+      ->add_option(
+          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command
       ->add_option("--retry",

@@ -24,7 +24,8 @@ struct VerifyArguments {
 };
 
 int run_verify(const VerifyArguments& arguments) {
-  const Catalogue known = catalogue(arguments.plugins);
+  const Catalogue known =
+      catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   sweep.timing = 1;  // times are not compared
   sweep.serial = false;
@@ -81,7 +82,9 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
-  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
+  command
+      ->add_option(
+          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command->callback([arguments, &exit_code] { exit_code = run_verify(*arguments); });
 }

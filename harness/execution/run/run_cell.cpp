@@ -137,7 +137,9 @@ void score(CellResult& result,
   row.coverage = evaluation.coverage;
   catch_errors(row, [&] {
     const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    for (metrics::Score& score : metric.score(evaluation, choice.metric.options)) {
+    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
+    check_scores(scores);
+    for (metrics::Score& score : scores) {
       result.scores.push_back(row);
       ScoreResult& added = result.scores.back();
       if (!score.why_undefined.empty()) {
