@@ -17,6 +17,8 @@ lint_packages=(clang-format clang-tidy shellcheck)
 package_packages=(dpkg-dev file lintian debootstrap)
 test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
   python3-numpy python3-scipy)
+# Programs that configs/external compares with; no script installs them.
+external_packages=(mrpt-apps)
 
 install_missing() {
   local package status missing=()
