@@ -53,7 +53,8 @@ std::vector<Vector3> positions(const Trajectory& poses, const Drawn& span) {
 }
 
 /// Breaks a line where it leaves the box of the reference by more than the margin.
-std::vector<Vector3> cut(std::vector<Vector3> points, const std::vector<Vector3>& reference) {
+std::vector<Vector3> near_reference(std::vector<Vector3> points,
+                                    const std::vector<Vector3>& reference) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = -low;
   for (const Vector3& p : reference) {
@@ -72,9 +73,10 @@ PlotPanel panel(const PaperCell& ours, const PaperCell& raw, const Drawn& span, 
   PlotPanel out;
   out.spatial = spatial;
   const std::vector<Vector3> truth = positions(raw.dense.reference, span);
-  out.series = {{"truth", kRed, false, truth, 3.5},
-                {"ORB_SLAM2", kGreen, false, cut(positions(raw.dense.estimate, span), truth), 2.0},
-                {"ours", kBlue, false, cut(positions(ours.dense.estimate, span), truth), 1.0}};
+  out.series = {
+      {"truth", kRed, false, truth, 3.5},
+      {"ORB_SLAM2", kGreen, false, near_reference(positions(raw.dense.estimate, span), truth), 2.0},
+      {"ours", kBlue, false, near_reference(positions(ours.dense.estimate, span), truth), 1.0}};
   if (std::isfinite(span.begin)) {
     out.same_scale = false;  // centimetres across, metres along
     out.series.push_back({"keyframes", kGreen, true, positions(raw.keyframes, span)});

@@ -4,17 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "harness/article/ledger.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
+#include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 using methods::manifold::Nodes;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+using metrics::kDegrees;
 
 /// Number of tenths of the time in which ours has the lower rmse.
 int better_tenths(const metrics::Evaluation& ours, const metrics::Evaluation& raw) {

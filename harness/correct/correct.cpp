@@ -97,7 +97,7 @@ std::vector<double> output_stamps(const CorrectArguments& a,
   } else if (a.dense) {
     for (const StampedPose& frame : problem.frames) wanted.push_back(frame.stamp);
     std::ranges::sort(wanted);
-    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   }
   const std::size_t all = wanted.size();
   std::erase_if(wanted, [&](double t) { return t < curve.start() || t > curve.end(); });
