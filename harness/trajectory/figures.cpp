@@ -128,7 +128,7 @@ void write_trajectory_figure(const std::filesystem::path& file,
                              const std::vector<NamedTrajectory>& all,
                              const std::optional<NamedTrajectory>& reference) {
   check_figure_name(file);
-  write_figure(file, trajectory_panels(all, reference), 4, {4.5, 3.6, 9.0});
+  write_figure(file, trajectory_panels(all, reference), 4, {4.5, 3.6, 9.0, true});
 }
 
 }  // namespace loopbench::harness
