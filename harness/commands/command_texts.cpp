@@ -33,7 +33,7 @@ std::string placeholder(const std::string& type) {
 }
 
 /// Without the brackets that CLI11 prints around lists.
-std::string default_text(std::string text) {
+std::string default_text(const std::string& text) {
   const bool is_list = text.starts_with('[') && text.ends_with(']');
   return is_list ? text.substr(1, text.size() - 2) : text;
 }
