@@ -15,6 +15,7 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
@@ -146,6 +147,7 @@ int run(const RunArguments& arguments, const Source& source) {
   if (!missing.empty()) {
     Progress progress(missing.size());
     const std::vector<InputFile> no_inputs;
+    CellNotes notes;
     const auto finished = [&](const CellResult& r) {
       if (r.status == Status::interrupted) {
         ++abandoned;
@@ -156,6 +158,7 @@ int run(const RunArguments& arguments, const Source& source) {
       ++done;
       if (has_failure(r)) ++failed;
       if (r.status == Status::incomplete) ++incomplete;
+      notes.add(sweep.methods[r.cell.method].label, r);
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
     };
@@ -166,6 +169,7 @@ int run(const RunArguments& arguments, const Source& source) {
     } else {
       run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
     }
+    for (const std::string& line : notes.lines()) print_error("{}\n", printable(line));
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 

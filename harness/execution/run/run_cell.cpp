@@ -8,6 +8,7 @@
 
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/method_guard.hpp"
@@ -260,6 +261,11 @@ CellResult run_cell(const Cell& cell,
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
+    const std::string unmoved = movement_note(sequence.problem,
+                                              curve->sample(stamps(sequence.problem.keyframes)),
+                                              result.report,
+                                              uses_closures(choice, catalogue));
+    if (!unmoved.empty()) result.report.notes.push_back(unmoved);
     save_estimate(cell, sweep, sequence, *curve);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
