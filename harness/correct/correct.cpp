@@ -19,20 +19,12 @@ namespace {
 
 bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
 
-YamlNode text_node(const std::string& text) {
-  YamlNode out;
-  out.type = YamlNode::Type::scalar;
-  out.scalar = text;
-  out.text = text;
-  return out;
-}
-
 /// The entry that a config would have for these files.
 YamlNode dataset_entry(const CorrectArguments& a, bool graph) {
   YamlNode out;
   out.type = YamlNode::Type::map;
   const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) out.map.push_back({key, text_node(value)});
+    if (!value.empty()) out.map.push_back({key, scalar_node(value)});
   };
   add("dataset", graph ? "pose_graph" : "trajectory");
   add(graph ? "path" : "estimate", a.estimate);

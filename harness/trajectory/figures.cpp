@@ -6,14 +6,15 @@
 #include <array>
 #include <limits>
 
+#include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
+#include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostDrawn = 2000;  // points per curve; more are not visible
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
 
 struct DrawnTrajectory {
   std::string name;
@@ -34,18 +35,11 @@ PlotSeries series_of(const DrawnTrajectory& drawn,
 
 /// Plane with axes a and b; a == b: space.
 PlotPanel map_panel(const std::vector<DrawnTrajectory>& all, int a, int b) {
-  constexpr std::array kAxes{"x [m]", "y [m]", "z [m]"};
-  PlotPanel out;
-  out.spatial = a == b;
-  if (!out.spatial) {
-    out.x_label = kAxes[static_cast<std::size_t>(a)];
-    out.y_label = kAxes[static_cast<std::size_t>(b)];
-  }
+  PlotPanel out = empty_map(a, b);
   for (const DrawnTrajectory& drawn : all) {
     std::vector<Vector3> points;
     for (const StampedPose& pose : drawn.poses) {
-      const Vector3& p = pose.world_from_body.translation;
-      points.push_back(out.spatial ? p : Vector3(p[a], p[b], 0.0));
+      points.push_back(on_map(pose.world_from_body.translation, a, b));
     }
     out.series.push_back(series_of(drawn, points, true));
     for (const PlotMark mark : {PlotMark::start, PlotMark::end}) {
@@ -101,17 +95,17 @@ std::vector<PlotPanel> trajectory_panels(const std::vector<NamedTrajectory>& all
                              map_panel(drawn, 0, 2),
                              map_panel(drawn, 1, 2),
                              map_panel(drawn, 0, 0)};
-  constexpr std::array kAxes{"x [m]", "y [m]", "z [m]"};
   constexpr std::array kAngles{"roll [deg]", "pitch [deg]", "yaw [deg]"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    out.push_back(time_panel(drawn, origin, kAxes[axis], [&](const Trajectory& poses, auto i) {
-      return poses[i].world_from_body.translation[static_cast<Eigen::Index>(axis)];
-    }));
+    out.push_back(
+        time_panel(drawn, origin, kAxisLabels[axis], [&](const Trajectory& poses, auto i) {
+          return poses[i].world_from_body.translation[static_cast<Eigen::Index>(axis)];
+        }));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.push_back(time_panel(drawn, origin, kAngles[axis], [&](const Trajectory& poses, auto i) {
       const auto angles = metrics::euler(poses[i].world_from_body.rotation);
-      return kDegreesPerRadian * std::array{angles.roll, angles.pitch, angles.yaw}[axis];
+      return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis];
     }));
   }
   out.push_back(time_panel(drawn, origin, "speed [m/s]", speed_at));
