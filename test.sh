@@ -59,6 +59,7 @@ for preset in "$@"; do
     loopbench=build/release/loopbench checked=build/release/check
     $loopbench run configs/quickstart.yaml --out $checked >/dev/null
     $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
+    tests/documented_outputs.sh $loopbench . $checked
   fi
 done
 [[ $* == "tsan debug release" || $* == "lint tsan debug release" ]] && counts+=("slurm: skipped, run ./test.sh slurm")

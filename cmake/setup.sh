@@ -18,6 +18,8 @@ slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
 package_packages=(dpkg-dev file lintian debootstrap)
 test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
   python3-numpy python3-scipy)
+# Programs that configs/external compares with; no script installs them.
+external_packages=(mrpt-apps)
 
 install_missing() {
   local package status missing=()

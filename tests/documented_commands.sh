@@ -14,6 +14,7 @@ while IFS= read -r hit; do
   line=${line%%'`'*}                     # the end of inline code
   line=${line%%  \#*}                    # a comment after the command
   line=${line%% | *}
+  line=${line%% -->}                     # the end of a comment of documented_outputs.sh
   read -ra words <<<"${line//[\'\"]/}"    # quotes do not matter here: only words are compared
   command=${words[0]:-}
   [[ $command =~ ^[a-z]+$ ]] || continue # './run.sh' alone, or options only

@@ -32,7 +32,7 @@ set(order
 
   "methods/report"
   "methods/method"
-  "methods/plugin methods/pipeline"
+  "methods/pipeline"
   "methods/smoothers/parts methods/smoothers/stretches methods/smoothers/penalised"
   "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"
   "methods/smoothers/manifold/frame"
@@ -56,10 +56,11 @@ set(order
 
   "harness/text harness/statistics"
   "harness/model"
-  "harness/oracle harness/external"
+  "harness/execution/sandbox"
+  "harness/oracle harness/external harness/plugin"
   "harness/catalogue"
   "harness/config harness/provenance"
-  "harness/execution/run harness/execution/sandbox"
+  "harness/execution/run"
   "harness/execution/isolate"
   "harness/execution/verify harness/store"
   "harness/compare harness/shards"

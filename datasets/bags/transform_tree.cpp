@@ -25,8 +25,11 @@ void TransformTree::finish() {
   for (auto& [child, link] : links_) {
     if (link.is_static) continue;
     std::ranges::stable_sort(link.samples, {}, &PoseMessage::nanoseconds);
-    const auto repeated = std::ranges::unique(link.samples, {}, &PoseMessage::nanoseconds);
-    link.samples.erase(repeated.begin(), repeated.end());
+    const auto same_stamp = [](const PoseMessage& a, const PoseMessage& b) {
+      return a.nanoseconds == b.nanoseconds;
+    };
+    link.samples.erase(std::unique(link.samples.begin(), link.samples.end(), same_stamp),
+                       link.samples.end());
   }
 }
 

@@ -64,7 +64,7 @@ OpenedFile in_memory(const std::string& name, const std::string& content) {
   return {name, "/proc/self/fd/" + std::to_string(file), content.size(), handle};
 }
 
-OpenedFile expanded(const std::string& name, std::string content, std::size_t limit) {
+OpenedFile expanded(const std::string& name, const std::string& content, std::size_t limit) {
   const std::optional<Codec> codec = codec_of(content);
   if (!codec) return in_memory(name, content);
   try {

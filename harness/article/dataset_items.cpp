@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "harness/article/ledger.hpp"
 #include "harness/article/true_keyframes.hpp"
+#include "methods/smoothers/manifold/fit_axes.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
+#include "methods/smoothers/manifold/up.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -49,6 +52,54 @@ bool is_within(double ours, double printed, double tolerance) {
   return std::abs(ours / printed - 1.0) <= tolerance;
 }
 
+/// Angles of three candidates for "up" to the vertical of the reference [deg].
+struct Tilts {
+  double file, gravity, least_variance;
+};
+
+Tilts tilts(const PaperCell& run) {
+  const auto from_vertical = [](const Vector3& axis) {
+    return 180.0 / std::numbers::pi * std::acos(std::min(1.0, std::abs(axis.z())));
+  };
+  const Rotation level = methods::manifold::level_axes(run.keyframes);
+  return {from_vertical(run.dense.alignment.reference_from_estimate.rotation * Vector3::UnitZ()),
+          from_vertical(level.conjugate() * Vector3::UnitZ()),
+          from_vertical(
+              methods::manifold::up_axis(run.keyframes, methods::manifold::UpDirection::pca))};
+}
+
+LedgerItem axes_item(const std::string& where, const std::vector<const PaperCell*>& runs) {
+  Tilts low{180.0, 180.0, 180.0}, high{0.0, 0.0, 0.0};
+  for (const PaperCell* run : runs) {
+    const Tilts each = tilts(*run);
+    low = {std::min(low.file, each.file),
+           std::min(low.gravity, each.gravity),
+           std::min(low.least_variance, each.least_variance)};
+    high = {std::max(high.file, each.file),
+            std::max(high.gravity, each.gravity),
+            std::max(high.least_variance, each.least_variance)};
+  }
+  const Tilts ours = tilts(*runs.front());
+  return {
+      where,
+      "axes of curves and errors: not stated",
+      fmt::format("the printed quadric of fr1_room has the constant 1.421, a height of its "
+                  "reference (see equation 8), so we read the reference's axes. Their vertical "
+                  "lies {:.1f} deg from z of the estimate's file, {:.1f} deg from the estimated "
+                  "gravity, {:.1f} deg from the axis of least variance",
+                  ours.file,
+                  ours.gravity,
+                  ours.least_variance),
+      fmt::format("{:.1f} to {:.1f}, {:.1f} to {:.1f}, {:.1f} to {:.1f} deg",
+                  low.file,
+                  high.file,
+                  low.gravity,
+                  high.gravity,
+                  low.least_variance,
+                  high.least_variance),
+      Verdict::cannot_be_judged};
+}
+
 Verdict when(bool holds) { return holds ? Verdict::holds : Verdict::does_not_hold; }
 
 }  // namespace
@@ -85,6 +136,7 @@ std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
                      path_length(raw.dense.reference)),
          "",
          when(is_within(length, facts.length, 0.05))});
+    out.push_back(axes_item(where, runs));
     double low = estimated.low, high = estimated.high;
     for (const PaperCell* run : runs) {
       if (run->input.find("mono") != std::string::npos) continue;  // no metric speed

@@ -44,13 +44,19 @@ std::vector<LedgerItem> coefficient_items(const std::vector<PaperCell>& cells);
 /// fitted, and the rms distance to the reference between the keyframes is computed.
 std::vector<LedgerItem> segment_items(const std::vector<PaperCell>& cells);
 
-/// Claims on the complete trajectory: level, areas, smoothness, cumulative error, time, psi.
+/// Claims on the complete trajectory in the reading `text`: level, areas, smoothness, cumulative
+/// error, time, psi, and what the motion error depends on.
 std::vector<LedgerItem> trajectory_items(const std::vector<PaperCell>& cells);
+
+/// Level, areas, smoothness and cumulative error of the reading `guarded` and of the natural
+/// spline.
+std::vector<LedgerItem> own_reading_items(const std::vector<PaperCell>& cells);
 
 /// A Markdown table.
 std::string ledger_table(const std::vector<LedgerItem>& items);
 
-/// The number of items per section and verdict, then all items under headings.
+/// The number of items per section and verdict, the rules of the verdicts, then all items under
+/// headings.
 std::string ledger(const std::vector<PaperCell>& cells);
 
 }  // namespace loopbench::harness

@@ -103,7 +103,7 @@ std::string page_name(const Sweep& sweep) {
 
 bool needs_dense(const PaperCell& cell) {
   if (cell.is_baseline()) return true;
-  return cell.reading == "text" || cell.reading == "guarded";
+  return cell.reading == "text" || cell.reading == "guarded" || cell.reading == kNaturalSpline;
 }
 
 std::vector<std::filesystem::path> write_pages(const std::vector<PaperConfig>& configs,
@@ -121,13 +121,22 @@ std::vector<std::filesystem::path> write_pages(const std::vector<PaperConfig>& c
     pooled.insert(pooled.end(), config.cells.begin(), config.cells.end());
   }
   if (!pooled.empty()) {
-    page("tables.md", "# Tables 1 to 4\n\nFrom" + sources + ".\n" + paper_tables(pooled));
+    page("tables.md",
+         "# Tables 1 to 4\n\nErrors along one axis of the reference at the keyframes of the closed "
+         "run, after a rigid fit; RPE over one keyframe; densely: at the stamps of the reference. "
+         "The readings are explained in [README](README.md).\n\nFrom" +
+             sources + ".\n" + paper_tables(pooled));
     page("ledger.md",
          "# The article, statement by statement\n\nFrom" + sources + ".\n\n" + ledger(pooled));
     std::string figures =
         "# Figures 1 to 8\n\nTruth red and thickest, ORB-SLAM2 green, ours blue and thinnest; "
         "curves are "
-        "cut 0.3 m outside the reference. `text` is fitted in the reference's axes.\n";
+        "cut 0.3 m outside the reference. `text` is fitted in the reference's axes, `guarded` in "
+        "axes "
+        "along the chord of each window; all curves are drawn in the alignment of the raw run. "
+        "Coefficients are those of y = +f(x), in the article's "
+        "order "
+        "and with its alpha(0,1) = 1.\n";
     for (const PaperFigure& figure : schematic_figures(pooled, folder)) {
       written.push_back(folder / figure.file);
       figures += fmt::format("\n![{0}]({0})\n\n{1}", figure.file, figure.caption);

@@ -10,6 +10,7 @@
 #include "harness/plot/gnuplot.hpp"
 #include "methods/smoothers/manifold/coefficients.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
+#include "metrics/alignment/alignment.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -53,7 +54,8 @@ std::vector<Vector3> positions(const Trajectory& poses, const Drawn& span) {
 }
 
 /// Breaks a line where it leaves the box of the reference by more than the margin.
-std::vector<Vector3> cut(std::vector<Vector3> points, const std::vector<Vector3>& reference) {
+std::vector<Vector3> near_reference(std::vector<Vector3> points,
+                                    const std::vector<Vector3>& reference) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = -low;
   for (const Vector3& p : reference) {
@@ -68,13 +70,30 @@ std::vector<Vector3> cut(std::vector<Vector3> points, const std::vector<Vector3>
   return points;
 }
 
+/// Poses of a method in the alignment of the raw run instead of its own, so that a curve through
+/// the keyframes is drawn through them.
+Trajectory in_alignment_of(const metrics::Evaluation& raw, const metrics::Evaluation& method) {
+  Trajectory out = method.estimate;
+  for (StampedPose& pose : out) {
+    pose.world_from_body =
+        method.alignment.reference_from_estimate.inverse() * pose.world_from_body;
+    pose.world_from_body.translation /= method.alignment.scale;
+  }
+  return metrics::moved(raw.alignment, std::move(out));
+}
+
 PlotPanel panel(const PaperCell& ours, const PaperCell& raw, const Drawn& span, bool spatial) {
   PlotPanel out;
   out.spatial = spatial;
   const std::vector<Vector3> truth = positions(raw.dense.reference, span);
-  out.series = {{"truth", kRed, false, truth, 3.5},
-                {"ORB_SLAM2", kGreen, false, cut(positions(raw.dense.estimate, span), truth), 2.0},
-                {"ours", kBlue, false, cut(positions(ours.dense.estimate, span), truth), 1.0}};
+  out.series = {
+      {"truth", kRed, false, truth, 3.5},
+      {"ORB_SLAM2", kGreen, false, near_reference(positions(raw.dense.estimate, span), truth), 2.0},
+      {"ours",
+       kBlue,
+       false,
+       near_reference(positions(in_alignment_of(raw.dense, ours.dense), span), truth),
+       1.0}};
   if (std::isfinite(span.begin)) {
     out.same_scale = false;  // centimetres across, metres along
     out.series.push_back({"keyframes", kGreen, true, positions(raw.keyframes, span)});
@@ -161,20 +180,22 @@ Figure local_figure(const std::vector<PaperCell>& cells,
     for (const std::size_t quoted : {printed.left, printed.right}) {
       const auto span = segment_like(raw.keyframes, printed, kQuotedSegments[quoted].speed);
       if (!span) continue;
-      out.add(
-          panel(*planar, raw, *span, false),
-          fmt::format("{} {} {}", printed.sequence, reading, kPlanar[row]),
-          fmt::format("tau {:.4f} to {:.4f} m/s (printed {} to {}), kappa {:.4f} to {:.4f} rad per "
-                      "keyframe (printed {} to {}); first window in the reference's axes: {}",
-                      span->speed.first,
-                      span->speed.second,
-                      kQuotedSegments[quoted].speed.low,
-                      kQuotedSegments[quoted].speed.high,
-                      span->kappa.first,
-                      span->kappa.second,
-                      kQuotedSegments[quoted].kappa.low,
-                      kQuotedSegments[quoted].kappa.high,
-                      equation(raw.keyframes, *span, 3 + row, row == 2 ? 3 : 2)));
+      out.add(panel(*planar, raw, *span, false),
+              fmt::format("{} {} {}", printed.sequence, reading, kPlanar[row]),
+              fmt::format(
+                  "tau {:.4f} to {:.4f} m/s (printed {} to {}), kappa {:.4f} to {:.4f} rad per "
+                  "keyframe (printed {} to {}){}",
+                  span->speed.first,
+                  span->speed.second,
+                  kQuotedSegments[quoted].speed.low,
+                  kQuotedSegments[quoted].speed.high,
+                  span->kappa.first,
+                  span->kappa.second,
+                  kQuotedSegments[quoted].kappa.low,
+                  kQuotedSegments[quoted].kappa.high,
+                  reading == "text" ? "; first window: " +
+                                          equation(raw.keyframes, *span, 3 + row, row == 2 ? 3 : 2)
+                                    : ""));
     }
   }
   return out;

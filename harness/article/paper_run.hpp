@@ -26,6 +26,9 @@ struct PaperCell {
   bool is_baseline() const { return variant == "ORB_SLAM2"; }
 };
 
+/// Reading whose curve is the natural cubic spline through the keyframes, without N or M.
+inline const std::string kNaturalSpline = "natural spline";
+
 /// One axis of the article's tables; all in metres.
 struct AxisNumbers {
   double max = 0.0;

@@ -29,7 +29,7 @@ std::string line(const std::string& variant,
                      note);
 }
 
-/// Range of a reading's dense ATE over all runs of the sequence.
+/// Range of a reading's ATE at keyframes over all runs of the sequence.
 std::string over_runs(const std::vector<PaperCell>& cells,
                       const ReportedRow& row,
                       const PaperCell& like) {
@@ -89,7 +89,8 @@ std::string paper_tables(const std::vector<PaperCell>& cells) {
       table = row.table;
       out += fmt::format(
           "\n### Table {}: {}, {} axis [m]\n\n"
-          "| variant | source | max | min | mean | ATE | RPE | ATE densely | ATE in all runs | |\n"
+          "| variant | source | max | min | mean | ATE | RPE | ATE densely | ATE at keyframes, all "
+          "runs | |\n"
           "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
           row.table,
           row.sequence,

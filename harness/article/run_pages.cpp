@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
+#include "harness/article/cell_labels.hpp"
 #include "harness/article/verdict.hpp"
 #include "harness/plot/gnuplot.hpp"
 #include "methods/smoothers/manifold/nodes.hpp"
@@ -17,33 +17,6 @@ namespace loopbench::harness {
 namespace {
 
 using metrics::Times;
-
-std::string dataset_of(const PaperCell& cell) {
-  return cell.input.empty() ? cell.sequence : cell.sequence + " " + cell.input;
-}
-
-std::string method_of(const PaperCell& cell) {
-  if (cell.reading.empty() || cell.variant.empty()) return cell.reading + cell.variant;
-  return cell.reading + " " + cell.variant;
-}
-
-std::vector<std::string> distinct(const std::vector<PaperCell>& cells,
-                                  std::string (*name)(const PaperCell&)) {
-  std::vector<std::string> out;
-  for (const PaperCell& cell : cells) {
-    if (std::ranges::count(out, name(cell)) == 0) out.push_back(name(cell));
-  }
-  return out;
-}
-
-const PaperCell* cell_of(const std::vector<PaperCell>& cells,
-                         const std::string& dataset,
-                         const std::string& method) {
-  const auto it = std::ranges::find_if(cells, [&](const PaperCell& cell) {
-    return dataset_of(cell) == dataset && method_of(cell) == method;
-  });
-  return it == cells.end() ? nullptr : &*it;
-}
 
 /// A column of numbers, hidden if no cell has them.
 struct ScoreColumn {
@@ -69,11 +42,6 @@ constexpr ScoreColumn kScoreColumns[] = {
     {"closure residual [mm]", "closure_residual", "3d", Times::keyframes, "translation", 1e3, 1},
     {"[deg]", "closure_residual", "3d", Times::keyframes, "rotation", 1.0, 2},
 };
-
-double dense_ate(const PaperCell* cell) {
-  const auto ate = cell ? ate_3d(*cell, Times::dense) : std::nullopt;
-  return ate ? *ate : std::numeric_limits<double>::quiet_NaN();
-}
 
 /// Whether the processor time is below the recording's: only this is reproducible.
 std::string is_real_time(const PaperCell& cell) {
@@ -149,7 +117,7 @@ Spacing spacing(const Trajectory& keyframes) {
 double score_or_nan(const PaperCell& cell, const char* label, const char* relation) {
   for (const ScoreResult& s : cell.result.scores) {
     if (s.status == Status::ok && s.label == label && s.score.relation == relation &&
-        s.times == Times::dense) {
+        s.times == metrics::Times::dense) {
       return s.score.statistics.rmse;
     }
   }
@@ -158,6 +126,60 @@ double score_or_nan(const PaperCell& cell, const char* label, const char* relati
 
 std::string fixed_or_blank(double value, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "";
+}
+
+const std::string kInterval = " (keyframes.value=";
+
+/// Value of the swept keyframe interval in a dataset's label; empty without one.
+std::string interval_of(const std::string& dataset) {
+  const std::size_t at = dataset.find(kInterval);
+  if (at == std::string::npos) return "";
+  return dataset.substr(at + kInterval.size(), dataset.size() - at - kInterval.size() - 1);
+}
+
+/// Per keyframe interval: median gain of each method, and in how many runs it gains.
+std::string gain_summary(const std::vector<PaperCell>& cells,
+                         const std::string& baseline,
+                         const std::vector<std::string>& methods) {
+  std::vector<std::string> intervals;
+  for (const std::string& dataset : distinct(cells, dataset_of)) {
+    const std::string interval = interval_of(dataset);
+    if (!interval.empty() && std::ranges::count(intervals, interval) == 0)
+      intervals.push_back(interval);
+  }
+  if (intervals.empty()) return "";
+  std::string out = "\n## Median gain [%] over all runs, and the number of runs with a gain\n\n";
+  std::string head = "| interval at least [s] |", rule = "| ---: |";
+  for (const std::string& method : methods) {
+    if (method == baseline) continue;
+    head += fmt::format(" {} |", method);
+    rule += " ---: |";
+  }
+  out += head + "\n" + rule + "\n";
+  for (const std::string& interval : intervals) {
+    out += fmt::format("| {} |", interval);
+    for (const std::string& method : methods) {
+      if (method == baseline) continue;
+      std::vector<double> gains;
+      for (const PaperCell& cell : cells) {
+        if (method_of(cell) != method || interval_of(dataset_of(cell)) != interval) continue;
+        const double gain =
+            100.0 *
+            (1.0 - dense_ate(&cell) / dense_ate(cell_of(cells, dataset_of(cell), baseline)));
+        if (std::isfinite(gain)) gains.push_back(gain);
+      }
+      if (gains.empty()) {
+        out += " |";
+        continue;
+      }
+      out += fmt::format(" {} ({} of {}) |",
+                         signed_tenths(metrics::median(gains)),
+                         std::ranges::count_if(gains, [](double g) { return g > 0.0; }),
+                         gains.size());
+    }
+    out += "\n";
+  }
+  return out + "\n## Runs\n";
 }
 
 }  // namespace
@@ -172,8 +194,8 @@ std::string method_tables(const std::vector<PaperCell>& cells, const std::string
 
 std::string gain_matrix(const std::vector<PaperCell>& cells, const std::string& baseline) {
   const std::vector<std::string> methods = distinct(cells, method_of);
-  std::string out =
-      "\n| run | interval [s] | angle [deg] | ATE [mm] | exact keyframes [mm] | headroom [%] |";
+  std::string out = gain_summary(cells, baseline, methods);
+  out += "\n| run | interval [s] | angle [deg] | ATE [mm] | exact keyframes [mm] | headroom [%] |";
   std::string rule = "| --- | ---: | ---: | ---: | ---: | ---: |";
   for (const std::string& method : methods) {
     if (method == baseline) continue;
@@ -207,11 +229,19 @@ std::string gain_matrix(const std::vector<PaperCell>& cells, const std::string& 
 void gain_figure(const std::vector<PaperCell>& cells,
                  const std::string& baseline,
                  const std::filesystem::path& file) {
-  constexpr const char* kCurveColors[] = {
-      "#2ca02c", "#9467bd", "#8c564b", "#1f4fd6", "#17a2b8", "#d62728"};
+  constexpr const char* kCurveColors[] = {"#2ca02c",
+                                          "#9467bd",
+                                          "#8c564b",
+                                          "#1f4fd6",
+                                          "#17a2b8",
+                                          "#d62728",
+                                          "#ff7f0e",
+                                          "#7f7f7f",
+                                          "#000000",
+                                          "#bcbd22"};
   const std::vector<std::string> methods = distinct(cells, method_of);
   const auto stem = [](const PaperCell& cell) {
-    return dataset_of(cell).substr(0, dataset_of(cell).find(" (keyframes.value"));
+    return dataset_of(cell).substr(0, dataset_of(cell).find(kInterval));
   };
   std::vector<PlotPanel> panels;
   for (const PaperCell& first : cells) {

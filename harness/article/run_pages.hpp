@@ -14,9 +14,10 @@ namespace loopbench::harness {
 /// Methods that use the reference are marked, with what they use below the table. O(cells).
 std::string method_tables(const std::vector<PaperCell>& cells, const std::string& baseline);
 
-/// One table, datasets as rows: median keyframe interval, median angle between consecutive steps,
-/// error of the baseline, what is left with exact keyframes, headroom, and the gain of each method
-/// in dense 3-D ATE over `baseline` [%].
+/// If keyframe intervals are swept, a table of the median gain over all runs for each interval.
+/// Then one table, datasets as rows: median keyframe interval, median angle between consecutive
+/// steps, error of the baseline, what is left with exact keyframes, headroom, and the gain of each
+/// method in dense 3-D ATE over `baseline` [%].
 std::string gain_matrix(const std::vector<PaperCell>& cells, const std::string& baseline);
 
 /// The gains over the median keyframe interval: one panel per sequence with several intervals.

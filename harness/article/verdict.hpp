@@ -7,17 +7,27 @@
 
 namespace loopbench::harness {
 
-enum class Verdict { holds, other_size, tie, does_not_hold, contradicts_itself, cannot_be_judged };
+enum class Verdict {
+  holds,
+  other_size,
+  tie,
+  does_not_hold,
+  contradicts_itself,
+  misprint,
+  cannot_be_judged
+};
 inline auto choices(Verdict) {
   return std::array{std::pair{"holds", Verdict::holds},
                     std::pair{"same sign, other size", Verdict::other_size},
                     std::pair{"tie", Verdict::tie},
                     std::pair{"does not hold", Verdict::does_not_hold},
                     std::pair{"contradicts itself", Verdict::contradicts_itself},
+                    std::pair{"misprint or gap", Verdict::misprint},
                     std::pair{"cannot be judged", Verdict::cannot_be_judged}};
 }
 
 constexpr double kTiedChange = 0.01;  ///< relative differences below this are ties [-]
+constexpr double kTiedFit = 0.05;     ///< the same for fits to few or overlapping windows [-]
 constexpr double kComparable = 2.0;   ///< largest factor between effects of comparable size
 
 /// Verdict on a printed relative change. `holds` requires the same sign and a size within a factor

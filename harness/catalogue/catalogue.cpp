@@ -34,6 +34,36 @@ std::string version_of(const std::filesystem::path& plugin) {
   return out;
 }
 
+/// The list that an entry belongs to, and what messages call it.
+std::pair<std::vector<methods::MethodEntry>*, std::string> list_of(Catalogue& catalogue,
+                                                                   const methods::MethodEntry&) {
+  return {&catalogue.methods, "method"};
+}
+std::pair<std::vector<DatasetEntry>*, std::string> list_of(Catalogue& catalogue,
+                                                           const DatasetEntry&) {
+  return {&catalogue.datasets, "dataset"};
+}
+std::pair<std::vector<metrics::MetricEntry>*, std::string> list_of(Catalogue& catalogue,
+                                                                   const metrics::MetricEntry&) {
+  return {&catalogue.metrics, "metric"};
+}
+
+void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
+  std::vector<PluginEntry> loaded = load_plugin(plugin);
+  const std::string version = version_of(plugin);  // after loading: it is a file
+  const auto add = [&](auto& entry) {
+    auto [entries, kind] = list_of(catalogue, entry);
+    for (const auto& other : *entries) {
+      if (other.name != entry.name) continue;
+      throw InputError("plugin " + plugin.string() + ": " + kind + " '" + entry.name +
+                       "' is already in the catalogue");
+    }
+    catalogue.versions.emplace(kind + " " + entry.name, version);
+    entries->push_back(std::move(entry));
+  };
+  for (PluginEntry& entry : loaded) std::visit(add, entry);
+}
+
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
@@ -46,20 +76,15 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   }
   for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const ExternalMethod& program : external_methods()) out.methods.push_back(program.listed);
-  for (const std::filesystem::path& plugin : plugins) {
-    std::string version;
-    for (methods::MethodEntry& entry : load_plugin(plugin)) {
-      if (std::ranges::find(out.methods, entry.name, &methods::MethodEntry::name) !=
-          out.methods.end()) {
-        throw InputError("plugin " + plugin.string() + ": method '" + entry.name +
-                         "' is already in the catalogue");
-      }
-      if (version.empty()) version = version_of(plugin);  // after loading: it is a file
-      out.versions.emplace(entry.name, version);
-      out.methods.push_back(std::move(entry));
-    }
-  }
+  for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);
   return out;
+}
+
+std::string plugin_version(const Catalogue& catalogue,
+                           const std::string& kind,
+                           const std::string& name) {
+  const auto found = catalogue.versions.find(kind + " " + name);
+  return found == catalogue.versions.end() ? "" : found->second;
 }
 
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name) {

@@ -1,4 +1,4 @@
-/// Names that a sweep can use: built-ins and plugin methods.
+/// Names that a sweep can use: built-ins and those of plugins.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,19 @@ struct Catalogue {
   std::vector<methods::MethodEntry> methods;
   std::vector<metrics::MetricEntry> metrics;
   std::vector<OracleEntry> oracles = {};  ///< those of `methods` with access to the reference
-  std::map<std::string, std::string> versions = {};  ///< of plugin methods: hashes of their file
-                                                     ///< and of the libraries that it loads
+  /// Of the entries of plugins, by "method NAME", "dataset NAME" or "metric NAME": hashes of their
+  /// file and of the libraries that it loads.
+  std::map<std::string, std::string> versions = {};
 };
 
-/// Built-ins, then the methods of each plugin. Throws InputError for a plugin that cannot be used
-/// or whose method name is already taken.
+/// Built-ins, then the entries of each plugin. Throws InputError for a plugin that cannot be used
+/// or one of whose names is already taken.
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
+
+/// Version of an entry, empty unless it is from a plugin. `kind`: method, dataset or metric.
+std::string plugin_version(const Catalogue& catalogue,
+                           const std::string& kind,
+                           const std::string& name);
 
 /// The entry of that name. Throws InputError with a suggestion.
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);

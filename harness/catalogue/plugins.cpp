@@ -6,11 +6,10 @@
 #include <cstring>
 
 #include "datasets/core/error.hpp"
-#include "methods/plugin.hpp"
 
 namespace loopbench::harness {
 
-std::vector<methods::MethodEntry> load_plugin(const std::filesystem::path& object) {
+std::vector<PluginEntry> load_plugin(const std::filesystem::path& object) {
   const auto refuse = [&](const std::string& why) {
     return InputError("plugin " + object.string() + ": " + why);
   };
@@ -23,16 +22,15 @@ std::vector<methods::MethodEntry> load_plugin(const std::filesystem::path& objec
   const void* exported = describe();
   int interface = 0;
   std::memcpy(&interface, exported, sizeof interface);
-  if (interface != methods::Abi{}.interface) {
-    throw refuse(fmt::format("was built for plugin interface {}, this program has {}",
-                             interface,
-                             methods::Abi{}.interface));
+  if (interface != Abi{}.interface) {
+    throw refuse(fmt::format(
+        "was built for plugin interface {}, this program has {}", interface, Abi{}.interface));
   }
-  const auto& plugin = *static_cast<const methods::Plugin*>(exported);
-  if (plugin.abi != methods::Abi{}) {
+  const auto& plugin = *static_cast<const Plugin*>(exported);
+  if (plugin.abi != Abi{}) {
     throw refuse("was built with another compiler, Eigen or alignment");
   }
-  return plugin.methods();
+  return plugin.entries();
 }
 
 }  // namespace loopbench::harness

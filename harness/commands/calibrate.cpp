@@ -20,7 +20,7 @@ struct CalibrateArguments {
 
 int calibrate(const CalibrateArguments& arguments) {
   reject_overwriting({arguments.config}, arguments.out);
-  const Catalogue known = catalogue({});
+  const Catalogue known = catalogue(with_config_plugins({}, arguments.config));
   const Sweep sweep = read_sweep(arguments.config, known, arguments.data);
   const DataRoot root = data_root(sweep, arguments.data);
   const std::string text = calibration_yaml(learn(sweep, known, root, arguments.learn));

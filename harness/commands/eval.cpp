@@ -3,31 +3,67 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/eval/error_figures.hpp"
 #include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/text.hpp"
 #include "harness/text/printable.hpp"
+#include "harness/text/wrap.hpp"
 #include "harness/text/write_file.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+/// Set if standard output is a terminal: its width, without colours, because names of files are
+/// escaped after the layout.
+std::optional<TerminalStyle> terminal_style() {
+  if (!prints_to_terminal()) return std::nullopt;
+  return TerminalStyle{standard_output_style().width, false};
+}
+
 /// Statistics over runs and the verdict; empty if the files have no distinct labels.
-std::string verdict_of(const EvalArguments& a, const std::vector<EvaluationResult>& results) {
+std::string verdict_of(const EvalArguments& a,
+                       const std::vector<EvaluationResult>& results,
+                       const std::optional<TerminalStyle>& style = std::nullopt) {
   std::vector<RecordedRun> runs;
   try {
     runs = recorded_runs(file_pairs(a), a.sequence);
   } catch (const InputError&) {
     return "";
   }
-  return run_report(records_of(results, runs));
+  return run_report(records_of(results, runs), style);
+}
+
+bool fits(const std::string& text, std::size_t columns) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (width(line) > columns) return false;
+  }
+  return true;
+}
+
+std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
+  const std::optional<TerminalStyle> style = terminal_style();
+  if (all.size() == 1) {
+    const std::string wide = text(all.front());
+    return !style || fits(wide, style->width) ? wide : terminal(all.front(), *style);
+  }
+  const std::vector<Table> tables = comparison(all);
+  std::string out;
+  if (!style) out = markdown(tables);
+  for (std::size_t i = 0; style && i < tables.size(); ++i) {
+    out += (i == 0 ? "" : "\n") + terminal(table_view(tables[i]), *style);
+  }
+  return out + verdict_of(a, all, style);
 }
 
 /// Figures and report of the estimates under the first protocol.
@@ -42,7 +78,7 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
   reject_standard_output("--report", a.report);
   if (!a.report.empty()) {
-    const std::string table = all.size() == 1 ? text(all.front()) : comparison(all);
+    const std::string table = all.size() == 1 ? text(all.front()) : markdown(comparison(all));
     write_eval_report(a.report, all.front().reference, table + verdict_of(a, all), drawn);
     fmt::print(stderr, "{}\n", printable(a.report));
   }
@@ -60,7 +96,7 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
   fmt::print("{}\n{} runs in {}{}{}{}\n",
-             printable(run_report(read_records(a.store))),
+             printable(run_report(read_records(a.store), terminal_style())),
              stored.cells,
              printable((std::filesystem::path(a.store) / "results.sqlite").string()),
              stored.stored == 0 ? "" : fmt::format(" ({} stored before)", stored.stored),
@@ -86,9 +122,7 @@ int eval(const EvalArguments& a, const Source& source) {
   } else if (a.csv) {
     fmt::print("{}", csv(all));
   } else {
-    fmt::print(
-        "{}",
-        printable(all.size() == 1 ? text(all.front()) : comparison(all) + verdict_of(a, all)));
+    fmt::print("{}", printable(result_text(a, all)));
   }
   const bool all_ok = std::ranges::all_of(
       all, [](const EvaluationResult& result) { return status(result) == "ok"; });

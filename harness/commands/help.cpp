@@ -92,14 +92,58 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench traj info *.txt\n"
      "  loopbench traj convert run.bag --all-topics --to tum -o out/\n"
      "  loopbench traj align estimate.txt --ref reference.txt --align sim3 -o aligned.txt\n"},
+    {"traj info",
+     "  loopbench traj info *.txt\n"
+     "  loopbench traj info run.mcap --all-topics\n"
+     "  loopbench traj info bag:run.bag#tf:map.base_link --json\n"},
+    {"traj convert",
+     "  loopbench traj convert poses.txt --times times.txt --to tum -o poses.tum\n"
+     "  loopbench traj convert run.bag --all-topics --to tum -o out/\n"
+     "  loopbench traj convert data.csv --to kitti --times-out times.txt -o poses.txt\n"},
+    {"traj sync",
+     "  loopbench traj sync estimate.txt --ref reference.txt -o synced/\n"
+     "  loopbench traj sync a.txt b.txt --ref reference.txt --max-diff 0.01 -o synced/\n"
+     "  loopbench traj sync estimate.txt --ref reference.txt --offset 0.2 -o synced/\n"},
+    {"traj merge",
+     "  loopbench traj merge part1.txt part2.txt -o all.txt\n"
+     "  loopbench traj merge part*.txt -o - | loopbench traj info -\n"
+     "  loopbench traj merge a.txt b.txt --repeats keep_first -o all.txt\n"},
+    {"traj crop",
+     "  loopbench traj crop run.txt --start 10 --end 60 --relative -o middle.txt\n"
+     "  loopbench traj crop *.txt --start 1403715273.26 -o cropped/\n"
+     "  zcat run.txt.gz | loopbench traj crop - --end 60 --relative -o start.txt\n"},
+    {"traj downsample",
+     "  loopbench traj downsample run.txt --count 500 -o fewer.txt\n"
+     "  loopbench traj downsample run.txt --metres 0.2 --degrees 10 -o keyframes.txt\n"
+     "  loopbench traj downsample *.txt --count 500 -o fewer/\n"},
+    {"traj resample",
+     "  loopbench traj resample run.txt --seconds 0.1 -o even.txt\n"
+     "  loopbench traj resample run.txt --metres 0.5 -o even.txt\n"
+     "  loopbench traj resample *.txt --seconds 0.1 -o even/\n"},
+    {"traj transform",
+     "  loopbench traj transform run.txt --left 1,2,0,0,0,0.707,0.707 -o moved.txt\n"
+     "  loopbench traj transform imu.txt --right imu_from_camera.json -o camera.txt\n"
+     "  loopbench traj transform run.txt --left moved.json --invert -o back.txt\n"},
+    {"traj align",
+     "  loopbench traj align estimate.txt --ref reference.txt -o aligned.txt\n"
+     "  loopbench traj align mono.txt --ref reference.txt --align sim3 -o aligned.txt\n"
+     "  loopbench traj align estimate.txt --ref reference.txt --align origin -o aligned.txt\n"},
+    {"traj project",
+     "  loopbench traj project run.txt --plane xy -o flat.txt\n"
+     "  loopbench traj project kitti.txt --plane xz -o flat.txt\n"
+     "  loopbench traj project *.txt --plane xy -o flat/\n"},
+    {"traj plot",
+     "  loopbench traj plot run.txt -o run.pdf\n"
+     "  loopbench traj plot a.txt b.txt --ref reference.txt -o compared.svg\n"
+     "  loopbench traj plot run.bag --all-topics -o run.png\n"},
     {"doctor",
      "  loopbench doctor reference.txt estimate.txt\n"
      "  loopbench doctor reference.txt estimate.txt --apply corrected/\n"
      "  loopbench doctor graph.g2o\n"},
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"
-     "  loopbench plot results/quickstart -o figures --methods raw,dual\n"
-     "  loopbench report results/quickstart -o report.html\n"},
+     "  loopbench plot results/quickstart -o figures --methods raw,dual --sequences room\n"
+     "  loopbench plot results/quickstart --panels xy,angle --size 3.3,2.4 --format pdf\n"},
     {"profile",
      "  loopbench profile results/quickstart\n"
      "  loopbench profile results/quickstart --only 'driving'\n"
@@ -114,29 +158,41 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench verify mine.yaml --only 'my run / raw'\n"},
 };
 
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
+}
+
+const CLI::App* named_command(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> known;
+  for (const CLI::App* each : commands_of(app)) {
+    if (each->get_name() == name) return each;
+    known.push_back(each->get_name());
+  }
+  throw InputError(unknown_name("command", name, known));
+}
+
 }  // namespace
 
 void add_help(CLI::App& app, int& exit_code) {
-  auto name = std::make_shared<std::string>();
+  auto names = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("help", "Print the help of a command");
-  command->add_option("command", *name, "name of a command");
-  command->callback([&app, name, &exit_code] {
+  command->add_option("command", *names, "name of a command: run, traj, traj crop");
+  command->callback([&app, names, &exit_code] {
     exit_code = kExitOk;
-    if (name->empty()) {
+    if (names->empty()) {
       // app.help() would print the help of the parsed subcommand.
       const auto formatter = app.get_formatter();
       fmt::print("{}", formatter->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
       return;
     }
-    std::vector<std::string> known;
-    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
-      if (each->get_name() == *name) {
-        fmt::print("{}", each->help(app.get_name()));
-        return;
-      }
-      if (!each->get_group().empty()) known.push_back(each->get_name());
+    const CLI::App* found = &app;
+    std::string title = app.get_name();
+    for (const std::string& name : *names) {
+      found = named_command(*found, name);
+      title += " " + name;
     }
-    throw InputError(unknown_name("command", *name, known));
+    // App::help() would print the help of the parsed subcommand.
+    fmt::print("{}", found->get_formatter()->make_help(found, title, CLI::AppFormatMode::Normal));
   });
 }
 
@@ -148,8 +204,12 @@ void add_examples(CLI::App& app) {
     command.footer("Examples:\n" + found->second + (before.empty() ? "" : "\n" + before));
   };
   add(app, "");
-  for (CLI::App* each : app.get_subcommands([](CLI::App*) { return true; })) {
+  const auto all = [](const CLI::App*) { return true; };
+  for (CLI::App* each : app.get_subcommands(all)) {
     add(*each, each->get_name());
+    for (CLI::App* verb : each->get_subcommands(all)) {
+      add(*verb, each->get_name() + " " + verb->get_name());
+    }
   }
 }
 

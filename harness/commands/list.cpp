@@ -195,7 +195,9 @@ void add_list(CLI::App& app, int& exit_code) {
                       "datasets, methods, metrics, protocols, or the name or pattern of entries");
   command->add_option("name", arguments->name, "name or pattern ('dm*') of entries of that list");
   command->add_flag("--options", arguments->options, "Print the options of all entries");
-  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
+  command
+      ->add_option(
+          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(renamed_names() + "\n" + command->get_footer());

@@ -23,6 +23,11 @@ struct PlotArguments {
   std::string folder;
   std::vector<std::string> formats{"svg", "pdf"};
   std::vector<std::string> methods;
+  std::vector<std::string> sequences;
+  std::vector<std::string> panels{"xy", "xyz", "x", "y", "z", "angle"};
+  std::size_t columns = 2;
+  std::vector<double> size{3.5, 2.8};  ///< of a panel [in]: one column of a paper
+  double font = 8.0;                   ///< [pt]
 };
 
 /// The baseline and the best-ranked methods with different results, or the first of the sweep
@@ -50,14 +55,15 @@ std::vector<std::string> usual_methods(const ReportContent& content) {
 }
 
 /// Each word is a label or comma-separated labels; a label can contain commas itself.
-std::vector<std::string> known_methods(const std::vector<std::string>& words,
-                                       const std::vector<std::string>& known) {
+std::vector<std::string> known_labels(const std::string& kind,
+                                      const std::vector<std::string>& words,
+                                      const std::vector<std::string>& known) {
   std::vector<std::string> out;
   for (const std::string& word : words) {
     const bool is_label = std::ranges::count(known, word) > 0;
     for (const std::string& name : is_label ? std::vector{word} : split_list(word)) {
       if (std::ranges::count(known, name) == 0) {
-        throw InputError("--methods: " + unknown_name("method", name, known));
+        throw InputError("--" + kind + "s: " + unknown_name(kind, name, known));
       }
       out.push_back(name);
     }
@@ -67,18 +73,24 @@ std::vector<std::string> known_methods(const std::vector<std::string>& words,
 
 int write_figures(const PlotArguments& arguments) {
   const ReportContent content = read_report_content(arguments.store);
-  const std::vector<std::string> methods = arguments.methods.empty()
-                                               ? usual_methods(content)
-                                               : known_methods(arguments.methods, content.methods);
+  const std::vector<std::string> methods =
+      arguments.methods.empty() ? usual_methods(content)
+                                : known_labels("method", arguments.methods, content.methods);
+  const std::vector<std::string> sequences =
+      arguments.sequences.empty()
+          ? content.sequences
+          : known_labels("sequence", arguments.sequences, content.sequences);
+  const FigureSize size{arguments.size[0], arguments.size[1], arguments.font, true};
   reject_standard_output("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
   std::size_t written = 0;
   for (std::size_t s = 0; s < content.sequences.size(); ++s) {
     const std::string& sequence = content.sequences[s];
-    const SequenceFigures figures =
-        sequence_figures(content.cells, traces, sequence, methods, content.methods);
-    if (figures.errors.empty()) {
+    if (std::ranges::count(sequences, sequence) == 0) continue;
+    const SequenceFigures figures = sequence_figures(
+        content.cells, traces, sequence, methods, content.methods, arguments.panels);
+    if (figures.errors.empty() && figures.trajectories.empty()) {
       fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
     }
@@ -86,8 +98,9 @@ int write_figures(const PlotArguments& arguments) {
       // The index separates labels that map to the same file name.
       const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
       const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
+        if (panels.empty()) return;
         const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
-        write_figure(file, panels, 2);
+        write_figure(file, panels, std::min(arguments.columns, panels.size()), size);
         fmt::print("{}\n", printable(file.string()));
         ++written;
       };
@@ -114,11 +127,35 @@ void add_plot(CLI::App& app, int& exit_code) {
   command->add_option("--methods",
                       arguments->methods,
                       "Comma-separated method labels, in \"...\" if a label contains commas "
-                      "(default: baseline and best ranked)");
-  command->add_option("--format", arguments->formats, "File formats: svg, pdf or both")
+                      "(default: baseline and best ranked with different results)");
+  command->add_option("--sequences",
+                      arguments->sequences,
+                      "Comma-separated sequence labels, in \"...\" likewise (default: all)");
+  command
+      ->add_option("--panels",
+                   arguments->panels,
+                   "Comma-separated panels: trajectories in xy, xz, yz and in space (xyz), errors "
+                   "in x, y, z and angle")
       ->delimiter(',')
-      ->check(CLI::IsMember({"svg", "pdf"}))
+      ->check(CLI::IsMember(kPanelNames))
+      ->type_name("WORDS")
+      ->default_str("xy,xyz,x,y,z,angle");
+  command->add_option("--format", arguments->formats, "File formats: svg, pdf, png or several")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"svg", "pdf", "png"}))
       ->default_str("svg,pdf");
+  command
+      ->add_option("--size", arguments->size, "Width and height of a panel [in]; default: 3.5,2.8")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(0.5, 50.0))
+      ->type_name("WIDTH,HEIGHT");
+  command->add_option("--font", arguments->font, "Font size [pt]")
+      ->check(CLI::Range(2.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--columns", arguments->columns, "Panels in a row")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
   command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 

@@ -1,11 +1,15 @@
 #include "harness/profile/profile.hpp"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/store/read.hpp"
 #include "harness/text/pattern.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -13,7 +17,7 @@ namespace {
 struct ProfileArguments {
   std::string store;
   std::string only;
-  std::string format = "markdown";
+  std::optional<ExportFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
   std::string out;
   Accuracy accuracy;
 };
@@ -26,20 +30,23 @@ int print_profile(const ProfileArguments& arguments) {
   });
   if (cells.empty()) throw InputError(arguments.store + ": no cell matches --only");
   value(Record{}, arguments.accuracy.value);  // throws for an unknown name before printing
-  const bool is_csv = arguments.format == "csv";
+  const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
+  const bool has_terminal = is_printed && prints_to_terminal();
+  const ExportFormat format =
+      arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
+  const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
   std::string out;
   for (const TextTable& listing :
        {costs(cells),
         reported(cells),
         scaling(cells),
         pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
-    out += (out.empty() ? "" : "\n") + (is_csv ? csv(listing) : markdown(listing));
+    out += out.empty() ? "" : "\n";
+    out += format == ExportFormat::csv        ? csv(listing)
+           : format == ExportFormat::terminal ? terminal(table_view(listing), style)
+                                              : markdown(listing);
   }
-  write_output(out,
-               is_csv ? ExportFormat::csv : ExportFormat::markdown,
-               "profile",
-               arguments.store,
-               arguments.out);
+  write_output(out, format, "profile", arguments.store, arguments.out);
   return kExitOk;
 }
 
@@ -57,14 +64,21 @@ void add_profile(CLI::App& app, int& exit_code) {
       ->add_option(
           "--metric", arguments->accuracy.metric, "Metric used as accuracy, by label or name")
       ->capture_default_str();
-  command->add_option("--relation", arguments->accuracy.relation)->capture_default_str();
-  command->add_option("--axis", arguments->accuracy.axis)->capture_default_str();
+  command->add_option("--relation", arguments->accuracy.relation, "Relation of the metric's score")
+      ->capture_default_str();
+  command->add_option("--axis", arguments->accuracy.axis, "Axis of the metric's score")
+      ->capture_default_str();
   command
       ->add_option("--value", arguments->accuracy.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();
-  command->add_option("--format", arguments->format)
-      ->check(CLI::IsMember({"markdown", "csv"}))
-      ->capture_default_str();
+  const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
+                                                    {"terminal", ExportFormat::terminal},
+                                                    {"csv", ExportFormat::csv}};
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "Output format; default: terminal on a terminal, otherwise markdown")
+      ->transform(one_of("format", formats));
   command
       ->add_option("-o,--out",
                    arguments->out,

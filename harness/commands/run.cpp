@@ -20,10 +20,12 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/store/store.hpp"
@@ -69,7 +71,8 @@ std::string protocol_names(const Sweep& sweep) {
 
 int run(const RunArguments& arguments, const Source& source) {
   if (arguments.pin_instructions) pin_instructions();
-  const Catalogue known = catalogue(arguments.plugins);
+  const Catalogue known =
+      catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
@@ -102,10 +105,8 @@ int run(const RunArguments& arguments, const Source& source) {
     set_estimate_folder(out / "trajectories");
     sandbox.writable.push_back(out / "trajectories");
   }
-  if (uses_programs(sweep)) {
-    sandbox.writable.push_back(std::filesystem::temp_directory_path());
-    sandbox.pid_namespace = false;  // serving programs outlive cells, and are spared by number
-  }
+  sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
+  set_dataset_sandbox({sandbox.enabled, false, {out}, {}});
   made["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
   store->set_shard(part.shard);
@@ -131,6 +132,7 @@ int run(const RunArguments& arguments, const Source& source) {
     Progress progress(missing.size());
     ProgressFile progress_file(out);
     const std::vector<InputFile> no_inputs;
+    CellNotes notes;
     const auto finished = [&](const CellResult& r) {
       if (r.status == Status::interrupted) {
         ++abandoned;
@@ -141,6 +143,7 @@ int run(const RunArguments& arguments, const Source& source) {
       ++done;
       if (has_failure(r)) ++failed;
       if (r.status == Status::incomplete) ++incomplete;
+      notes.add(sweep.methods[r.cell.method].label, r);
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
       if (!part.shard.empty()) {
@@ -154,6 +157,7 @@ int run(const RunArguments& arguments, const Source& source) {
     } else {
       run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
     }
+    for (const std::string& line : notes.lines()) print_error("{}\n", printable(line));
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 
@@ -263,7 +267,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("DIR");
   command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
-  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
+  command
+      ->add_option(
+          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command
       ->add_option("--retry",

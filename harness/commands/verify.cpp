@@ -28,7 +28,8 @@ struct VerifyArguments {
 };
 
 int run_verify(const VerifyArguments& arguments, const Source& source) {
-  const Catalogue known = catalogue(arguments.plugins);
+  const Catalogue known =
+      catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
   if (arguments.sample.share > 0.0) {
     SampleArguments sample = arguments.sample;
@@ -107,7 +108,9 @@ void add_verify(CLI::App& app, int& exit_code, const Source& source) {
   command->add_option("-j,--jobs", arguments->sample.jobs, "With --sample: number of workers")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--plugin", arguments->plugins, "Shared object with additional methods")
+  command
+      ->add_option(
+          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command->callback(
       [arguments, source, &exit_code] { exit_code = run_verify(*arguments, source); });

@@ -94,7 +94,10 @@ std::string unit_text(const Comparison& comparison);
 /// One-line verdict: the best method, its gain, and the methods that do not differ significantly.
 std::string verdict(const Comparison& comparison);
 
-/// Information needed to interpret the results: observations, gaps, tests, limitations.
+/// Properties of the data that limit the claims: observations first, then copies, gaps and oracles.
+std::vector<std::string> conditions(const Comparison& comparison);
+
+/// The conditions, the tests and their limitations.
 std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace loopbench::harness

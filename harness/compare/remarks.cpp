@@ -33,11 +33,10 @@ Lines about_runs(const Comparison& c) {
         "assumes that all runs are independent (--over runs), although they form {} groups",
         c.known_groups));
   } else if (c.sequences < c.groups) {
-    out.push_back(fmt::format(
-        "claims hold for other instances of these {} sequence{}; --over sequences tests whether "
-        "they hold for other sequences",
-        c.sequences,
-        c.sequences == 1 ? "" : "s"));
+    const std::string these =
+        c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences);
+    out.push_back("claims hold for other instances of " + these +
+                  "; --over sequences tests whether they hold for other sequences");
   }
   return out;
 }
@@ -95,9 +94,14 @@ Lines about_ratios(const Comparison& c) {
 
 }  // namespace
 
-Lines remarks(const Comparison& c) {
+Lines conditions(const Comparison& c) {
   Lines out = about_runs(c);
   for (std::string& line : about_methods(c)) out.push_back(std::move(line));
+  return out;
+}
+
+Lines remarks(const Comparison& c) {
+  Lines out = conditions(c);
   if (c.methods.empty()) return out;
   const double level = 100.0 * (1.0 - c.options.alpha);
   out.push_back(

@@ -44,7 +44,11 @@ std::string percent_text(double percent) {
 /// "12.3 % below raw [8.1, 15.2]": difference of a method to the baseline.
 std::string distance(const MethodVerdict& method, const CompareOptions& options) {
   if (!method.ratio) return "against " + options.baseline;
-  if (method.ties > 0 && method.wins + method.losses == 0) return "equal to " + options.baseline;
+  const bool is_tie = method.ties > 0 && method.wins + method.losses == 0;
+  // A method that fails on some runs has losses although its values are equal.
+  const bool is_equal =
+      method.fails > 0 && std::abs(method.ratio->estimate - 1.0) <= options.relevant;
+  if (is_tie || is_equal) return "equal to " + options.baseline;
   const double sign = method.ratio->estimate <= 1.0 ? -100.0 : 100.0;
   const auto percent = [&](double ratio) { return sign * (ratio - 1.0); };
   std::string out = fmt::format("{} % {} {}",
@@ -60,15 +64,18 @@ std::string distance(const MethodVerdict& method, const CompareOptions& options)
   return out;
 }
 
+/// ", on 8 of 10 runs; fails 2"; empty without failures.
+std::string failures_text(const Comparison& c, const MethodVerdict& method) {
+  if (method.fails == 0) return "";
+  return fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);
+}
+
 /// distance() with p and the excluded runs.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c.options);
   if (method.p) out += ", " + p_sentence(*method.p);
   if (method.p && !method.beats_baseline) out += ", not proven";
-  if (method.fails > 0) {
-    out += fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);
-  }
-  return out;
+  return out + failures_text(c, method);
 }
 
 std::string why_no_comparison(const Comparison& c) {
@@ -81,13 +88,22 @@ std::string why_no_comparison(const Comparison& c) {
   return "one method alone has values: nothing is compared";
 }
 
+/// ": B is 12.3 % above A [8.1, 15.2], p = 0.004" if A is the baseline and B the only other method.
+std::string only_other(const Comparison& c) {
+  if (c.methods.size() != 2) return "";
+  const bool is_first = c.methods.front().method != c.options.baseline;
+  const MethodVerdict& other = is_first ? c.methods.front() : c.methods.back();
+  return ": " + other.method + " is " + distance(other, c.options) +
+         (other.p ? ", " + p_sentence(*other.p) : "") + failures_text(c, other);
+}
+
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
   const MethodVerdict* baseline = find(c, c.options.baseline);
   std::string out = joined_names(leaders);
   out += leaders.size() == 1 ? " is best" : " are best and equal";
   if (leaders.size() == c.methods.size()) return "all methods are equal";
   if (baseline->is_leader) {
-    out = (leaders.size() == 1 ? "the baseline " : "") + out;
+    out = (leaders.size() == 1 ? "the baseline " : "") + out + only_other(c);
   } else {
     out += ": " + result(c, c.methods.front());
   }
@@ -108,7 +124,7 @@ std::string undecided_text(const Comparison& c, const std::vector<std::string>& 
                                : joined_names(open, " or ");
   if (find(c, c.options.baseline)->is_leader) {
     return "no method is proven better than the baseline " + c.options.baseline +
-           "; it is not proven better than " + rest;
+           "; it is not proven better than " + rest + only_other(c);
   }
   const std::string lead =
       joined_names(leaders) + (leaders.size() == 1 ? " is " : " are equal, ") + result(c, first);
@@ -144,7 +160,7 @@ std::string verdict(const Comparison& c) {
   const MethodVerdict& first = c.methods.front();
   const std::string lead =
       find(c, c.options.baseline)->is_leader
-          ? "the baseline " + c.options.baseline + " ranks first"
+          ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
           : joined_names(leaders) + (leaders.size() == 1 ? " is " : " are ") + result(c, first);
   return fmt::format(
       "nothing is proven: {}, but {} cannot prove a difference among {} methods at "

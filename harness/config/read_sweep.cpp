@@ -14,8 +14,11 @@
 namespace loopbench::harness {
 namespace {
 
+constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
+
 const std::vector<std::string> kKeys{
     "description",
+    "plugins",
     "datasets",
     "methods",
     "metrics",
@@ -74,6 +77,7 @@ class SweepReader : private SettingReader {
       });
     });
     optional(root, "times", [&](const YamlNode& node) { sweep.times = times(node); });
+    optional(root, "plugins", [&](const YamlNode& node) { words(node, "plugins"); });
     optional(root, "description", [&](const YamlNode& node) { word(node, "description"); });
     optional(root, "min_coverage", [&](const YamlNode& node) {
       sweep.min_coverage = number(node, "min_coverage", "a number from 0 to 1", Between{0.0, 1.0});
@@ -243,10 +247,31 @@ Sweep parse_sweep(const std::string& text,
   return sweep;
 }
 
+std::vector<std::filesystem::path> with_config_plugins(std::vector<std::filesystem::path> given,
+                                                       const std::filesystem::path& file) {
+  const YamlNode root =
+      parse_yaml(read_named_file(file, kLongestConfig, "a YAML config"), file.string());
+  const YamlNode* node = root.type == YamlNode::Type::map ? root.find("plugins") : nullptr;
+  if (node == nullptr) return given;
+  std::vector<YamlNode> entries = node->list;
+  if (node->type == YamlNode::Type::scalar) entries = {*node};
+  for (const YamlNode& entry : entries) {
+    const auto* text = std::get_if<std::string>(&entry.scalar);
+    if (entry.type != YamlNode::Type::scalar || text == nullptr) continue;  // see read_sweep()
+    const std::filesystem::path plugin = file.parent_path() / *text;
+    std::error_code none;
+    const auto is_same = [&](const auto& other) {
+      return std::filesystem::equivalent(other, plugin, none);
+    };
+    if (std::ranges::none_of(given, is_same)) given.push_back(plugin);
+  }
+  return given;
+}
+
 Sweep read_sweep(const std::filesystem::path& file,
                  const Catalogue& catalogue,
                  const std::filesystem::path& data) {
-  return parse_sweep(read_named_file(file, 16'000'000, "a YAML config"), file, catalogue, data);
+  return parse_sweep(read_named_file(file, kLongestConfig, "a YAML config"), file, catalogue, data);
 }
 
 }  // namespace loopbench::harness

@@ -35,11 +35,13 @@ void SettingReader::map_of(const YamlNode& node,
 }
 
 void SettingReader::only_keys(const YamlNode& node, const std::vector<std::string>& known) const {
-  for (const auto& [key, value] : node.map) {
-    if (std::ranges::count(known, key) > 0) continue;
+  for (const YamlEntry& entry : node.map) {
+    if (std::ranges::count(known, entry.key) > 0) continue;
     // Only a place for anchors, such as `common: &common {...}`.
-    if (value.is_anchored && closest(key, known).empty()) continue;
-    attempt([&] { throw input_error(file_, value.line, unknown_name("setting", key, known)); });
+    if (entry.value.is_anchored && closest(entry.key, known).empty()) continue;
+    attempt([&] {
+      throw input_error(file_, entry.value.line, unknown_name("setting", entry.key, known));
+    });
   }
 }
 

@@ -215,6 +215,14 @@ std::size_t line_with_tab(const std::string& text) {
 
 }  // namespace
 
+YamlNode scalar_node(const std::string& text) {
+  YamlNode out;
+  out.type = YamlNode::Type::scalar;
+  out.scalar = text;
+  out.text = text;
+  return out;
+}
+
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
   constexpr std::size_t kLargest = 1'000'000;
   if (text.size() > kLargest) {

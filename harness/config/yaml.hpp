@@ -39,6 +39,9 @@ inline const YamlNode* YamlNode::find(const std::string& key) const {
   return nullptr;
 }
 
+/// A text as a quoted scalar; its line is 0.
+YamlNode scalar_node(const std::string& text);
+
 /// Plain scalars become bool, integer, real number or text, in this order; quoted scalars remain
 /// text. Merge keys (`<<: *base`) are replaced by the entries of the maps. Throws InputError
 /// `file:line:` for invalid YAML, a repeated key, a key that is not a string, more than one

@@ -8,6 +8,7 @@
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/text/write_file.hpp"
 #include "metrics/correction/closure_residual.hpp"
@@ -18,20 +19,12 @@ namespace {
 
 bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
 
-YamlNode text_node(const std::string& text) {
-  YamlNode out;
-  out.type = YamlNode::Type::scalar;
-  out.scalar = text;
-  out.text = text;
-  return out;
-}
-
 /// The entry that a config would have for these files.
 YamlNode dataset_entry(const CorrectArguments& a, bool graph) {
   YamlNode out;
   out.type = YamlNode::Type::map;
   const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) out.map.push_back({key, text_node(value)});
+    if (!value.empty()) out.map.push_back({key, scalar_node(value)});
   };
   add("dataset", graph ? "pose_graph" : "trajectory");
   add(graph ? "path" : "estimate", a.estimate);
@@ -97,7 +90,7 @@ std::vector<double> output_stamps(const CorrectArguments& a,
   } else if (a.dense) {
     for (const StampedPose& frame : problem.frames) wanted.push_back(frame.stamp);
     std::ranges::sort(wanted);
-    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   }
   const std::size_t all = wanted.size();
   std::erase_if(wanted, [&](double t) { return t < curve.start() || t > curve.end(); });
@@ -164,6 +157,9 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   out.before = residuals(out.problem, out.problem.keyframes);
   out.after = residuals(out.problem, out.keyframes);
   out.rejected = rejected_closures(out);
+  const std::string unmoved =
+      movement_note(out.problem, out.keyframes, out.report, uses_closures(choice, catalogue));
+  if (!unmoved.empty()) out.report.notes.push_back(unmoved);
   if (!a.out.empty()) write(a, out, graph);
   out.out = a.out;
   return out;

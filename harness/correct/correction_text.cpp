@@ -7,13 +7,13 @@
 namespace loopbench::harness {
 namespace {
 
-using Row = std::pair<const char*, double Residuals::*>;
-constexpr Row kRows[] = {{"translation_rms", &Residuals::translation_rms},
-                         {"translation_max", &Residuals::translation_max},
-                         {"rotation_rms", &Residuals::rotation_rms},
-                         {"rotation_max", &Residuals::rotation_max},
-                         {"chi2_odometry", &Residuals::chi2_odometry},
-                         {"chi2_closures", &Residuals::chi2_closures}};
+using ResidualRow = std::pair<const char*, double Residuals::*>;
+constexpr ResidualRow kRows[] = {{"translation_rms", &Residuals::translation_rms},
+                                 {"translation_max", &Residuals::translation_max},
+                                 {"rotation_rms", &Residuals::rotation_rms},
+                                 {"rotation_max", &Residuals::rotation_max},
+                                 {"chi2_odometry", &Residuals::chi2_odometry},
+                                 {"chi2_closures", &Residuals::chi2_closures}};
 constexpr const char* kTitles[] = {"closure residual, rms [m]",
                                    "closure residual, max [m]",
                                    "closure residual, rms [deg]",

@@ -41,14 +41,6 @@ YamlNode scalar(const std::string& text) {
   return out;
 }
 
-YamlNode word(const std::string& text) {
-  YamlNode out;
-  out.type = YamlNode::Type::scalar;
-  out.scalar = text;
-  out.text = text;
-  return out;
-}
-
 }  // namespace
 
 MethodChoice parse_method(const std::string& text, const Catalogue& catalogue) {
@@ -70,8 +62,8 @@ MethodChoice parse_method(const std::string& text, const Catalogue& catalogue) {
           {name + "." + trimmed(option.substr(0, equals)), scalar(option.substr(equals + 1))});
     }
   }
-  entry.map.push_back({"method", word(stages)});
-  entry.map.push_back({"label", word(text)});
+  entry.map.push_back({"method", scalar_node(stages)});
+  entry.map.push_back({"label", scalar_node(text)});
   return method_choices(entry, kWhere, catalogue).front();
 }
 

@@ -1,11 +1,13 @@
 #include "harness/eval/arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
+#include "harness/text/numbers.hpp"
 #include "metrics/pairing/pairs/stretch.hpp"
 
 namespace loopbench::harness {
@@ -26,24 +28,6 @@ Param typed(const std::string& word) {
     return real;
   }
   return word;
-}
-
-/// Comma-separated numbers with magnitude up to a million, as in the dataset option; nullopt if one
-/// is not a number.
-std::vector<double> numbers(const std::string& text) {
-  constexpr double kMost = 1e6;
-  std::vector<double> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    double value = 0.0;
-    const auto [rest, error] = std::from_chars(at, end, value);
-    const bool is_number = error == std::errc{} && std::abs(value) <= kMost;
-    if (!is_number || (rest != end && *rest != ',')) return {};
-    out.push_back(value);
-    if (rest == end) return out;
-    at = rest + 1;
-  }
 }
 
 /// -s adds a scale to the alignment; without --align it estimates only the scale, as in evo.
@@ -150,8 +134,11 @@ ReferenceBody reference_body(const EvalArguments& a) {
   const auto error = [&](const std::string& what) {
     return InputError("--ref-body: '" + *a.reference_body + "'" + what);
   };
-  const std::vector<double> given = numbers(*a.reference_body);
-  if (given.size() != 3 && given.size() != 7) {
+  const std::vector<double> given = comma_separated_numbers(*a.reference_body);
+  constexpr double kMost = 1e6;  // as in the dataset option
+  const bool is_too_large =
+      std::ranges::any_of(given, [](double each) { return std::abs(each) > kMost; });
+  if (is_too_large || (given.size() != 3 && given.size() != 7)) {
     throw error(": expected x,y,z [m] or x,y,z,qx,qy,qz,qw, for example 0.05,0,-0.1");
   }
   double* const members[] = {&out.x, &out.y, &out.z, &out.qx, &out.qy, &out.qz, &out.qw};

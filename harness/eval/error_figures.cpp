@@ -6,14 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
+#include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostErrorPoints = 1500;
-constexpr double kToDegrees = 180.0 / M_PI;
 
 double position_error(const DrawnEvaluation& e, std::size_t i) {
   return (e.estimate[i].world_from_body.translation - e.reference[i].world_from_body.translation)
@@ -21,8 +22,8 @@ double position_error(const DrawnEvaluation& e, std::size_t i) {
 }
 
 double rotation_error(const DrawnEvaluation& e, std::size_t i) {
-  return kToDegrees * angle_between(e.estimate[i].world_from_body.rotation,
-                                    e.reference[i].world_from_body.rotation);
+  return metrics::kDegrees * angle_between(e.estimate[i].world_from_body.rotation,
+                                           e.reference[i].world_from_body.rotation);
 }
 
 /// Evenly chosen indices, with the last one.
@@ -34,19 +35,8 @@ std::vector<std::size_t> drawn_indices(std::size_t size) {
   return out;
 }
 
-Vector3 seen(const Pose& pose, int a, int b) {
-  const Vector3& p = pose.translation;
-  return a == b ? p : Vector3(p[a], p[b], 0.0);
-}
-
 PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
-  constexpr std::array kNames{"x [m]", "y [m]", "z [m]"};
-  PlotPanel out;
-  out.spatial = a == b;
-  if (!out.spatial) {
-    out.x_label = kNames[static_cast<std::size_t>(a)];
-    out.y_label = kNames[static_cast<std::size_t>(b)];
-  }
+  PlotPanel out = empty_map(a, b);
   const bool is_colored = all.size() == 1;
   if (is_colored) out.value_label = "position error [m]";
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -55,8 +45,8 @@ PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
     PlotSeries reference{k == 0 ? "reference" : "", kReferenceColor, false, {}};
     PlotSeries estimate{e.name, style.color, false, {}, kLineWidth, style.dash};
     for (const std::size_t i : drawn_indices(e.estimate.size())) {
-      reference.points.push_back(seen(e.reference[i].world_from_body, a, b));
-      estimate.points.push_back(seen(e.estimate[i].world_from_body, a, b));
+      reference.points.push_back(on_map(e.reference[i].world_from_body.translation, a, b));
+      estimate.points.push_back(on_map(e.estimate[i].world_from_body.translation, a, b));
       if (is_colored) estimate.values.push_back(position_error(e, i));
     }
     if (k == 0) out.series.push_back(reference);
@@ -151,7 +141,7 @@ PlotPanel histogram_of(const std::vector<DrawnEvaluation>& all) {
 double component(const Pose& pose, std::size_t axis) {
   if (axis < 3) return pose.translation[static_cast<Eigen::Index>(axis)];
   const metrics::Euler angles = metrics::euler(pose.rotation);
-  return kToDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis - 3];
+  return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis - 3];
 }
 
 PlotPanel axis_of(const std::vector<DrawnEvaluation>& all, std::size_t axis) {
@@ -190,7 +180,7 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
 
 std::vector<std::string> write_error_figures(const std::string& prefix,
                                              const std::vector<DrawnEvaluation>& all) {
-  constexpr FigureSize kColumn{3.5, 2.8, 8.0};  // one column of a paper
+  constexpr FigureSize kColumn{3.5, 2.8, 8.0, true};  // one column of a paper
   std::vector<std::string> out;
   for (const NamedFigure& figure : error_figures(all)) {
     for (const char* const extension : {".svg", ".pdf", ".png"}) {

@@ -43,7 +43,7 @@ std::string html_lines(const std::string& text) {
 std::string svg_of(const NamedFigure& figure, const std::filesystem::path& page) {
   const std::filesystem::path file =
       page.string() + fmt::format(".{}.{}.svg", getpid(), figure.name);
-  write_figure(file, figure.panels, figure.columns, {4.5, 3.6, 11.0});
+  write_figure(file, figure.panels, figure.columns, {4.5, 3.6, 11.0, true});
   std::string text;
   {
     std::ifstream in(file, std::ios::binary);

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "datasets/formats/kitti.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/text/write_file.hpp"
-#include "metrics/doctor/diagnose.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -78,24 +78,6 @@ std::string why_two_clocks(const EvalArguments& a,
          "--period S or --association index";
 }
 
-/// Least confidence of a remark; `doctor` itself prints all findings.
-constexpr double kSureFinding = 0.5;
-
-/// Likely mistakes in the files, and what is missing of a damaged bag.
-std::vector<std::string> doctor_remarks(const FilePair& pair,
-                                        const Trajectory& reference,
-                                        const Loaded& estimate,
-                                        const std::string& unstamped) {
-  std::vector<std::string> out;
-  if (!estimate.repaired.damage.empty()) out.push_back(estimate.repaired.damage);
-  const bool has_stamps = unstamped.empty() && estimate.unstamped.empty();
-  for (const metrics::InputFinding& finding :
-       metrics::diagnose(reference, estimate.poses, pair.reference, pair.estimate, has_stamps)) {
-    if (finding.confidence >= kSureFinding) out.push_back("doctor: " + text(finding));
-  }
-  return out;
-}
-
 std::vector<std::filesystem::path> all_files(const EvalArguments& a,
                                              const std::vector<FilePair>& files) {
   std::vector<std::filesystem::path> out{a.times};
@@ -144,7 +126,11 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
-    const std::vector<std::string> remarks = doctor_remarks(pair, reference, loaded, unstamped);
+    std::vector<std::string> remarks;
+    if (!loaded.repaired.damage.empty()) remarks.push_back(loaded.repaired.damage);
+    const bool has_stamps = unstamped.empty() && loaded.unstamped.empty();
+    const ReadPair read{reference, loaded.poses, pair.reference, pair.estimate, has_stamps};
+    for (std::string& note : doctor_notes(read, rules)) remarks.push_back(std::move(note));
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
     for (const metrics::NamedProtocol& protocol : rules) {
       const EvaluationOptions options{metric_requests(a, protocol.rules),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/formats/formats.hpp"
+#include "harness/tables/table_view.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/protocols/protocols.hpp"
 
@@ -91,10 +92,13 @@ std::string label(const EvaluatedMetric& metric);
 /// Text table with six decimals.
 std::string text(const EvaluationResult& result);
 
+/// The same in at most style.width columns, with four significant digits.
+std::string terminal(const EvaluationResult& result, const TerminalStyle& style);
+
 /// One table for each protocol, one row for each estimate: both coverage shares, and the protocol's
 /// statistic of the combined errors (axis 3d or all), not of single axes or lengths. A metric with
 /// its own pairs has their number in a column.
-std::string comparison(const std::vector<EvaluationResult>& results);
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results);
 
 /// Array of objects, also for one evaluation; doubles in full precision. Keys: reference,
 /// reference_body (if given), other_body (if detected), estimate, protocol {name, version,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "harness/eval/evaluation_result.hpp"
-#include "harness/tables/notes.hpp"
+#include "harness/eval/evaluation_text_parts.hpp"
 #include "harness/tables/text.hpp"
 
 namespace loopbench::harness {
@@ -26,10 +25,6 @@ double quoted_statistic(const metrics::Protocol& protocol, const metrics::Statis
 
 std::string body_text(const EvaluationResult& result) {
   return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
-}
-
-std::string protocol_text(const metrics::NamedProtocol& protocol) {
-  return fmt::format("{} [{}]", protocol.label(), protocol.version);
 }
 
 /// "largest_gap 0.25 s, repeated 0, ...", wrapped.
@@ -71,7 +66,12 @@ struct Widths {
   }
 };
 
-/// Undefined scores and failed metrics, as notes of `row`.
+}  // namespace
+
+std::string protocol_text(const metrics::NamedProtocol& protocol) {
+  return fmt::format("{} [{}]", protocol.label(), protocol.version);
+}
+
 std::vector<Missing> missing_scores(const EvaluationResult& result, const std::string& row) {
   std::vector<Missing> out;
   for (const EvaluatedMetric& metric : result.metrics) {
@@ -90,8 +90,6 @@ std::vector<Missing> missing_scores(const EvaluationResult& result, const std::s
   }
   return out;
 }
-
-}  // namespace
 
 std::string label(const EvaluatedMetric& metric) {
   Params rest = metric.options;
@@ -146,7 +144,7 @@ std::string text(const EvaluationResult& result) {
   return out;
 }
 
-std::string comparison(const std::vector<EvaluationResult>& results) {
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
   std::vector<Table> tables;
   std::vector<std::map<std::string, std::size_t>> columns;  // per table
   std::vector<std::vector<Missing>> missing;                // per table
@@ -211,7 +209,7 @@ std::string comparison(const std::vector<EvaluationResult>& results) {
       if (row.front().status == "failed") std::ranges::fill(row, row.front());
     }
   }
-  return markdown(tables);
+  return tables;
 }
 
 }  // namespace loopbench::harness

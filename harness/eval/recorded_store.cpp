@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "datasets/bags/bag_name.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"

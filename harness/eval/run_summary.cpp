@@ -7,7 +7,7 @@
 #include <set>
 
 #include "harness/statistics/mean_interval.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -34,21 +34,45 @@ RunSummary summary(const std::string& sequence,
   return out;
 }
 
-std::string row(const RunSummary& s) {
+std::vector<TableViewEntry> row(const RunSummary& s) {
+  const auto number = [](double value) { return fmt::format("{:.4f}", value); };
+  std::vector<TableViewEntry> out{{s.sequence + " / " + s.method},
+                                  {fmt::format("{} of {}", s.successes, s.runs)}};
   if (s.successes == 0) {
-    return fmt::format("| {} | {} | 0 of {} | | | | |\n", s.sequence, s.method, s.runs);
+    out.resize(6);
+    return out;
   }
-  return fmt::format(
-      "| {} | {} | {} of {} | {:.4f} | {} | {:.4f} | {:.4f} to {:.4f} |\n",
-      s.sequence,
-      s.method,
-      s.successes,
-      s.runs,
-      s.mean,
-      s.interval ? fmt::format("{:.4f} to {:.4f}", s.interval->low, s.interval->high) : "-",
-      s.median,
-      s.smallest,
-      s.largest);
+  const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
+  out.push_back({number(s.mean)});
+  out.push_back({s.interval ? range(s.interval->low, s.interval->high) : "-"});
+  out.push_back({number(s.median)});
+  out.push_back({range(s.smallest, s.largest)});
+  return out;
+}
+
+/// Indented after the first line.
+std::string lines_of(const std::string& text, const std::optional<TerminalStyle>& style) {
+  std::string out;
+  for (const std::string& line : wrapped(text, style ? style->width - 2 : 0)) {
+    out += (out.empty() ? "" : "  ") + line + "\n";
+  }
+  return out;
+}
+
+std::string table_of(const std::vector<RunSummary>& all,
+                     const std::string& metric,
+                     const std::optional<TerminalStyle>& style) {
+  TableView view{"",
+                 {"sequence / method",
+                  "successful runs",
+                  "mean " + metric + " [m]",
+                  "95 % interval",
+                  "median [m]",
+                  "range [m]"},
+                 {},
+                 {}};
+  for (const RunSummary& each : all) view.lines.push_back(row(each));
+  return style ? terminal(view, *style) : markdown(view);
 }
 
 }  // namespace
@@ -126,7 +150,8 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
   return out;
 }
 
-std::string run_report(const std::vector<Record>& records) {
+std::string run_report(const std::vector<Record>& records,
+                       const std::optional<TerminalStyle>& style) {
   const std::string metric = "ate";
   const std::vector<RunSummary> all = summarise_runs(records, metric);
   std::set<std::string> methods;
@@ -137,12 +162,7 @@ std::string run_report(const std::vector<Record>& records) {
       std::ranges::any_of(all, [](const RunSummary& each) { return each.successes > 0; });
   if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
   std::string out;
-  if (has_repeats) {
-    out +=
-        "\n| sequence | method | successful runs | mean ate [m] | 95 % interval | median [m] | "
-        "range [m] |\n| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
-    for (const RunSummary& each : all) out += row(each);
-  }
+  if (has_repeats) out += "\n" + table_of(all, metric, style);
   if (methods.size() < 2) return out;
   std::vector<Record> scores;
   std::string protocol;
@@ -153,8 +173,12 @@ std::string run_report(const std::vector<Record>& records) {
   CompareOptions options;
   options.baseline = records.front().method;
   for (const Comparison& comparison : compare(scores, options)) {
-    out += "\nverdict on " + metric + ": " + verdict(comparison) + "\n";
-    for (const std::string& remark : remarks(comparison)) out += "- " + remark + "\n";
+    out += "\n" + lines_of("verdict on " + metric + ": " + verdict(comparison), style);
+    const std::vector<std::string> limits = conditions(comparison);
+    const bool uses_all = comparison.runs == comparison.possible;
+    for (std::size_t i = uses_all ? 1 : 0; i < limits.size(); ++i) {  // the verdict has the first
+      out += lines_of("- " + limits[i], style);
+    }
   }
   return out;
 }

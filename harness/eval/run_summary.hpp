@@ -8,6 +8,7 @@
 #include "harness/compare/compare.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/recorded_runs.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
@@ -35,7 +36,8 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
                                        const std::string& metric = "ate");
 
 /// Table of the summaries, and the verdict over all runs: which method is better, and whether that
-/// is proven. Empty below two methods and two runs.
-std::string run_report(const std::vector<Record>& records);
+/// is proven. Empty below two methods and two runs. Markdown without a style.
+std::string run_report(const std::vector<Record>& records,
+                       const std::optional<TerminalStyle>& style = std::nullopt);
 
 }  // namespace loopbench::harness

@@ -11,7 +11,9 @@
 #include "datasets/core/polyline.hpp"
 #include "harness/external/arguments.hpp"
 #include "harness/external/process_tree.hpp"
+#include "harness/external/scratch.hpp"
 #include "harness/external/server.hpp"
+#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -21,25 +23,6 @@ using ExchangeClock = std::chrono::steady_clock;
 double seconds_since(ExchangeClock::time_point begin) {
   return std::chrono::duration<double>(ExchangeClock::now() - begin).count();
 }
-
-std::filesystem::path new_scratch() {
-  std::string name =
-      (std::filesystem::temp_directory_path() / "loopbench-exchange-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be created");
-  return name;
-}
-
-/// Removes the folder unless a process tree does.
-struct Scratch {
-  std::filesystem::path folder = new_scratch();
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-  }
-  Scratch() = default;
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-};
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -52,9 +35,9 @@ Trajectory run_once(const CommandOptions& options,
                     const Problem& problem,
                     methods::Report& report,
                     double& own) {
-  const Scratch scratch;
-  const std::filesystem::path input = scratch.folder / "problem";
-  const std::filesystem::path result = scratch.folder / "result";
+  const ExchangeFolder folder;
+  const std::filesystem::path input = folder.path() / "problem";
+  const std::filesystem::path result = folder.path() / "result";
   std::filesystem::create_directory(input);
   write_problem(input, problem);
   ProgramStart start;
@@ -64,8 +47,9 @@ Trajectory run_once(const CommandOptions& options,
                    {"result", options.shell ? "${LOOPBENCH_RESULT}" : result.string()}});
   start.folder = setting.folder;
   start.environment = {{"LOOPBENCH_PROBLEM", input.string()},
-                       {"LOOPBENCH_RESULT", result.string()}};
-  start.scratch = scratch.folder;
+                       {"LOOPBENCH_RESULT", result.string()},
+                       {"TMPDIR", folder.path().string()}};
+  start.scratch = folder.path();
   start.memory = setting.memory;
 
   const auto started = ExchangeClock::now();
@@ -92,8 +76,8 @@ Trajectory run_once(const CommandOptions& options,
   report.counts.insert(report.counts.end(), facts.report.counts.begin(), facts.report.counts.end());
   report.phases.insert(report.phases.end(), facts.report.phases.begin(), facts.report.phases.end());
   report.notes.insert(report.notes.end(), facts.report.notes.begin(), facts.report.notes.end());
-  report.count("program_cpu_seconds", end.cpu_seconds);
-  report.count("program_memory", static_cast<double>(end.peak_memory));
+  report.count(kProgramTime, end.cpu_seconds);
+  report.count(kProgramMemory, static_cast<double>(end.peak_memory));
   add_output(report, output);
   if (end.left_behind > 0) {
     report.notes.push_back(
@@ -191,8 +175,14 @@ std::string with_output(const std::string& why, const std::string& output) {
 }
 
 void add_output(methods::Report& report, const std::string& output) {
-  std::string text = output;
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  constexpr std::size_t kLongestOutput = 1900;  // [bytes], of a note
+  std::string text = printable(output);
+  std::ranges::replace(text, '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (text.size() > kLongestOutput) text.erase(0, text.size() - kLongestOutput);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+  while (!text.empty() && continues(text.front()))
+    text.erase(0, 1);  // of a code point that was cut
   if (!text.empty()) report.notes.push_back("output: " + text);
 }
 

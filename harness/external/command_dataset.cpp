@@ -8,6 +8,7 @@
 #include "harness/external/command.hpp"
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/process_tree.hpp"
+#include "harness/external/scratch.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -65,14 +66,51 @@ std::string output_key(const CommandDatasetOptions& o,
   return out.hashed();
 }
 
+/// A regular file, not a link to one.
+bool is_own_file(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, none));
+}
+
+SandboxOptions& dataset_sandbox() {
+  static SandboxOptions options;
+  return options;
+}
+
+std::filesystem::path& uncached_programs() {
+  static std::filesystem::path folder;
+  return folder;
+}
+
+/// Restrictions of the program: it sees its sequence, but not the reference.
+Sandbox program_sandbox(const CommandDatasetOptions& o,
+                        const DataRoot& root,
+                        const std::filesystem::path& sequence,
+                        const std::filesystem::path& writable) {
+  SandboxOptions options = dataset_sandbox();
+  if (!o.trajectory.reference.empty()) {
+    const std::filesystem::path reference = root.find(o.trajectory.reference);
+    std::error_code none;
+    if (!std::filesystem::equivalent(reference, sequence, none)) {
+      options.unreachable.push_back(reference);
+    }
+  }
+  options.writable.push_back(writable);
+  return {options, {getpid(), getppid(), -getpgrp(), -1, 1}};
+}
+
 void run_program(const CommandDatasetOptions& o,
+                 const DataRoot& root,
                  const std::filesystem::path& folder,
                  const std::filesystem::path& sequence,
                  const std::filesystem::path& trajectory) {
+  const Sandbox sandbox = program_sandbox(o, root, sequence, trajectory.parent_path());
   ProgramStart start;
   start.folder = folder;
+  start.sandbox = &sandbox;
   start.environment = {{"LOOPBENCH_SEQUENCE", sequence.string()},
-                       {"LOOPBENCH_TRAJECTORY", trajectory.string()}};
+                       {"LOOPBENCH_TRAJECTORY", trajectory.string()},
+                       {"TMPDIR", trajectory.parent_path().string()}};
   start.arguments =
       with_values(command_words("run", o.run, o.shell),
                   {{"sequence", o.shell ? "${LOOPBENCH_SEQUENCE}" : sequence.string()},
@@ -83,27 +121,34 @@ void run_program(const CommandDatasetOptions& o,
   if (end.exit_code != 0) {
     throw InputError(with_output("run: " + o.run + ": the program " + text(end), output));
   }
-  if (!std::filesystem::is_regular_file(trajectory)) {
+  if (!is_own_file(trajectory)) {
     throw InputError(with_output("run: " + o.run + ": the program wrote no trajectory", output));
   }
 }
 
 /// Folder with the program's output, from the cache or new.
 std::filesystem::path program_output(const CommandDatasetOptions& o,
+                                     const DataRoot& root,
                                      const std::filesystem::path& folder,
                                      const std::filesystem::path& sequence,
                                      const std::filesystem::path& cache,
                                      const std::string& key) {
-  const std::filesystem::path all =
-      cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
-                    : cache / "programs";
+  std::filesystem::path all = cache.empty() ? uncached_programs() : cache / "programs";
+  if (all.empty()) all = std::filesystem::temp_directory_path() / "loopbench-programs";
   const std::filesystem::path out = all / key;
   if (std::filesystem::is_regular_file(out / kOpen)) return out;
+  const ExchangeFolder work;
+  run_program(o, root, folder, sequence, work.path() / kOpen);
   std::filesystem::create_directories(all);
   std::string part = (all / (key + "-XXXXXX")).string();
   if (mkdtemp(part.data()) == nullptr) throw InputError(part + ": cannot be created");
   try {
-    run_program(o, folder, sequence, std::filesystem::path(part) / kOpen);
+    for (const char* suffix : {"", ".frames", ".loops", ".closed"}) {
+      const std::string name = std::string(kOpen) + suffix;
+      if (is_own_file(work.path() / name)) {
+        std::filesystem::copy_file(work.path() / name, std::filesystem::path(part) / name);
+      }
+    }
     std::error_code exists;  // another worker was faster: its output is as good
     std::filesystem::rename(part, out, exists);
     if (exists) std::filesystem::remove_all(part);
@@ -135,7 +180,7 @@ Sequence load_command(const CommandDatasetOptions& o,
   const auto program = program_files(o, folder);
   const auto recording = files_of_sequence(sequence);
   const std::filesystem::path out =
-      program_output(o, folder, sequence, cache, output_key(o, program, recording));
+      program_output(o, root, folder, sequence, cache, output_key(o, program, recording));
 
   TrajectoryOptions options = o.trajectory;
   const std::string open = std::filesystem::absolute(out / kOpen).string();
@@ -159,9 +204,13 @@ Sequence load_command(const CommandDatasetOptions& o,
   return loaded;
 }
 
+void set_dataset_sandbox(const SandboxOptions& sandbox) { dataset_sandbox() = sandbox; }
+
+void set_uncached_programs(const std::filesystem::path& folder) { uncached_programs() = folder; }
+
 std::vector<DatasetEntry> external_datasets(const std::filesystem::path& cache) {
   return {dataset<CommandDatasetOptions>(
-      "command",
+      kCommandDataset,
       "any program as a SLAM system; see methods/bring_a_method.md",
       [cache](const CommandDatasetOptions& options, const DataRoot& root) {
         return load_command(options, root, cache);

@@ -68,6 +68,10 @@ void require_cover(Trajectory& poses, const Problem& problem, const std::string&
 
 }  // namespace
 
+bool uses_exchange(const methods::Report& report) {
+  return std::ranges::count(report.phases, kExchangePhase, &methods::Phase::name) > 0;
+}
+
 double exchange_seconds(const methods::Report& report) {
   double out = 0.0;
   for (const methods::Phase& phase : report.phases) {

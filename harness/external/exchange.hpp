@@ -28,8 +28,15 @@ inline constexpr int kExchangeVersion = 1;
 /// method's time.
 inline constexpr const char* kExchangePhase = "start and exchange";
 
+/// Whether a program computed the result.
+bool uses_exchange(const methods::Report& report);
+
 /// Sum of these phases [s].
 double exchange_seconds(const methods::Report& report);
+
+/// Counts of a report that are measured, so that they differ between runs.
+inline constexpr const char* kProgramTime = "program_cpu_seconds";
+inline constexpr const char* kProgramMemory = "program_memory";  ///< largest resident size [bytes]
 
 /// Poses of a result: keyframes only, or any stamps that cover them.
 enum class ResultPoses { keyframes, dense };

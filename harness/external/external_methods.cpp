@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/external/external_datasets.hpp"
 #include "harness/external/server.hpp"
 
 namespace loopbench::harness {
@@ -47,10 +48,21 @@ CommandSetting command_setting(const Sweep& sweep) {
 }
 
 bool uses_programs(const Sweep& sweep) {
+  const auto runs_program = [](const DatasetChoice& choice) {
+    return choice.dataset.name == kCommandDataset;
+  };
+  if (std::ranges::any_of(sweep.datasets, runs_program)) return true;
   return std::ranges::any_of(sweep.methods, [](const MethodChoice& choice) {
     return std::ranges::any_of(
         choice.stages, [](const Choice& stage) { return find_external(stage.name) != nullptr; });
   });
+}
+
+std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
+  if (!uses_programs(sweep)) return nullptr;
+  auto out = std::make_unique<const ScratchFolder>();
+  set_uncached_programs(out->path() / "programs");
+  return out;
 }
 
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "harness/external/command.hpp"
+#include "harness/external/scratch.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
@@ -26,8 +28,11 @@ const ExternalMethod* find_external(const std::string& name);
 /// Programs of a sweep run in the folder of its config, under its memory limit.
 CommandSetting command_setting(const Sweep& sweep);
 
-/// Whether any of its methods runs programs, which need a folder to write to.
+/// Whether any of its methods or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
+
+/// Temporary files of the programs of a sweep and its workers; null unless it uses programs.
+std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 
 /// prepare() of the stages of a method that are external.
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting);

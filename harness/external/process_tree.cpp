@@ -148,6 +148,9 @@ std::string text(const ProgramEnd& end) {
   if (end.start_error != 0) {
     return std::string("cannot be started: ") + std::strerror(end.start_error);
   }
+  if (end.over_processes > 0) {
+    return "started more than " + std::to_string(kMostProgramProcesses) + " processes";
+  }
   if (end.signal == 0) return "exited with code " + std::to_string(end.exit_code);
   const char* name = sigabbrev_np(end.signal);
   return "was ended by " +

@@ -14,26 +14,33 @@
 #include <utility>
 #include <vector>
 
+#include "harness/execution/sandbox/sandbox.hpp"
+
 namespace loopbench::harness {
 
 struct ProgramStart {
   std::vector<std::string> arguments;  ///< the program first; searched in PATH without a slash
   std::filesystem::path folder;        ///< working directory; must exist
   std::vector<std::pair<std::string, std::string>> environment;  ///< variables to set
-  std::filesystem::path scratch;  ///< folder that is removed with the tree; empty: none
-  std::int64_t memory = 0;        ///< limit of the tree's resident size [bytes]; 0: none
-  bool serves = false;            ///< standard input and output are connected to this process
+  std::filesystem::path scratch;     ///< folder that is removed with the tree; empty: none
+  std::int64_t memory = 0;           ///< limit of the tree's resident size [bytes]; 0: none
+  const Sandbox* sandbox = nullptr;  ///< to enter; null: none, or the one of this process
+  bool serves = false;               ///< standard input and output are connected to this process
 };
+
+/// Limit of a tree, apart from threads.
+inline constexpr int kMostProgramProcesses = 64;
 
 /// Sent by the supervisor as raw memory.
 struct ProgramEnd {
-  int exit_code = -1;            ///< -1 unless it exited
-  int signal = 0;                ///< signal that ended it, or 0
-  int start_error = 0;           ///< errno if it could not be started
-  std::int64_t over_memory = 0;  ///< resident size of the tree that exceeded the limit [bytes]
-  std::int64_t left_behind = 0;  ///< processes that outlived it and were killed
-  double cpu_seconds = 0.0;      ///< of the tree
-  std::int64_t peak_memory = 0;  ///< largest resident size of one of its processes [bytes]
+  int exit_code = -1;               ///< -1 unless it exited
+  int signal = 0;                   ///< signal that ended it, or 0
+  int start_error = 0;              ///< errno if it could not be started
+  std::int64_t over_memory = 0;     ///< resident size of the tree that exceeded the limit [bytes]
+  std::int64_t over_processes = 0;  ///< processes of the tree that exceeded the limit
+  std::int64_t left_behind = 0;     ///< processes that outlived it and were killed
+  double cpu_seconds = 0.0;         ///< of the tree
+  std::int64_t peak_memory = 0;     ///< largest resident size of one of its processes [bytes]
 };
 
 class ProcessTree {
@@ -74,7 +81,8 @@ class ProcessTree {
 bool read_available(int file, std::string& text);
 inline constexpr std::size_t kKeptOutput = 2000;
 
-/// "exited with code 3", "was ended by SIGSEGV", "cannot be started: No such file or directory".
+/// "exited with code 3", "was ended by SIGSEGV", "started more than 64 processes", "cannot be
+/// started: No such file or directory".
 std::string text(const ProgramEnd& end);
 
 }  // namespace loopbench::harness

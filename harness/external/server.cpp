@@ -32,6 +32,7 @@ ProgramStart server_start(const CommandOptions& options, const CommandSetting& s
   out.arguments = command_words("serve", options.serve, options.shell);
   out.folder = setting.folder;
   out.memory = setting.memory;
+  out.sandbox = setting.sandbox;
   out.serves = true;
   return out;
 }
@@ -158,6 +159,12 @@ RunningServers running_servers() {
     if (known.server) known.server->append_to(out);
   }
   return out;
+}
+
+void end_servers(bool only_stuck) {
+  for (KnownServer& known : known_servers()) {
+    if (known.server && !(only_stuck && known.server->is_in_step())) known.server.reset();
+  }
 }
 
 void prepare_server(const CommandOptions& options, const CommandSetting& setting) {

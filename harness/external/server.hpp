@@ -27,6 +27,10 @@ struct RunningServers {
 };
 RunningServers running_servers();
 
+/// Ends the servers of this thread; `only_stuck`: those that have ended or have not answered,
+/// because the process that asked was killed.
+void end_servers(bool only_stuck = false);
+
 /// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
 /// fails, MemoryLimitExceeded, and Undefined if it declines.
 Trajectory ask_server(const CommandOptions& options,

@@ -23,6 +23,7 @@ namespace loopbench::harness {
 namespace {
 
 constexpr int kMemoryCheck = 20;                // [ms]
+constexpr int kProcessCheck = 200;              // [ms], without a memory limit
 constexpr std::chrono::seconds kLongestEnd{5};  // for processes that cannot be killed
 constexpr int kFailedExec = 127;
 
@@ -59,14 +60,24 @@ std::vector<pid_t> children_of(pid_t process) {
   return out;
 }
 
-/// Resident size of all descendants [bytes].
-std::int64_t resident_size(pid_t process) {
-  std::int64_t out = 0;
-  for (const pid_t child : children_of(process)) {
+struct TreeSize {
+  std::int64_t memory = 0;     ///< resident size [bytes]
+  std::int64_t processes = 0;  ///< at most one more than the limit
+};
+
+/// Size of all descendants.
+TreeSize tree_size(pid_t process) {
+  TreeSize out;
+  std::vector<pid_t> waiting = children_of(process);
+  while (!waiting.empty() && out.processes <= kMostProgramProcesses) {
+    const pid_t child = waiting.back();
+    waiting.pop_back();
     const std::string text = file_text("/proc/" + std::to_string(child) + "/statm");
     const std::size_t blank = std::min(text.find(' '), text.size());
-    out += std::strtoll(text.c_str() + blank, nullptr, 10) * sysconf(_SC_PAGESIZE);
-    out += resident_size(child);
+    out.memory += std::strtoll(text.c_str() + blank, nullptr, 10) * sysconf(_SC_PAGESIZE);
+    ++out.processes;
+    const std::vector<pid_t> further = children_of(child);
+    waiting.insert(waiting.end(), further.begin(), further.end());
   }
   return out;
 }
@@ -139,8 +150,8 @@ void remove_tree(const std::filesystem::path& folder) {
   if (!folder.empty()) std::filesystem::remove_all(folder, ignored);
 }
 
-/// Waits until the program ends, exceeds the memory limit, or the other side closes the control
-/// pipe; returns false in the last case.
+/// Waits until the program ends, exceeds a limit, or the other side closes the control pipe;
+/// returns false in the last case.
 bool watch(const ProgramStart& start,
            int control,
            int signals,
@@ -148,9 +159,9 @@ bool watch(const ProgramStart& start,
            ProgramEnd& end,
            bool& has_ended,
            int& status) {
-  while (!has_ended && end.over_memory == 0) {
+  while (!has_ended && end.over_memory == 0 && end.over_processes == 0) {
     std::array<pollfd, 2> files{{{control, POLLIN, 0}, {signals, POLLIN, 0}}};
-    poll(files.data(), files.size(), start.memory > 0 ? kMemoryCheck : -1);
+    poll(files.data(), files.size(), start.memory > 0 ? kMemoryCheck : kProcessCheck);
     if (files[0].revents != 0) return false;
     signalfd_siginfo info{};
     while (read(signals, &info, sizeof info) > 0) {
@@ -161,9 +172,10 @@ bool watch(const ProgramStart& start,
       has_ended = true;
       status = child_status;
     }
-    if (has_ended || start.memory <= 0) continue;
-    const std::int64_t size = resident_size(getpid());
-    if (size > start.memory) end.over_memory = size;
+    if (has_ended) continue;
+    const TreeSize size = tree_size(getpid());
+    if (start.memory > 0 && size.memory > start.memory) end.over_memory = size.memory;
+    if (size.processes > kMostProgramProcesses) end.over_processes = size.processes;
   }
   return true;
 }
@@ -175,6 +187,7 @@ void supervise(const ProgramStart& start,
                const SupervisorFiles& files) {
   setpgid(0, 0);  // signals of the terminal are for the sweep
   prctl(PR_SET_CHILD_SUBREAPER, 1);
+  if (start.sandbox != nullptr) start.sandbox->enter();
   std::signal(SIGPIPE, SIG_IGN);
   sigset_t child_ends;
   sigemptyset(&child_ends);

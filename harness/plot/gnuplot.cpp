@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "harness/plot/run_gnuplot.hpp"
 #include "harness/text/printable.hpp"
@@ -94,7 +97,51 @@ std::string value_axis(const PlotPanel& panel) {
                      0.25 * largest);
 }
 
-std::string panel_script(const PlotPanel& panel, std::size_t index) {
+/// Lower and upper bound of the finite coordinates; empty without any.
+std::optional<std::pair<double, double>> bounds(const PlotPanel& panel, Eigen::Index coordinate) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const PlotSeries& series : panel.series) {
+    for (const Vector3& p : series.points) {
+      if (!p.allFinite()) continue;
+      low = std::min(low, p(coordinate));
+      high = std::max(high, p(coordinate));
+    }
+  }
+  if (low > high) return std::nullopt;
+  return std::pair{low, high};
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is at most `step`.
+double round_step(double step) {
+  const double power = std::pow(10.0, std::floor(std::log10(step)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= step) return factor * power;
+  }
+  return power;
+}
+
+/// Distances of the tics of maps: the same for axes of the same scale, so that the labels of a
+/// short axis do not overlap; otherwise automatic.
+std::string tics(const PlotPanel& panel) {
+  std::string out = "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
+  if (!panel.spatial && !panel.same_scale) return out;
+  std::array<double, 3> lengths{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto range = bounds(panel, static_cast<Eigen::Index>(axis));
+    if (range) lengths[axis] = range->second - range->first;
+  }
+  const double longest = std::max(lengths[0], lengths[1]);
+  if (!(longest > 0.0)) return out;
+  const double step = round_step(panel.spatial ? 0.5 * longest : 0.3 * longest);
+  out = fmt::format("set xtics {0:g}\nset ytics {0:g}\n", step);
+  if (panel.spatial && lengths[2] > 1e-9 * longest) {
+    out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
+  }
+  return out;
+}
+
+std::string panel_script(const PlotPanel& panel, std::size_t index, bool has_round_tics) {
   std::string blocks;
   std::string plots;
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
@@ -109,7 +156,7 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                          with_style(series),
                          series.name.empty() ? "notitle" : "title " + gnuplot_quoted(series.name));
   }
-  blocks += value_axis(panel);
+  blocks += value_axis(panel) + (has_round_tics ? tics(panel) : "");
   return blocks + ranges(panel) +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
                      gnuplot_quoted(panel.title),
@@ -121,26 +168,56 @@ std::string panel_script(const PlotPanel& panel, std::size_t index) {
                      plots);
 }
 
+/// One legend for all panels, above them: their series have the same names.
+struct Legend {
+  std::string script;
+  double height = 0.0;  ///< [in]
+};
+
+Legend legend_of(const std::vector<PlotPanel>& panels, double width, double font) {
+  constexpr double kPoint = 1.0 / 72.0;  // [in]
+  constexpr double kLetter = 0.6;        // width over height
+  constexpr double kSample = 6.0;        // letters of the line beside a name
+  std::size_t names = 0, longest = 0;
+  for (const PlotSeries& series : panels.front().series) {
+    if (series.name.empty()) continue;
+    ++names;
+    longest = std::max(longest, series.name.size());
+  }
+  if (names == 0) return {"unset key\n", 0.0};
+  const double entry = (static_cast<double>(longest) + kSample) * kLetter * font * kPoint;
+  const auto columns = std::clamp<std::size_t>(static_cast<std::size_t>(width / entry), 1, names);
+  const std::size_t rows = (names + columns - 1) / columns;
+  return {fmt::format("set key at screen 0.5, screen 1.0 center top horizontal maxcols {} "
+                      "samplen 2 Left reverse\n",
+                      columns),
+          1.35 * font * kPoint * (static_cast<double>(rows) + 1.0)};
+}
+
+/// [pt]
+double font_size(const std::filesystem::path& file, const FigureSize& size) {
+  if (size.font > 0.0) return size.font;
+  return file.extension() == ".svg" ? 12.0 : 9.0;
+}
+
 std::string terminal(const std::filesystem::path& file, double width, double height, double font) {
   constexpr double kPoints = 72.0, kPixels = 150.0;  // per inch
   constexpr double kFontPixels = 96.0;               // per inch, of a font size in PNG
   if (file.extension() == ".pdf") {
-    return fmt::format("pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,{:g}'",
-                       width,
-                       height,
-                       font > 0.0 ? font : 9.0);
+    return fmt::format(
+        "pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,{:g}'", width, height, font);
   }
   if (file.extension() == ".png") {
     return fmt::format("pngcairo size {:.0f},{:.0f} noenhanced font 'sans,{:g}'",
                        width * kPixels,
                        height * kPixels,
-                       (font > 0.0 ? font : 9.0) * kPixels / kFontPixels);
+                       font * kPixels / kFontPixels);
   }
   return fmt::format(
       "svg size {:.0f},{:.0f} dynamic noenhanced background '#ffffff' font 'sans,{:g}'",
       width * kPoints,
       height * kPoints,
-      font > 0.0 ? font : 12.0);
+      font);
 }
 
 }  // namespace
@@ -150,18 +227,31 @@ void write_figure(const std::filesystem::path& file,
                   std::size_t columns,
                   const FigureSize& size) {
   const std::size_t rows = (panels.size() + columns - 1) / columns;
+  const double width = size.width * static_cast<double>(columns);
+  const double font = font_size(file, size);
+  const Legend legend = size.common_legend ? legend_of(panels, width, font) : Legend{};
+  const double height = size.height * static_cast<double>(rows) + legend.height;
   std::string script = fmt::format(
       "set terminal {}\n"
       "set grid lc rgb '#dddddd'\nset key outside below horizontal samplen 2\nset border lc rgb "
-      "'#666666'\nset palette defined (0 '#2c7bb6', 0.5 '#ffd24d', 1 '#d7191c')\n"
-      "set multiplot layout {},{}\n",
-      terminal(file,
-               size.width * static_cast<double>(columns),
-               size.height * static_cast<double>(rows),
-               size.font),
-      rows,
-      columns);
-  for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
+      "'#666666'\nset palette defined (0 '#2c7bb6', 0.5 '#ffd24d', 1 '#d7191c')\n",
+      terminal(file, width, height, font));
+  script += size.common_legend ? "set multiplot\n"
+                               : fmt::format("set multiplot layout {},{}\n", rows, columns);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (size.common_legend) {
+      const double left = static_cast<double>(i % columns) * size.width;
+      const double bottom =
+          height - legend.height - size.height * (1.0 + static_cast<double>(i / columns));
+      script += fmt::format("set size {:.6f},{:.6f}\nset origin {:.6f},{:.6f}\n{}",
+                            size.width / width,
+                            size.height / height,
+                            left / width,
+                            bottom / height,
+                            i == 0 ? legend.script : "unset key\n");
+    }
+    script += panel_script(panels[i], i, size.common_legend);
+  }
   script += "unset multiplot\n";
 
   write_result(file, drawn_by_gnuplot(script));

@@ -36,11 +36,14 @@ struct PlotPanel {
   std::string value_label = {};  ///< of the colour bar, if a series has values
 };
 
-/// Size of one panel and of its text.
+/// Size of one panel and of its text, and the kind of legend.
 struct FigureSize {
   double width = 640.0 / 72.0;   ///< [in]
   double height = 480.0 / 72.0;  ///< [in]
-  double font = 0.0;             ///< [pt]; 0: 9 in PDF, 12 in SVG and PNG
+  double font = 0.0;             ///< [pt]; 0: 12 in SVG, 9 in PDF and PNG
+  /// One legend above all panels, of the first one's names, and the same tics on axes of the same
+  /// scale; otherwise each panel has its legend.
+  bool common_legend = false;
 };
 
 /// Panels row by row on one page: SVG, or PDF or PNG by the file's extension. Throws InputError if

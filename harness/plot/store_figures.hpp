@@ -10,19 +10,25 @@
 
 namespace loopbench::harness {
 
+/// Names of panels: trajectories in the planes "xy", "xz" and "yz" and in space ("xyz"); errors
+/// "x", "y", "z" [m] and "angle" [deg] along the path.
+extern const std::vector<std::string> kPanelNames;
+
 /// Panels for one sequence: `methods` on its first repeat, in their order; methods without a trace
 /// are skipped. The style of a method depends on its index in `all_methods` of the sweep, so that
 /// it is the same in every figure.
 struct SequenceFigures {
-  std::vector<PlotPanel> trajectories;  ///< from above and in space; empty without a trace
-  std::vector<PlotPanel> errors;        ///< x, y, z [m] and angle [deg] along the path [m]
+  std::vector<PlotPanel> trajectories;  ///< both are empty without a trace
+  std::vector<PlotPanel> errors;
 };
 
 SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
                                  Traces& traces,
                                  const std::string& sequence,
                                  const std::vector<std::string>& methods,
-                                 const std::vector<std::string>& all_methods);
+                                 const std::vector<std::string>& all_methods,
+                                 const std::vector<std::string>& panels = {
+                                     "xy", "xyz", "x", "y", "z", "angle"});
 
 /// "closed, 180 keyframes" -> "closed_180_keyframes": a safe file name.
 std::string file_stem(const std::string& label);

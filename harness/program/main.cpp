@@ -23,6 +23,7 @@
 #include "harness/commands/correct.hpp"
 #include "harness/commands/export.hpp"
 #include "harness/commands/help.hpp"
+#include "harness/commands/help_format.hpp"
 #include "harness/program/counted_malloc.hpp"
 #include "harness/provenance/source_commit.hpp"
 #include "harness/provenance/version.hpp"
@@ -110,6 +111,7 @@ int main(int argc, char** argv) {
   reserve_standard_streams();
   set_allocation_counter(counted_malloc());
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
+  app.formatter(help_formatter());
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
   app.require_subcommand(1);
   app.footer(

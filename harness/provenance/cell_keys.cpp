@@ -39,10 +39,9 @@ std::string hashed(const Params& params) {
 std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
   for (const Choice& stage : choice.stages) {
-    const auto version = catalogue.versions.find(stage.name);
     fields.add(stage.name)
         .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
-        .add(version == catalogue.versions.end() ? "" : version->second);
+        .add(plugin_version(catalogue, "method", stage.name));
     const ExternalMethod* program = find_external(stage.name);
     if (program != nullptr) fields.add(program->version(stage.options, command_setting(sweep)));
   }
@@ -59,7 +58,8 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
     fields.add(metric.label)
         .add(metric.metric.name)
         .add(hashed(
-            in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)));
+            in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)))
+        .add(plugin_version(catalogue, "metric", metric.metric.name));
   }
   for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
@@ -87,6 +87,7 @@ const std::string& CellKeys::asked(const Cell& cell) {
   const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
+  fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
   return found->second = fields.hashed();
 }

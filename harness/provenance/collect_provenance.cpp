@@ -106,10 +106,10 @@ std::map<std::string, std::string> provenance(const Source& source,
   out["kernel"] = kernel_name();
   out["seeds"] = seeds(sweep, catalogue);
   std::string plugins;
-  for (const auto& [method, version] : catalogue.versions) {
-    plugins += method + ": " + version + "\n";
+  for (const auto& [entry, version] : catalogue.versions) {
+    plugins += entry + ": " + version + "\n";
   }
-  out["plugin methods"] = plugins;
+  out["plugins"] = plugins;
   return out;
 }
 

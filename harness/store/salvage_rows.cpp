@@ -13,9 +13,9 @@ namespace {
 using Type = PageValue::Type;
 
 /// A table of the schema, by which rows are recognised.
-class Shape {
+class TableShape {
  public:
-  Shape(Database& database, std::string name, bool has_rowid)
+  TableShape(Database& database, std::string name, bool has_rowid)
       : name_(std::move(name)), has_rowid_(has_rowid) {
     Statement columns =
         database.prepare("SELECT name, type, \"notnull\", pk FROM pragma_table_info(?)");
@@ -219,19 +219,19 @@ class PhasesAndCounts {
 }  // namespace
 
 void insert_rows(Database& database, const PageFile& file, const PageView& view) {
-  std::vector<std::pair<Shape, Statement>> tables;
+  std::vector<std::pair<TableShape, Statement>> tables;
   Statement names = database.prepare(
       "SELECT name, wr FROM pragma_table_list WHERE schema = 'main' AND type = 'table' AND name "
       "NOT "
       "LIKE 'sqlite_%' AND name NOT IN ('phase', 'count') ORDER BY name");
   while (names.step()) {
     std::string name = names.text();
-    Shape shape(database, std::move(name), names.integer() == 0);
+    TableShape shape(database, std::move(name), names.integer() == 0);
     Statement insertion = shape.insertion(database);
     tables.emplace_back(std::move(shape), std::move(insertion));
   }
   names.reset();
-  const Shape either(database, "phase", true);
+  const TableShape either(database, "phase", true);
   PhasesAndCounts phases_and_counts(database);
   const auto is_digest = [](const PageRow& row) {
     const std::string_view key = row.values[0].bytes;

@@ -50,6 +50,15 @@ std::string markdown(const TextTable& listing) {
   return out;
 }
 
+TableView table_view(const TextTable& listing) {
+  TableView out{listing.title, listing.columns, {}, listing.notes};
+  for (const std::vector<std::string>& row : listing.rows) {
+    std::vector<TableViewEntry>& line = out.lines.emplace_back();
+    for (const std::string& text : row) line.push_back({text});
+  }
+  return out;
+}
+
 std::string csv(const TextTable& listing) {
   std::string out = "table";
   for (const std::string& column : listing.columns) out += "," + quoted(column);

@@ -99,18 +99,28 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
   std::vector<std::string> out;
   std::vector<std::string> seen;
   std::size_t left_out = 0;
-  for (const Comparison& c : compare(candidates, how)) {
+  const std::vector<Comparison> all = compare(candidates, how);
+  // With too few runs the sentences are the same for all scores.
+  const bool can_prove =
+      std::ranges::any_of(all, [](const Comparison& c) { return c.groups >= c.groups_needed; });
+  const std::size_t most = can_prove ? kMostVerdicts : 1;
+  for (const Comparison& c : all) {
     const std::string score = field(c.kind, "score");
     // The rotation of a score that also has a translation is in `compare`.
     if (std::ranges::count(seen, score) > 0) continue;
     seen.push_back(score);
-    if (out.size() < kMostVerdicts) {
+    if (out.size() < most) {
       out.push_back(score + ": " + verdict(c));
     } else {
       ++left_out;
     }
   }
-  if (left_out > 0) out.push_back(fmt::format("{} more scores: see compare", left_out));
+  if (left_out > 0) {
+    out.push_back(fmt::format("{}{} more score{}: see compare",
+                              can_prove ? "" : "likewise for ",
+                              left_out,
+                              left_out == 1 ? "" : "s"));
+  }
   return out;
 }
 

@@ -19,9 +19,9 @@ struct SummaryOptions {
 /// times, under the first protocol. Further columns: mean rank over runs (1 is best; a failure
 /// ranks below all values), gain and time. Rows are sorted by mean rank; with more than six
 /// sequences their columns are left out, with more than thirty methods the last ones. The notes
-/// contain one verdict per score, at most five. The records are those of `all_records`. Throws
-/// InputError for an unknown statistic. Without any score the table has no lines. O(n log n) plus
-/// the cost of `compare`.
+/// contain one verdict per score, at most five, or one if the runs are too few to prove anything.
+/// The records are those of `all_records`. Throws InputError for an unknown statistic. Without any
+/// score the table has no lines. O(n log n) plus the cost of `compare`.
 TableView summary(const std::vector<Record>& records, const SummaryOptions& options);
 
 }  // namespace loopbench::harness

@@ -6,22 +6,25 @@
 #include <array>
 #include <limits>
 
+#include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
+#include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostDrawn = 2000;  // points per curve; more are not visible
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
 
-struct Drawn {
+struct DrawnTrajectory {
   std::string name;
   const Trajectory& poses;
   CurveStyle style;
 };
 
-PlotSeries series_of(const Drawn& drawn, std::vector<Vector3> points, bool is_named) {
+PlotSeries series_of(const DrawnTrajectory& drawn,
+                     const std::vector<Vector3>& points,
+                     bool is_named) {
   return {is_named ? drawn.name : "",
           drawn.style.color,
           false,
@@ -31,19 +34,12 @@ PlotSeries series_of(const Drawn& drawn, std::vector<Vector3> points, bool is_na
 }
 
 /// Plane with axes a and b; a == b: space.
-PlotPanel map_panel(const std::vector<Drawn>& all, int a, int b) {
-  constexpr std::array kAxes{"x [m]", "y [m]", "z [m]"};
-  PlotPanel out;
-  out.spatial = a == b;
-  if (!out.spatial) {
-    out.x_label = kAxes[static_cast<std::size_t>(a)];
-    out.y_label = kAxes[static_cast<std::size_t>(b)];
-  }
-  for (const Drawn& drawn : all) {
+PlotPanel map_panel(const std::vector<DrawnTrajectory>& all, int a, int b) {
+  PlotPanel out = empty_map(a, b);
+  for (const DrawnTrajectory& drawn : all) {
     std::vector<Vector3> points;
     for (const StampedPose& pose : drawn.poses) {
-      const Vector3& p = pose.world_from_body.translation;
-      points.push_back(out.spatial ? p : Vector3(p[a], p[b], 0.0));
+      points.push_back(on_map(pose.world_from_body.translation, a, b));
     }
     out.series.push_back(series_of(drawn, points, true));
     for (const PlotMark mark : {PlotMark::start, PlotMark::end}) {
@@ -56,7 +52,7 @@ PlotPanel map_panel(const std::vector<Drawn>& all, int a, int b) {
 }
 
 template <class Value>
-PlotPanel time_panel(const std::vector<Drawn>& all,
+PlotPanel time_panel(const std::vector<DrawnTrajectory>& all,
                      double origin,
                      const std::string& label,
                      Value value) {
@@ -64,12 +60,12 @@ PlotPanel time_panel(const std::vector<Drawn>& all,
   out.same_scale = false;
   out.x_label = "time [s]";
   out.y_label = label;
-  for (const Drawn& drawn : all) {
+  for (const DrawnTrajectory& drawn : all) {
     std::vector<Vector3> points;
     for (std::size_t i = 0; i < drawn.poses.size(); ++i) {
       points.emplace_back(drawn.poses[i].stamp - origin, value(drawn.poses, i), 0.0);
     }
-    out.series.push_back(series_of(drawn, std::move(points), true));
+    out.series.push_back(series_of(drawn, points, true));
   }
   return out;
 }
@@ -85,13 +81,13 @@ double speed_at(const Trajectory& poses, std::size_t i) {
 
 std::vector<PlotPanel> trajectory_panels(const std::vector<NamedTrajectory>& all,
                                          const std::optional<NamedTrajectory>& reference) {
-  std::vector<Drawn> drawn;
+  std::vector<DrawnTrajectory> drawn;
   if (reference) drawn.push_back({"reference", reference->file.poses, {kReferenceColor, 1}});
   for (std::size_t i = 0; i < all.size(); ++i) {
     drawn.push_back({all[i].name, all[i].file.poses, curve_style(i)});
   }
   double origin = std::numeric_limits<double>::infinity();
-  for (const Drawn& each : drawn) {
+  for (const DrawnTrajectory& each : drawn) {
     origin = std::min(origin, each.poses.front().stamp);
     if (reference) break;
   }
@@ -99,17 +95,17 @@ std::vector<PlotPanel> trajectory_panels(const std::vector<NamedTrajectory>& all
                              map_panel(drawn, 0, 2),
                              map_panel(drawn, 1, 2),
                              map_panel(drawn, 0, 0)};
-  constexpr std::array kAxes{"x [m]", "y [m]", "z [m]"};
   constexpr std::array kAngles{"roll [deg]", "pitch [deg]", "yaw [deg]"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    out.push_back(time_panel(drawn, origin, kAxes[axis], [&](const Trajectory& poses, auto i) {
-      return poses[i].world_from_body.translation[static_cast<Eigen::Index>(axis)];
-    }));
+    out.push_back(
+        time_panel(drawn, origin, kAxisLabels[axis], [&](const Trajectory& poses, auto i) {
+          return poses[i].world_from_body.translation[static_cast<Eigen::Index>(axis)];
+        }));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.push_back(time_panel(drawn, origin, kAngles[axis], [&](const Trajectory& poses, auto i) {
       const auto angles = metrics::euler(poses[i].world_from_body.rotation);
-      return kDegreesPerRadian * std::array{angles.roll, angles.pitch, angles.yaw}[axis];
+      return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis];
     }));
   }
   out.push_back(time_panel(drawn, origin, "speed [m/s]", speed_at));
@@ -126,7 +122,7 @@ void write_trajectory_figure(const std::filesystem::path& file,
                              const std::vector<NamedTrajectory>& all,
                              const std::optional<NamedTrajectory>& reference) {
   check_figure_name(file);
-  write_figure(file, trajectory_panels(all, reference), 4, {4.5, 3.6, 9.0});
+  write_figure(file, trajectory_panels(all, reference), 4, {4.5, 3.6, 9.0, true});
 }
 
 }  // namespace loopbench::harness

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-double distance(const StampedPose& a, const StampedPose& b) {
+double metres_between(const StampedPose& a, const StampedPose& b) {
   return (b.world_from_body.translation - a.world_from_body.translation).norm();
 }
 
-double angle(const StampedPose& a, const StampedPose& b) {
+double radians_between(const StampedPose& a, const StampedPose& b) {
   return angle_between(a.world_from_body.rotation, b.world_from_body.rotation);
 }
 
@@ -61,8 +61,8 @@ std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& st
   double radians = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) {
-      metres += distance(poses[i - 1], poses[i]);
-      radians += angle(poses[i - 1], poses[i]);
+      metres += metres_between(poses[i - 1], poses[i]);
+      radians += radians_between(poses[i - 1], poses[i]);
     }
     const bool is_reached =
         i == 0 || (step.seconds && poses[i].stamp - poses[out.back()].stamp >= *step.seconds) ||
@@ -86,8 +86,8 @@ Trajectory resampled(const Trajectory& poses, const MotionStep& step) {
   if (!(size > 0.0)) throw InputError("resample: expected a step above 0");
   if (poses.size() < 2) return poses;
   std::vector<double> along = stamps(poses);
-  if (step.metres) along = accumulated(poses, distance);
-  if (step.degrees) along = accumulated(poses, angle);
+  if (step.metres) along = accumulated(poses, metres_between);
+  if (step.degrees) along = accumulated(poses, radians_between);
   const double first = along.front();
   const double count = std::floor((along.back() - first) / size * (1.0 + 1e-12));
   if (!(count <= kMostPoses)) throw InputError("resample: the step is too small");
@@ -120,8 +120,8 @@ TrajectoryFile merged(const std::vector<TrajectoryFile>& files) {
   }
   const auto stamp = [&](const auto& at) { return files[at.first].poses[at.second].stamp; };
   std::ranges::stable_sort(order, {}, stamp);
-  const auto repeated = std::ranges::unique(order, {}, stamp);
-  order.erase(repeated.begin(), repeated.end());
+  const auto same_stamp = [&](const auto& a, const auto& b) { return stamp(a) == stamp(b); };
+  order.erase(std::unique(order.begin(), order.end(), same_stamp), order.end());
   const auto all_have = [&](auto member) {
     return std::ranges::all_of(files, [&](const TrajectoryFile& file) {
       return (file.*member).size() == file.poses.size();

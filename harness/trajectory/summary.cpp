@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/fields.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
+using metrics::kDegrees;
 
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

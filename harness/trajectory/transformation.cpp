@@ -1,6 +1,5 @@
 #include "harness/trajectory/transformation.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -8,24 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "harness/text/numbers.hpp"
+
 namespace loopbench::harness {
 namespace {
-
-/// Comma-separated numbers; empty if the text is something else.
-std::vector<double> listed_numbers(const std::string& text) {
-  std::vector<double> out;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    double value = 0.0;
-    const auto [rest, error] = std::from_chars(at, end, value);
-    if (error != std::errc{} || !std::isfinite(value)) return {};
-    if (rest != end && *rest != ',') return {};
-    out.push_back(value);
-    if (rest == end) return out;
-    at = rest + 1;
-  }
-}
 
 Similarity from_numbers(const std::vector<double>& v, double scale, const std::string& where) {
   Similarity out{{Rotation::Identity(), {v[0], v[1], v[2]}}, scale};
@@ -72,7 +57,7 @@ Similarity from_json(const std::string& file) {
 }  // namespace
 
 Similarity read_similarity(const std::string& text) {
-  const std::vector<double> values = listed_numbers(text);
+  const std::vector<double> values = comma_separated_numbers(text);
   if (values.size() == 3 || values.size() == 7) return from_numbers(values, 1.0, text);
   return from_json(text);
 }

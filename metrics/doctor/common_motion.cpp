@@ -14,6 +14,40 @@ double median_value(std::vector<double> values) {
   return *middle;
 }
 
+double usual_interval(const Trajectory& poses) {
+  constexpr std::size_t kMostSteps = 20'000;
+  if (poses.size() < 2) return 0.0;
+  const std::size_t step = (poses.size() - 2) / kMostSteps + 1;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < poses.size(); i += step) {
+    intervals.push_back(poses[i].stamp - poses[i - 1].stamp);
+  }
+  return median_value(std::move(intervals));
+}
+
+std::size_t first_from(const Trajectory& poses, double stamp, std::size_t hint) {
+  const auto is_before = [&](std::size_t i) { return poses[i].stamp < stamp; };
+  std::size_t low = std::min(hint, poses.size());  // all before `low` are before the stamp
+  std::size_t high = low;                          // `high` is not, or is the end
+  for (std::size_t step = 1; high < poses.size() && is_before(high); step *= 2) {
+    low = high + 1;
+    high = std::min(poses.size(), high + step);
+  }
+  for (std::size_t step = 1; low > 0 && !is_before(low - 1); step *= 2) {
+    high = low - 1;
+    low -= std::min(low, step);
+  }
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (is_before(middle)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr std::size_t kFewest = 5;
   if (a.size() != b.size() || a.size() < kFewest) return 0.0;
@@ -38,16 +72,13 @@ CommonPoses common_poses(const Trajectory& reference,
                          std::size_t most) {
   CommonPoses out;
   if (reference.size() < 2 || estimate.empty()) return out;
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < reference.size(); ++i) {
-    intervals.push_back(reference[i].stamp - reference[i - 1].stamp);
-  }
-  const double longest = std::max(1.0, 10.0 * median_value(intervals));
+  const double longest = std::max(1.0, 10.0 * usual_interval(reference));
   const std::size_t step = std::max<std::size_t>(1, (estimate.size() + most - 1) / most);
   std::size_t after = 1;
   for (std::size_t i = 0; i < estimate.size(); i += step) {
     const double stamp = estimate[i].stamp + offset;
-    while (after + 1 < reference.size() && reference[after].stamp < stamp) ++after;
+    after =
+        std::clamp<std::size_t>(first_from(reference, stamp, after), after, reference.size() - 1);
     const StampedPose& a = reference[after - 1];
     const StampedPose& b = reference[after];
     if (stamp < a.stamp || stamp > b.stamp || b.stamp - a.stamp > longest) continue;

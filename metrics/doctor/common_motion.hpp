@@ -16,7 +16,7 @@ struct CommonPoses {
 
 /// The estimate's poses, at most `most` of them, evenly chosen, with the reference interpolated at
 /// stamp + offset; without those outside the reference or in its gaps above 1 s (or ten times its
-/// median interval). O(n + m).
+/// median interval). O(m log n).
 CommonPoses common_poses(const Trajectory& reference,
                          const Trajectory& estimate,
                          double offset,
@@ -28,6 +28,13 @@ struct MotionSignals {
   std::vector<double> reference_angle, estimate_angle;        ///< [rad]
   std::vector<double> reference_distance, estimate_distance;  ///< [m]
 };
+
+/// Median time between poses [s]; of at most 20 000 evenly chosen steps. 0 below two poses.
+double usual_interval(const Trajectory& poses);
+
+/// Index of the first pose at or after `stamp`, or the number of poses. Searches around `hint` in
+/// steps that double, so a good hint costs O(1). O(log n).
+std::size_t first_from(const Trajectory& poses, double stamp, std::size_t hint);
 
 /// Pearson's correlation; 0 for fewer than five values or a constant.
 double correlation(const std::vector<double>& a, const std::vector<double>& b);

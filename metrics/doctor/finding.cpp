@@ -32,6 +32,8 @@ std::string fault_name(Fault fault) {
       return "information_order";
     case Fault::information_scale:
       return "information_scale";
+    case Fault::nothing_moved:
+      return "nothing_moved";
   }
   return "unknown";
 }

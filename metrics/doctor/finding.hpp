@@ -19,7 +19,8 @@ enum class Fault {
   closure_direction,  ///< closures from `to` to `from`
   closure_gap,        ///< closures that the odometry contradicts
   information_order,  ///< blocks of rotation and translation exchanged
-  information_scale   ///< stated covariances contradict the residuals
+  information_scale,  ///< stated covariances contradict the residuals
+  nothing_moved       ///< a correction without effect
 };
 
 /// "time_offset": short name of a fault.

@@ -14,14 +14,6 @@ namespace {
 constexpr std::size_t kMostPairs = 600;
 constexpr double kSearch = 10.0;  // [s]
 
-double usual_interval(const Trajectory& poses) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    intervals.push_back(poses[i].stamp - poses[i - 1].stamp);
-  }
-  return median_value(std::move(intervals));
-}
-
 /// Motion of the estimate between two of its stamps.
 struct TimedMotion {
   double begin = 0.0;
@@ -40,10 +32,17 @@ class SpeedMatch {
     interval_ = std::max({kShortest, usual, 0.99 * usual_interval(estimate)});
     longest_gap_ = std::max(1.0, 10.0 * usual);
     const std::size_t step = std::max<std::size_t>(1, estimate.size() / kMostPairs);
+    const double whole = reference.empty() ? 0.0 : reference.back().stamp - reference[0].stamp;
+    if (whole > 0.0) rate_ = static_cast<double>(reference.size() - 1) / whole;
     std::size_t j = 0;
     for (std::size_t i = 0; i < estimate.size(); i = std::max(j, i + step)) {
       j = std::max(j, i);
-      while (j < estimate.size() && estimate[j].stamp - estimate[i].stamp < interval_) ++j;
+      const auto is_short = [&](std::size_t k) {  // the sum below is rounded
+        return estimate[k].stamp - estimate[i].stamp < interval_;
+      };
+      j = std::max(j, first_from(estimate, estimate[i].stamp + interval_, j));
+      while (j > i && !is_short(j - 1)) --j;
+      while (j < estimate.size() && is_short(j)) ++j;
       if (j == estimate.size()) break;
       const double duration = estimate[j].stamp - estimate[i].stamp;
       if (duration > kLongest * interval_) continue;
@@ -107,20 +106,24 @@ class SpeedMatch {
 
  private:
   std::optional<Pose> reference_at(double stamp) const {
-    const auto after = std::ranges::lower_bound(reference_, stamp, {}, &StampedPose::stamp);
-    if (after == reference_.end()) return std::nullopt;
-    if (after->stamp == stamp) return after->world_from_body;
-    if (after == reference_.begin()) return std::nullopt;
-    const StampedPose& before = *(after - 1);
-    const double gap = after->stamp - before.stamp;
+    if (reference_.empty() || !(stamp >= reference_.front().stamp)) return std::nullopt;
+    // Poses are close to evenly spaced, so the search begins near its result.
+    const double expected = std::min(rate_ * (stamp - reference_.front().stamp),
+                                     static_cast<double>(reference_.size()));
+    const std::size_t index = first_from(reference_, stamp, static_cast<std::size_t>(expected));
+    if (index == reference_.size()) return std::nullopt;
+    const StampedPose& after = reference_[index];
+    if (after.stamp == stamp) return after.world_from_body;
+    const StampedPose& before = reference_[index - 1];
+    const double gap = after.stamp - before.stamp;
     if (gap > longest_gap_) return std::nullopt;
-    return interpolate(
-        before.world_from_body, after->world_from_body, (stamp - before.stamp) / gap);
+    return interpolate(before.world_from_body, after.world_from_body, (stamp - before.stamp) / gap);
   }
 
   const Trajectory& reference_;
   std::vector<TimedMotion> motions_;
   double interval_ = 0.0;
+  double rate_ = 0.0;  ///< poses of the reference per second
   double longest_gap_ = 0.0;
 };
 

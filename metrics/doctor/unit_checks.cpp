@@ -6,16 +6,16 @@
 #include <cmath>
 
 #include "metrics/doctor/frame_fit.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kMostUnitPoses = 2000;
-constexpr double kUnitDegrees = 180.0 / M_PI;
 
 /// Median ratio of rotation angles over short intervals, without wraps.
 double angle_ratio(const CommonPoses& poses) {
-  constexpr double kLeast = 0.05 / kUnitDegrees, kMost = 2.5 / kUnitDegrees;
+  constexpr double kLeast = 0.05 / kDegrees, kMost = 2.5 / kDegrees;
   std::vector<double> ratios;
   for (std::size_t i = 1; i < poses.stamps.size(); ++i) {
     const auto angle = [&](const std::vector<Pose>& list) {
@@ -32,7 +32,7 @@ double angle_ratio(const CommonPoses& poses) {
 
 /// Median ratio of rotation angles over intervals in which the reference rotates by 5 to 60 deg.
 double ratio_of_larger_angles(const CommonPoses& poses) {
-  constexpr double kLeast = 5.0 / kUnitDegrees, kMost = 60.0 / kUnitDegrees;
+  constexpr double kLeast = 5.0 / kDegrees, kMost = 60.0 / kDegrees;
   std::vector<double> ratios;
   std::size_t from = 0;
   for (std::size_t to = 1; to < poses.stamps.size(); ++to) {
@@ -81,7 +81,7 @@ std::optional<InputFinding> check_scale(const PositionFit& fit) {
 std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
   const double of_larger = ratio_of_larger_angles(poses);
   const double ratio = of_larger < 0.1 ? of_larger : angle_ratio(poses);
-  constexpr double kFactor = 180.0 / M_PI, kTolerance = 2.2;
+  constexpr double kFactor = kDegrees, kTolerance = 2.2;
   const bool is_large = ratio > kFactor / kTolerance && ratio < kFactor * kTolerance;
   const bool is_small = ratio < kTolerance / kFactor && ratio > 1.0 / (kFactor * kTolerance);
   if (!is_large && !is_small) return std::nullopt;

@@ -1,19 +1,15 @@
 // Programs as methods, started for each cell: exchange, checks, and what misbehaving ones cost.
-#include "tests/support/command.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
-#include <map>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/external/arguments.hpp"
 #include "harness/external/exchange.hpp"
-#include "harness/store/read.hpp"
+#include "tests/support/program_sweep.hpp"
 
 namespace loopbench::command_test {
 
@@ -47,41 +43,7 @@ TEST(Facts, AreCheckedAsTheyAreRead) {
   EXPECT_THROW(parse_facts(R"({"iterations": "many"})"), std::runtime_error);
 }
 
-class Command : public testing::Test {
- protected:
-  /// Runs a sweep of one simulated sequence with these method entries; returns its cells.
-  std::vector<CellRecord> cells(const std::string& entries, const std::string& settings = "") {
-    folder_.file(
-        "c.yaml",
-        "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n  - raw\n" +
-            entries + "metrics: [ate]\ntimes: keyframes\n" + settings);
-    ran_ = loopbench_command("run c.yaml --out r -j 2", folder_);
-    return read_cells(folder_.path() / "r");
-  }
-
-  static std::string entry(const std::string& label, const std::string& run) {
-    return "  - {method: command, label: " + label + ", run: " + run + "}\n";
-  }
-
-  /// ATE of each method [m]
-  std::map<std::string, double> errors() {
-    std::map<std::string, double> out;
-    for (const Record& record : read_records(folder_.path() / "r")) {
-      if (record.metric == "ate" && record.relation == "translation")
-        out[record.method] = record.statistics.rmse;
-    }
-    return out;
-  }
-
-  static std::string notes(const CellRecord& cell) {
-    std::string out;
-    for (const std::string& note : cell.notes) out += note + "\n";
-    return out;
-  }
-
-  TemporaryFolder folder_;
-  CommandResult ran_;
-};
+using Command = test::ProgramSweep;
 
 TEST_F(Command, CopyingTheKeyframesIsRaw) {
   folder_.file("copy.sh", "cp \"$1/keyframes.txt\" \"$2\"\n");
@@ -111,8 +73,8 @@ TEST_F(Command, TheFolderHoldsNothingOfTheReference) {
       "look",
       R"("sh -c 'ls $0 $0/..; echo data=$LOOPBENCH_DATA; cp $0/keyframes.txt $1' {problem} {result}")"));
   ASSERT_EQ(done.size(), 2u);
-  EXPECT_THAT(notes(done[1]), HasSubstr("frames.txt\ngraph.g2o\nkeyframes.txt\nproblem.json\n"));
-  EXPECT_THAT(notes(done[1]), HasSubstr(":\nproblem\ndata=\n"));
+  EXPECT_THAT(notes(done[1]), HasSubstr("frames.txt graph.g2o keyframes.txt problem.json "));
+  EXPECT_THAT(notes(done[1]), HasSubstr(": problem data=\n"));
 }
 
 TEST_F(Command, ResultJsonStatesTimeCountsAndRefusals) {
@@ -139,7 +101,7 @@ TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
        R"("sh -c 'echo sorry; exit 3' {problem} {result}")",
        "failed",
        "exited with code 3; its output ends with: sorry"},
-      {"flood", R"("sh -c 'yes | head -c 3000000; exit 1' {problem} {result}")", "failed", "y\ny"},
+      {"flood", R"("sh -c 'yes | head -c 3000000; exit 1' {problem} {result}")", "failed", "y y"},
       {"half",
        R"("sh -c 'head -n 20 $0/keyframes.txt >$1' {problem} {result}")",
        "failed",
@@ -178,57 +140,6 @@ TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
     EXPECT_LT(done[i + 1].why.size(), 2200u) << "output is cut off";
   }
   EXPECT_EQ(done.back().status, "ok");
-}
-
-/// Whether a process has this command line, with blanks between its words.
-bool is_running(const std::string& command_line) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    std::string text = read_all(entry.path() / "cmdline");
-    for (char& c : text) c = c == '\0' ? ' ' : c;
-    if (text == command_line + " ") return true;
-  }
-  return false;
-}
-
-bool ends_soon(const std::string& command_line) {
-  for (int i = 0; i < 500 && is_running(command_line); ++i) usleep(10000);
-  return !is_running(command_line);
-}
-
-TEST_F(Command, ProcessesThatOutliveTheProgramAreKilled) {
-  folder_.file("forks.sh",
-               "sleep 8731 &\nsetsid sleep 8732 &\n(setsid sh -c 'sleep 8733 & sleep 8734' &)\n"
-               "cp $1/keyframes.txt $2\n");
-  const auto done = cells(entry("forks", "'sh forks.sh {problem} {result}'"));
-  ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "ok") << done[1].why;
-  EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
-  for (const char* time : {"8731", "8732", "8733", "8734"}) {
-    EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
-  }
-}
-
-TEST_F(Command, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
-  folder_.file("hangs.sh", "setsid sleep 8741 &\necho $1 >$PWD/where\nsleep 8742\n");
-  const auto done =
-      cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 1}\n");
-  ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "timeout") << done[1].why;
-  EXPECT_TRUE(ends_soon("sleep 8741"));
-  EXPECT_TRUE(ends_soon("sleep 8742"));
-  std::string where = read_all(folder_.path() / "where");
-  where.pop_back();
-  EXPECT_THAT(where, HasSubstr("loopbench-exchange-"));
-  for (int i = 0; i < 500 && std::filesystem::exists(where); ++i) usleep(10000);
-  EXPECT_FALSE(std::filesystem::exists(where));
-}
-
-TEST_F(Command, MemoryOfTheTreeIsLimited) {
-  const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
-                          "limits: {memory: 700MiB}\n");
-  ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "out_of_memory") << done[1].why;
-  EXPECT_THAT(done[1].why, HasSubstr("grew to "));
 }
 
 TEST_F(Command, CellsAreKeyedByTheProgramsFilesAndVersion) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "datasets/formats/formats.hpp"
+#include "harness/execution/sandbox/landlock.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"
@@ -39,7 +40,7 @@ class CommandDataset : public testing::Test {
                  "reference: recording.txt, " +
                      more + "}\nmethods: [raw, uniform]\nmetrics: [ate]\ntimes: keyframes\n" +
                      settings);
-    return loopbench_command("run c.yaml --fresh --out r", folder_);
+    return loopbench_command("run c.yaml --fresh --no-sandbox --out r", folder_);
   }
 
   std::size_t runs() const {
@@ -83,6 +84,23 @@ TEST_F(CommandDataset, ItsClosedTrajectoryIsEvaluatedAsItIs) {
   ASSERT_EQ(cells.size(), 2u) << done.err;
   EXPECT_EQ(cells[0].status, "ok");
   EXPECT_EQ(cells[1].status, "declined") << "no closures are left";
+}
+
+TEST_F(CommandDataset, ItsProgramCannotReadTheReferenceOrWriteElsewhere) {
+  if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
+  folder_.file("reference.txt", read_all(folder_.path() / "recording.txt"));
+  folder_.file("curious.sh",
+               "cat reference.txt && exit 9\necho x >outside && exit 8\n"
+               "echo x >$TMPDIR/inside && cp $1 $2\n");
+  folder_.file("c.yaml",
+               "datasets:\n  - {dataset: command, sequence: recording.txt, reference: "
+               "reference.txt, run: 'sh curious.sh {sequence} {trajectory}'}\n"
+               "methods: [raw]\nmetrics: [ate]\ntimes: keyframes\n");
+  const CommandResult done = loopbench_command("run c.yaml --out r", folder_);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  folder_.file("curious.sh", read_all(folder_.path() / "curious.sh") + "\n");
+  EXPECT_THAT(loopbench_command("run c.yaml --no-sandbox --out r", folder_).err,
+              HasSubstr("exited with code 9"));
 }
 
 TEST_F(CommandDataset, FailuresAreReportedWithTheOutput) {

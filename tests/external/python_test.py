@@ -1,9 +1,11 @@
-"""The Python package and the examples in Python. Argument: program. Exits with 77 without numpy."""
+"""The Python package and the examples of programs. Arguments: loopbench, ceres_pose_graph. Exits with
+77 without numpy."""
 
 import doctest
 import importlib
 import json
 import os
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -17,7 +19,10 @@ except ImportError:
     print("numpy is not installed")
     sys.exit(77)
 
-PROGRAM = sys.argv[1]
+import loopbench
+
+PROGRAM, CERES = sys.argv[1:3]
+os.environ["LOOPBENCH_PROGRAM"] = PROGRAM
 EXAMPLES = Path(__file__).parents[2] / "configs" / "external"
 
 
@@ -70,6 +75,26 @@ class Methods(unittest.TestCase):
         for method in ("served", "started"):
             self.assertLess(abs(cost[method] / cost["pose_graph"] - 1), 1e-6)
 
+    def costs(self, name, command):
+        """Cost of pose_graph and of a program on two sequences."""
+        for dataset in (SIMULATED, {**SIMULATED, "path": "driving"}):
+            rows = sweep(["pose_graph", {"method": "command", "label": name,
+                                         "run": command + " {problem} {result}"}], dataset)
+            cost = {row["method"]: row["rmse"] for row in rows
+                    if row["metric"] == "graph_cost" and row["axis"] == "all"}
+            self.assertEqual(sorted(cost), sorted([name, "pose_graph"]), rows)
+            yield cost["pose_graph"], cost[name]
+
+    def test_ceres_reaches_the_minimum_of_pose_graph(self):
+        for expected, found in self.costs("ceres", CERES):
+            self.assertLess(abs(found / expected - 1), 1e-6)
+
+    @unittest.skipUnless(shutil.which("graph-slam"), "graph-slam of mrpt-apps is not installed")
+    def test_mrpt_runs_but_ignores_the_information_of_the_edges(self):
+        adapter = f"{sys.executable} {EXAMPLES / 'mrpt_graph_slam.py'}"
+        for expected, found in self.costs("MRPT", adapter):
+            self.assertGreater(found, expected)
+
     def test_what_misbehaves_costs_its_cell(self):
         cases = {
             "raises": ("raise RuntimeError('no luck')", "RuntimeError: no luck"),
@@ -94,6 +119,58 @@ class Methods(unittest.TestCase):
             status = {None: "ok", "too flat": "declined"}.get(why, "failed")
             self.assertEqual(rows[name]["cell_status"], status, rows[name]["cell_why"])
             self.assertIn(why or "", rows[name]["cell_why"])
+
+
+class Hostile(unittest.TestCase):
+    """Python methods that hang, grow, flood, leave processes, or return other stamps."""
+
+    def cell(self, body, **limits):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "mine.py"
+            file.write_text("import loopbench\n@loopbench.corrector\ndef method(problem):\n"
+                            f"    {body}\nloopbench.serve()\n")
+            method = {"method": "command", "serve": f"{sys.executable} {file}"}
+            return sweep([method], limits=limits)[0]
+
+    def test_a_hang_is_a_timeout(self):
+        row = self.cell("import time; time.sleep(8781)", seconds=2)
+        self.assertEqual(row["cell_status"], "timeout", row)
+
+    def test_memory_is_limited(self):
+        row = self.cell("x = [bytearray(b'x') * 2**24 for _ in range(1000)]", memory="700MiB")
+        self.assertEqual(row["cell_status"], "out_of_memory", row)
+
+    def test_a_flood_of_output_is_cut_off(self):
+        row = self.cell("for _ in range(30): print('x' * 10**6)\n    return problem.poses")
+        self.assertEqual(row["cell_status"], "ok", row)
+
+    def test_other_stamps_are_rejected(self):
+        row = self.cell("rows = problem.keyframes.copy(); rows[:, 0] += 0.5; return rows")
+        self.assertEqual(row["cell_status"], "failed", row)
+        self.assertIn("has stamp", row["cell_why"])
+
+    def test_processes_do_not_outlive_the_sweep(self):
+        self.cell("import subprocess; subprocess.Popen(['sleep', '8791'], start_new_session=True)\n"
+                  "    return problem.poses")
+        left = [each for each in Path("/proc").glob("[0-9]*/cmdline")
+                if each.read_bytes() == b"sleep\x008791\x00"]
+        self.assertEqual(left, [])
+
+
+class Sweeps(unittest.TestCase):
+    def test_a_dictionary_is_run_read_and_compared(self):
+        config = {"datasets": [SIMULATED], "methods": ["raw", "uniform"], "metrics": ["ate"],
+                  "times": "keyframes", "repeats": 6}
+        with tempfile.TemporaryDirectory() as folder:
+            rows = loopbench.run(config, folder + "/r")
+            compared = loopbench.compare(folder + "/r", "relation=translation")
+        rows = rows if isinstance(rows, list) else rows.to_dict("records")
+        found = {(row["method"], row["repeat"]) for row in rows if row["cell_status"] == "ok"}
+        self.assertEqual(len(found), 12)
+        self.assertTrue(all(row["rmse"] > 0 for row in rows if row["relation"] == "translation"))
+        self.assertIn("uniform", json.dumps(compared))
+        with self.assertRaisesRegex(RuntimeError, "datasets"):
+            loopbench.run({"methods": ["raw"]})
 
 
 class Slam(unittest.TestCase):

@@ -59,6 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misbehaviour{"number", "failed", "answered question 3, expected 2"},
                     Misbehaviour{"counts", "failed", "has 29 poses, expected 30"},
                     Misbehaviour{"nan", "failed", "is not finite"},
+                    Misbehaviour{"stamps", "failed", "has stamp"},
                     Misbehaviour{"declined", "declined", "no mood"},
                     Misbehaviour{"json", "failed", "result.json: "},
                     Misbehaviour{"half", "failed", "exited with code 0 before its answer"}),

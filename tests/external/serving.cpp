@@ -19,6 +19,12 @@ struct Header {
   std::uint64_t data;
 };
 
+/// States on standard error which files it can open.
+void look_around() {
+  if (std::fopen("reference.txt", "r") != nullptr) std::fputs("has read the reference\n", stderr);
+  if (std::fopen("outside", "w") != nullptr) std::fputs("has written beside the config\n", stderr);
+}
+
 void put(const void* bytes, std::size_t size) { std::fwrite(bytes, 1, size, stdout); }
 
 }  // namespace
@@ -45,9 +51,18 @@ int main(int argc, char** argv) {
     if (misbehaves && mode == "grow") {
       for (std::vector<std::string> all;; usleep(1000)) all.emplace_back(20 << 20, 'x');
     }
+    if (misbehaves && mode == "forks") {
+      if (fork() == 0) {
+        setsid();
+        execlp("sleep", "sleep", "8761", nullptr);
+      }
+      return 3;
+    }
+    if (mode == "curious") look_around();
     if (misbehaves && mode == "print") std::printf("hello, I am not an answer; more words follow");
     if (misbehaves && mode == "number") ++header.number;
     if (misbehaves && mode == "counts") --rows;
+    if (misbehaves && mode == "stamps") data[7] ^= 0x40;  // of the first keyframe
     if (misbehaves && mode == "nan") {
       const double nan = std::numeric_limits<double>::quiet_NaN();
       std::memcpy(data.data() + sizeof nan, &nan, sizeof nan);

@@ -42,5 +42,25 @@ TEST_F(PlotCli, DrawsLabelsThatBeginWithAQuote) {
   EXPECT_TRUE(has(drawn, "'raw' it's") || has(drawn, "&#39;raw&#39; it&#39;s")) << result.out;
 }
 
+TEST_F(PlotCli, SelectsSequencesPanelsAndSize) {
+  folder_.file("two.yaml",
+               "datasets: [{dataset: simulated, keyframes: 40, label: a}, {dataset: simulated, "
+               "keyframes: 40, label: b}]\nmethods: [raw]\nmetrics: [ate]\n");
+  ASSERT_EQ(run("run two.yaml --out t").exit_code, 0);
+  const CommandResult one =
+      run("plot t -o f --sequences b --panels xz,angle --size 3,2 --format svg --columns 1");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out, "f/02_b_trajectories.svg\nf/02_b_errors.svg\n");
+  const std::string drawn = read("f/02_b_trajectories.svg");
+  EXPECT_TRUE(has(drawn, "width=\"216\" height=\"")) << drawn.substr(0, 400);
+  EXPECT_TRUE(has(drawn, "z [m]")) << drawn;
+  EXPECT_TRUE(has(read("f/02_b_errors.svg"), "error angle [deg]"));
+  EXPECT_EQ(run("plot t -o g --panels x --format png").out,
+            "g/01_a_errors.png\ng/02_b_errors.png\n");
+  EXPECT_TRUE(has(run("plot t --sequences c").err, "--sequences: no sequence is named 'c'"));
+  EXPECT_EQ(run("plot t --panels zx").exit_code, 2);
+  EXPECT_EQ(run("plot t --size 3").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace loopbench::plot_cli_test

@@ -31,13 +31,6 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Report, DrawsFewerPointsWhereThereAreManyCells) {
-  EXPECT_EQ(points_of_a_cell(40, 5'000'000), 400u);
-  EXPECT_EQ(points_of_a_cell(2000, 5'000'000), 178u);  // 5e6 / 2000 / 14
-  EXPECT_EQ(points_of_a_cell(1'000'000, 5'000'000), 60u);
-  EXPECT_EQ(points_of_a_cell(0, 5'000'000), 400u);
-}
-
 /// A sweep with awkward names, a failure and a decline, computed once.
 class OfASweep : public testing::Test {
  protected:
@@ -162,23 +155,6 @@ TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {
   ASSERT_GT(least, 100'000u);
   EXPECT_LE(report_html(*content_, least).size(), least);
   EXPECT_THROW(report_html(*content_, least - 20'000), InputError);
-}
-
-TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
-  Thinning thinning{400, 5};
-  EXPECT_TRUE(reduce(thinning, 0.5));
-  EXPECT_EQ(thinning.points, 200u);
-  EXPECT_TRUE(reduce(thinning, 0.1));
-  EXPECT_EQ(thinning.points, 60u);
-  EXPECT_TRUE(reduce(thinning, 0.9));
-  EXPECT_EQ(thinning.repeats, 3u);
-  EXPECT_TRUE(reduce(thinning, 0.9) && reduce(thinning, 0.9));
-  EXPECT_EQ(thinning.repeats, 1u);
-  EXPECT_TRUE(reduce(thinning, 0.99));
-  EXPECT_EQ(thinning.points, 59u);
-  EXPECT_TRUE(reduce(thinning, 0.0));
-  EXPECT_EQ(thinning.points, 10u);
-  EXPECT_FALSE(reduce(thinning, 0.5));
 }
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {

@@ -192,8 +192,36 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
     EXPECT_EQ(examples, 3u) << command;
     EXPECT_EQ(result.out, piped(std::string(command) + " --help").out) << command;
   }
+  EXPECT_NE(piped("help traj crop").out.find("Examples:\n  loopbench traj crop "),
+            std::string::npos);
+  EXPECT_EQ(piped("help traj crop").out, piped("traj crop --help").out);
   EXPECT_EQ(piped("help tabel").err,
             "loopbench: no command is named 'tabel'; did you mean 'table'?\n");
+}
+
+TEST_F(OnATerminal, HelpFits) {
+  for (const char* command :
+       {"", "run --help", "eval --help", "table --help", "traj crop --help"}) {
+    const std::string narrow = run(command, 80).out;
+    // Examples are printed in one line each, so that they can be copied.
+    EXPECT_LE(widest_line(narrow.substr(0, narrow.find("Examples:"))), 80u) << narrow;
+  }
+  const std::string eval = run("eval --help", 80).out;
+  EXPECT_NE(eval.find("\n  -d, --delta NUMBER      Distance between paired poses for rpe, in "
+                      "--delta_unit\n"),
+            std::string::npos)
+      << eval;
+  EXPECT_NE(eval.find("\n  --n_to_align N          Number of first pairs used for the alignment\n"),
+            std::string::npos)
+      << eval;
+  EXPECT_NE(eval.find("\n                          in the estimates' body frame [m]\n"),
+            std::string::npos)
+      << eval;
+  EXPECT_NE(eval.find("(not with --csv, --store)"), std::string::npos) << eval;
+  EXPECT_NE(piped("run --help")
+                .out.find("\n  -j, --jobs N            Number of workers; does not "
+                          "affect results (default: "),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "metrics/doctor/closure_checks.hpp"
+#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/movement.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::doctor_test {
@@ -182,6 +185,38 @@ TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
     for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
   }
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_order));
+}
+
+TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {
+  Problem problem = rounds();
+  Trajectory chained{{0.0, problem.keyframes[0].world_from_body}};
+  for (const Edge& step : problem.odometry) {
+    chained.push_back({static_cast<double>(step.to),
+                       normalized(chained.back().world_from_body * step.from_from_to)});
+  }
+  problem.keyframes = chained;
+  const auto found = check_movement(problem, chained);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fault, Fault::nothing_moved);
+  Trajectory moved = chained;
+  moved.back().world_from_body.translation.x() += 0.5;
+  EXPECT_FALSE(check_movement(problem, moved));
+  problem.closures.clear();
+  EXPECT_FALSE(check_movement(problem, chained));
+}
+
+TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
+  Trajectory poses;
+  for (const double stamp : {0.0, 1.0, 1.5, 1.6, 4.0, 9.0, 9.5}) poses.push_back({stamp, {}});
+  for (const double stamp : {-1.0, 0.0, 0.5, 1.0, 1.55, 4.0, 8.0, 9.5, 10.0}) {
+    const auto expected = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
+    for (std::size_t hint = 0; hint <= poses.size() + 1; ++hint) {
+      EXPECT_EQ(first_from(poses, stamp, hint), static_cast<std::size_t>(expected - poses.begin()))
+          << stamp << " from " << hint;
+    }
+  }
+  EXPECT_EQ(first_from({}, 1.0, 0), 0u);
+  EXPECT_DOUBLE_EQ(usual_interval(poses), 1.0);
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/plugins.hpp"
+#include "harness/store/read.hpp"
 #include "methods/pipeline.hpp"
+#include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
@@ -14,6 +18,8 @@ using namespace methods;
 using namespace harness;
 
 namespace {
+
+using testing::HasSubstr;
 
 const std::filesystem::path kOutside = LOOPBENCH_OUTSIDE;
 
@@ -29,9 +35,18 @@ void expect_refused(const std::filesystem::path& object, const std::string& reas
   }
 }
 
+/// Its methods, in order.
+std::vector<MethodEntry> methods_of(const std::filesystem::path& object) {
+  std::vector<MethodEntry> out;
+  for (const PluginEntry& entry : load_plugin(object)) {
+    if (const auto* method = std::get_if<MethodEntry>(&entry)) out.push_back(*method);
+  }
+  return out;
+}
+
 TEST(LoadPlugin, BringsItsMethodsInOrder) {
-  const std::vector<MethodEntry> entries = load_plugin(kOutside / "half_way.so");
-  ASSERT_EQ(entries.size(), 3u);
+  const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
+  ASSERT_EQ(entries.size(), 4u);
   EXPECT_EQ(entries[0].name, "half_way");
   EXPECT_EQ(entries[0].kind, Kind::corrector);
   EXPECT_EQ(entries[1].kind, Kind::smoother);
@@ -41,8 +56,35 @@ TEST(LoadPlugin, BringsItsMethodsInOrder) {
   EXPECT_EQ(entries[0].options[0].rule, "0 <= share <= 1");
 }
 
+TEST(LoadPlugin, ItsDatasetMethodAndMetricMakeASweep) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "plugins: ['" + (kOutside / "half_way.so").string() +
+                  "']\ndatasets: [{dataset: straight, keyframes: 7}]\n"
+                  "methods: [raw, lifted, thrower]\n"
+                  "metrics: [{metric: max_height, above: 0.5}, unprintable]\n"
+                  "protocol: {align: none}\ntimes: keyframes\n");
+  const CommandResult ran = loopbench_command("run c.yaml --out r", folder);
+  std::map<std::string, double> height;
+  for (const Record& record : read_records(folder.path() / "r")) {
+    if (record.metric == "max_height") height[record.method] = record.statistics.rmse;
+    if (record.metric == "unprintable") {
+      EXPECT_THAT(record.why, HasSubstr("has byte 0x1b"));
+    }
+  }
+  EXPECT_EQ(height["raw"], 1.5) << ran.err;
+  EXPECT_EQ(height["lifted"], 2.5);
+  EXPECT_THAT(loopbench_command("run c.yaml --out r", folder).out,
+              HasSubstr("of them in earlier runs)"));
+  folder.file("c.yaml",
+              "plugins: absent.so\ndatasets: [simulated]\nmethods: [raw]\nmetrics: [ate]\n");
+  EXPECT_THAT(loopbench_command("run c.yaml", folder).err, HasSubstr("absent.so: "));
+  folder.file("c.yaml", "plugins: {a: 1}\ndatasets: [simulated]\nmethods: [raw]\nmetrics: [ate]\n");
+  EXPECT_THAT(loopbench_command("run c.yaml", folder).err, HasSubstr("c.yaml:1: plugins: "));
+}
+
 TEST(LoadPlugin, ItsCorrectorAndSmootherRunInOurPipeline) {
-  const std::vector<MethodEntry> entries = load_plugin(kOutside / "half_way.so");
+  const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
   Stage first = entries[0].make({{"share", 1.0}});
   Stage second = entries[1].make({});
   const auto method = compose(std::get<std::unique_ptr<const Corrector>>(std::move(first)),
@@ -62,7 +104,7 @@ TEST(LoadPlugin, ItsCorrectorAndSmootherRunInOurPipeline) {
 }
 
 TEST(LoadPlugin, ExceptionsCrossTheFence) {
-  const std::vector<MethodEntry> entries = load_plugin(kOutside / "half_way.so");
+  const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
   EXPECT_THROW(entries[0].make({{"shere", 1.0}}), OptionError);
   const Stage stage = entries[2].make({});
   Report report;
@@ -84,7 +126,7 @@ TEST(LoadPlugin, RefusesAnotherAbi) {
 }
 
 TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 2");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 3");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "companion.hpp"
-#include "methods/plugin.hpp"
+#include "harness/plugin/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::methods;

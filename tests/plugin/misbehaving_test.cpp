@@ -42,7 +42,7 @@ TEST(Misbehaving, ItsVersionCoversTheLibrariesThatItBrings) {
   const std::vector<std::filesystem::path> brought = plugin_libraries(LOOPBENCH_MISBEHAVING);
   ASSERT_EQ(brought.size(), 1u);
   EXPECT_EQ(brought[0].filename(), "libcompanion.so");
-  EXPECT_NE(known.versions.at("aborts").find(", libcompanion.so "), std::string::npos);
+  EXPECT_NE(known.versions.at("method aborts").find(", libcompanion.so "), std::string::npos);
 }
 
 }  // namespace

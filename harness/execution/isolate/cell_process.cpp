@@ -21,6 +21,7 @@
 #include "harness/execution/isolate/signal_name.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/execution/run/oracle_method.hpp"
+#include "harness/external/external_methods.hpp"
 #include "harness/external/server.hpp"
 
 namespace loopbench::harness {
@@ -82,8 +83,15 @@ std::optional<Verdict> watch_cell(int cell,
 
 }  // namespace
 
-CellProcesses::CellProcesses(const WorkerContext& context, int sweep, int core)
-    : context_(context), sweep_(sweep), core_(core), null_(open("/dev/null", O_RDWR | O_CLOEXEC)) {}
+CellProcesses::CellProcesses(const WorkerContext& context,
+                             int sweep,
+                             int core,
+                             const ScratchFolder* scratch)
+    : context_(context),
+      sweep_(sweep),
+      core_(core),
+      null_(open("/dev/null", O_RDWR | O_CLOEXEC)),
+      scratch_(scratch) {}
 
 CellProcesses::~CellProcesses() { close(null_); }
 
@@ -91,7 +99,9 @@ const Sandbox& CellProcesses::sandbox_for(const LoadedSequences::Entry& entry) {
   const std::vector<InputFile>& inputs = entry.metadata.inputs;
   if (!sandbox_ || !std::ranges::equal(inputs, hidden_, {}, &InputFile::path, &InputFile::path)) {
     hidden_ = inputs;
+    end_servers();  // they are in the previous sandbox
     SandboxOptions options = context_.sandbox;
+    if (scratch_ != nullptr) options.writable.push_back(scratch_->path());
     for (const InputFile& input : inputs) options.unreachable.emplace_back(input.path);
     // Without a PID namespace: this process, the sweep, their group, all processes, init.
     std::vector<pid_t> guarded;
@@ -123,6 +133,9 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
   CellOutput output;
   const Limits& limits = context_.sweep.limits;
   const std::int64_t memory = limits.memory > 0 ? process_memory("self") : 0;
+  CommandSetting setting = command_setting(context_.sweep);
+  setting.sandbox = &sandbox;
+  prepare_programs(context_.sweep.methods[cell.method], setting);
   const RunningServers servers = running_servers();
   const pid_t worker = getpid();
   const pid_t process = fork();
@@ -152,7 +165,13 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
   close(descriptor);
   set_running_cell(0);
   const int status = end_cell(process, servers.processes);
-  if (has_sweep_ended()) _exit(0);
+  end_servers(true);
+  if (scratch_ != nullptr) scratch_->remove_exchanges();
+  if (has_sweep_ended()) {
+    end_servers();
+    if (scratch_ != nullptr) scratch_->remove_with_parent();
+    _exit(0);
+  }
   output.forward();
   if (verdict) return packed_failure(cell, verdict->status, verdict->why, "SIGKILL");
   if (const auto result = area_.read()) return std::string(*result);

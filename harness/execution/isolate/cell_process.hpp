@@ -8,6 +8,7 @@
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/result_area.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/external/scratch.hpp"
 #include "harness/model/result.hpp"
 
 namespace loopbench::harness {
@@ -16,9 +17,9 @@ namespace loopbench::harness {
 /// worker enforces the limits and ends everything that the cell started.
 class CellProcesses {
  public:
-  /// `sweep`: socket to it; `core`: the core to run on, or -1. Throws std::runtime_error without
-  /// shared memory.
-  CellProcesses(const WorkerContext& context, int sweep, int core);
+  /// `sweep`: socket to it; `core`: the core to run on, or -1; `scratch`: for programs, writable,
+  /// or null. Throws std::runtime_error without shared memory.
+  CellProcesses(const WorkerContext& context, int sweep, int core, const ScratchFolder* scratch);
   ~CellProcesses();
   CellProcesses(const CellProcesses&) = delete;
   CellProcesses& operator=(const CellProcesses&) = delete;
@@ -39,6 +40,7 @@ class CellProcesses {
   int sweep_;
   int core_;
   int null_;  ///< /dev/null
+  const ScratchFolder* scratch_;
   ResultArea area_;
   std::optional<Sandbox> sandbox_;
   std::vector<InputFile> hidden_;  ///< inputs that the sandbox hides

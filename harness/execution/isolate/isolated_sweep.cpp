@@ -15,6 +15,7 @@
 #include "harness/execution/isolate/unpack_answer.hpp"
 #include "harness/execution/isolate/worker_slot.hpp"
 #include "harness/execution/run/oracle_method.hpp"
+#include "harness/external/external_methods.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -241,11 +242,8 @@ class IsolatedSweep {
   }
 
   void requeue(const Job& job) {
-    if (job.only_load) {
-      loads_.push_front(job);
-    } else {
-      queue_.requeue(job.cell);
-    }
+    if (job.only_load) return loads_.push_front(job);
+    queue_.requeue(job.cell);
   }
 
   /// Ends all workers; cells that they are running are interrupted.
@@ -290,7 +288,10 @@ void run_isolated(const Sweep& sweep,
                   const SandboxOptions& sandbox,
                   const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished) {
-  const WorkerContext context{sweep, cells, catalogue, root, sandbox, getpid()};
+  const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
+  SandboxOptions options = sandbox;
+  if (scratch) options.pid_namespace = false;  // supervisors of programs use numbers in /proc
+  const WorkerContext context{sweep, cells, catalogue, root, options, getpid()};
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <optional>
 
 #include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
@@ -15,6 +16,8 @@
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/external/external_methods.hpp"
+#include "harness/external/scratch.hpp"
+#include "harness/external/server.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -49,6 +52,18 @@ bool answer(int socket, Header::Kind kind, std::uint64_t cell, const std::string
   return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
 }
 
+/// Temporary files of programs. Programs end before their files are removed.
+struct Programs {
+  ScratchFolder scratch;
+  Programs() = default;
+  ~Programs() {
+    end_servers();
+    if (has_sweep_ended()) scratch.remove_with_parent();
+  }
+  Programs(const Programs&) = delete;
+  Programs& operator=(const Programs&) = delete;
+};
+
 void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
   shared_status.job = job;
   shared_status.loading = loading;
@@ -69,8 +84,10 @@ const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
 void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int core) {
   install_worker_signals(socket);
   keep_heap_compact();
+  std::optional<Programs> programs;
+  if (uses_programs(context.sweep)) programs.emplace();
   LoadedSequences loaded(context);
-  CellProcesses cell_processes(context, socket, core);
+  CellProcesses cell_processes(context, socket, core, programs ? &programs->scratch : nullptr);
   for (Job job; receive_all(socket, &job, sizeof job);) {
     const Cell& cell = context.cells[job.cell];
     const LoadedSequences::Entry* entry = loaded.find(cell);
@@ -93,7 +110,6 @@ void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_s
       continue;
     }
     set_status(shared_status, job.cell, false);
-    prepare_programs(context.sweep.methods[cell.method], command_setting(context.sweep));
     std::string result;
     try {
       result = cell_processes.run(cell, *entry);

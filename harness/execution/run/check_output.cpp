@@ -121,6 +121,20 @@ void check_report(const methods::Report& report) {
   for (std::size_t i = 0; i < report.sections.size(); ++i) check_section(report.sections[i], i + 1);
 }
 
+void check_scores(const std::vector<metrics::Score>& scores) {
+  if (scores.size() > kMostItems) {
+    reject("the metric returned {} scores, expected at most {}", scores.size(), kMostItems);
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const auto name = [&] { return fmt::format("score {}: a text", i + 1); };
+    const metrics::Score& score = scores[i];
+    for (const std::string* text : {&score.relation, &score.axis, &score.unit}) {
+      check_text(*text, kLongestName, name);
+    }
+    check_text(score.why_undefined, kLongestNote, name);
+  }
+}
+
 std::string stored_reason(std::string_view text) {
   std::string out = printable(text.substr(0, kLongestNote));
   std::ranges::replace(out, '\n', ' ');

@@ -9,6 +9,7 @@
 #include "datasets/core/sequence.hpp"
 #include "harness/model/sweep.hpp"
 #include "methods/report.hpp"
+#include "metrics/metric.hpp"
 
 namespace loopbench::harness {
 
@@ -29,6 +30,10 @@ void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& swee
 /// that are not finite, negative durations, sections that end before they begin. The message names
 /// the first such part and the rule.
 void check_report(const methods::Report& report);
+
+/// Throws std::runtime_error if a score cannot be stored or displayed: more scores or longer texts
+/// than the limits, texts that are not UTF-8 or contain control characters.
+void check_scores(const std::vector<metrics::Score>& scores);
 
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote
 /// bytes and the number of omitted ones.

@@ -8,6 +8,7 @@
 
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/method_guard.hpp"
@@ -101,7 +102,8 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     last = timed_run(method, problem);
     if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
     check_report(last.report);
-    if (run == 0 && is_freshly_forked() && last.seconds < kShortRun) {
+    const bool is_first = run == 0 && is_freshly_forked() && !uses_exchange(last.report);
+    if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
       last.seconds = warm.seconds;
       last.cpu_seconds = warm.cpu_seconds;
@@ -136,7 +138,9 @@ void score(CellResult& result,
   row.coverage = evaluation.coverage;
   catch_errors(row, [&] {
     const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    for (metrics::Score& score : metric.score(evaluation, choice.metric.options)) {
+    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
+    check_scores(scores);
+    for (metrics::Score& score : scores) {
       result.scores.push_back(row);
       ScoreResult& added = result.scores.back();
       if (!score.why_undefined.empty()) {
@@ -257,6 +261,11 @@ CellResult run_cell(const Cell& cell,
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
+    const std::string unmoved = movement_note(sequence.problem,
+                                              curve->sample(stamps(sequence.problem.keyframes)),
+                                              result.report,
+                                              uses_closures(choice, catalogue));
+    if (!unmoved.empty()) result.report.notes.push_back(unmoved);
     save_estimate(cell, sweep, sequence, *curve);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";

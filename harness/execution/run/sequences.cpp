@@ -2,6 +2,7 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/catalogue/loading.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/provenance/summarise_sequence.hpp"
 
@@ -44,7 +45,9 @@ SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const S
   SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
   const std::string& group = sweep.datasets[cell.dataset].group;
   if (!group.empty()) out.group = "group:" + group;
-  for (std::string& note : evaluation_notes(sequence, sweep)) out.notes.push_back(std::move(note));
+  for (const auto& notes : {evaluation_notes(sequence, sweep), doctor_notes(sequence, sweep)}) {
+    out.notes.insert(out.notes.end(), notes.begin(), notes.end());
+  }
   return out;
 }
 

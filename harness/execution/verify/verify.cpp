@@ -8,6 +8,7 @@
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/run/run_sweep.hpp"
+#include "harness/external/exchange.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -28,9 +29,13 @@ Hash hash_of_values(const T&... values) {
 }
 
 Digest result_digest(const CellResult& r) {
+  std::vector<methods::Count> counts = r.report.counts;
+  std::erase_if(counts, [](const methods::Count& count) {
+    return count.name == kProgramTime || count.name == kProgramMemory;
+  });
   return {{hash_of_values(r.status, r.why, r.signal),
            hash_of_values(r.scores),
-           hash_of_values(r.report.counts, r.report.notes, r.report.sections),
+           hash_of_values(counts, r.report.notes, r.report.sections),
            hash_of_values(r.trace.times, r.trace.samples)},
           r.status == Status::crashed || r.status == Status::timeout ||
               r.status == Status::out_of_memory};

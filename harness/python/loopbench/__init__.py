@@ -1,4 +1,4 @@
-"""Methods for loopbench in Python; needs numpy only.
+"""Methods for loopbench in Python, and sweeps from Python; needs numpy only.
 
 A method in ten lines, run by a config with `{method: command, serve: "python3 mine.py"}`::
 
@@ -15,5 +15,17 @@ A method in ten lines, run by a config with `{method: command, serve: "python3 m
 
 from .problem import Declined, Edges, Problem, read_problem
 from .serving import corrector, serve, solve
+from .sweeps import compare, read, run
 
-__all__ = ["Declined", "Edges", "Problem", "corrector", "read_problem", "serve", "solve"]
+__all__ = [
+    "Declined",
+    "Edges",
+    "Problem",
+    "compare",
+    "corrector",
+    "read",
+    "read_problem",
+    "run",
+    "serve",
+    "solve",
+]

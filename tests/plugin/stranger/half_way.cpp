@@ -1,11 +1,12 @@
+#include <algorithm>
+#include <loopbench/datasets/core/interpolate.hpp>
+#include <loopbench/datasets/core/polyline.hpp>
+#include <loopbench/plugin.hpp>
 #include <stdexcept>
-
-#include "datasets/core/interpolate.hpp"
-#include "datasets/core/polyline.hpp"
-#include "methods/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::methods;
+using namespace loopbench::metrics;
 
 namespace {
 
@@ -67,8 +68,66 @@ class Thrower final : public Method {
 template <class Visit>
 void fields(Thrower::Options&, Visit) {}
 
+/// A dataset: keyframes along x.
+struct StraightOptions {
+  int keyframes = 5;
+};
+
+template <class Visit>
+void fields(StraightOptions& o, Visit visit) {
+  visit("keyframes", o.keyframes, "number of keyframes", Between{2.0});
+}
+
+Sequence load_straight(const StraightOptions& options, const DataRoot&) {
+  Sequence out;
+  out.name = "straight";
+  for (int i = 0; i < options.keyframes; ++i) {
+    out.problem.keyframes.push_back({1.0 * i, {Rotation::Identity(), {1.0 * i, 0.1 * i * i, 2.0}}});
+  }
+  for (std::size_t i = 1; i < out.problem.keyframes.size(); ++i) {
+    const Pose step = out.problem.keyframes[i - 1].world_from_body.inverse() *
+                      out.problem.keyframes[i].world_from_body;
+    out.problem.odometry.push_back({i - 1, i, step, Matrix6::Identity()});
+  }
+  out.reference = out.problem.keyframes;
+  return out;
+}
+
+/// A metric of the aligned estimate.
+struct MaxHeightOptions {
+  double above = 0.0;
+};
+
+template <class Visit>
+void fields(MaxHeightOptions& o, Visit visit) {
+  visit("above", o.above, "height that counts as zero [m]");
+}
+
+std::vector<Score> max_height(const Evaluation& evaluation, const MaxHeightOptions& options) {
+  double largest = 0.0;
+  for (const StampedPose& pose : evaluation.estimate) {
+    largest = std::max(largest, pose.world_from_body.translation.z());
+  }
+  const double height = largest - options.above;
+  return {{"height", "z", "m", {1, height, height, height, 0.0, height, height, height * height}}};
+}
+
+std::vector<Score> unprintable(const Evaluation&, const MaxHeightOptions&) {
+  return {{"\x1b[31m", "z", "m", {}}};
+}
+
 }  // namespace
 
 LOOPBENCH_PLUGIN(method<HalfWay>("half_way", "only the closing keyframe moves, and only half"),
                  method<Lines>("lines", "a polyline from outside"),
-                 method<Thrower>("thrower", "always fails"))
+                 method<Thrower>("thrower", "always fails"),
+                 method("lifted",
+                        "every keyframe one metre higher",
+                        [](const Problem& problem) {
+                          Trajectory out = problem.keyframes;
+                          for (StampedPose& pose : out) pose.world_from_body.translation.z() += 1;
+                          return out;
+                        }),
+                 dataset<StraightOptions>("straight", "a straight line", load_straight),
+                 metric<MaxHeightOptions>("max_height", "largest height", max_height),
+                 metric<MaxHeightOptions>("unprintable", "has an invalid name", unprintable))

@@ -1,4 +1,4 @@
 // A shared object without a LOOPBENCH_PLUGIN line.
-#include "methods/plugin.hpp"
+#include "harness/plugin/plugin.hpp"
 
 int answer() { return 42; }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/plugin.hpp"
+#include "harness/plugin/plugin.hpp"
 
 namespace loopbench::zoo {
 

@@ -3,10 +3,10 @@
 namespace loopbench::zoo {
 namespace {
 
-std::vector<methods::MethodEntry> all() {
-  std::vector<methods::MethodEntry> out;
+std::vector<harness::PluginEntry> all() {
+  std::vector<harness::PluginEntry> out;
   for (auto* part : {crashing, hanging, breeding, meddling, greedy, lying, breaking_out}) {
-    for (methods::MethodEntry& entry : part()) out.push_back(std::move(entry));
+    for (methods::MethodEntry& entry : part()) out.emplace_back(std::move(entry));
   }
   return out;
 }
@@ -14,7 +14,7 @@ std::vector<methods::MethodEntry> all() {
 }  // namespace
 }  // namespace loopbench::zoo
 
-extern "C" const loopbench::methods::Plugin* loopbench_plugin() {
-  static const loopbench::methods::Plugin plugin{{}, loopbench::zoo::all};
+extern "C" const loopbench::harness::Plugin* loopbench_plugin() {
+  static const loopbench::harness::Plugin plugin{{}, loopbench::zoo::all};
   return &plugin;
 }

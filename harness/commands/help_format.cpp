@@ -1,0 +1,92 @@
+#include "harness/commands/help_format.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "harness/commands/command_texts.hpp"
+#include "harness/commands/standard_output.hpp"
+#include "harness/text/wrap.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr std::size_t kWidest = 100;
+constexpr std::size_t kTextColumn = 26;  ///< of the descriptions
+
+/// 0: unlimited.
+std::size_t help_width() { return std::min(kWidest, standard_output_style().width); }
+
+/// `name` indented, and `text` beside it in lines of its own column; below it if the name is long.
+std::string entry(const std::string& name, const std::string& text) {
+  const std::size_t columns = help_width();
+  const std::string left = "  " + name;
+  const std::string margin(kTextColumn, ' ');
+  const bool fits = width(left) + 2 <= kTextColumn;
+  std::string out = fits ? padded(left, kTextColumn, true) : left + "\n" + margin;
+  std::size_t count = 0;
+  for (const std::string& line : wrapped(text, columns == 0 ? 0 : columns - kTextColumn)) {
+    out += (count++ == 0 ? "" : "\n" + margin) + line;
+  }
+  out.erase(out.find_last_not_of(" \n") + 1);
+  return out + "\n";
+}
+
+/// Lines that begin with a space are examples and keep their form.
+std::string paragraphs(const std::string& text) {
+  std::istringstream in(text);
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    const bool is_example = line.starts_with(' ');
+    for (const std::string& part : wrapped(line, is_example ? 0 : help_width())) {
+      out += part + "\n";
+    }
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
+std::string names_of(const std::set<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* each : options) names.push_back(each->get_name());
+  std::ranges::sort(names);
+  return joined(names, ", ");
+}
+
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    const CommandOption text = option_text_of(*option);
+    const bool is_list = option->get_expected_max() == CLI::detail::expected_max_vector_size;
+    std::string value = text.choices.empty() ? text.value : joined(text.choices, "|");
+    if (is_positional && value == "TEXT") value.clear();
+    const std::string name = joined(text.names, ", ") + (value.empty() ? "" : " " + value) +
+                             (is_list && !value.empty() ? " ..." : "");
+    std::string help = text.help;
+    if (!text.usual.empty()) help += " (default: " + text.usual + ")";
+    if (!option->get_needs().empty()) help += " (only with " + names_of(option->get_needs()) + ")";
+    if (!option->get_excludes().empty())
+      help += " (not with " + names_of(option->get_excludes()) + ")";
+    return entry(name, help);
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return entry(command->get_name(), command->get_description());
+  }
+  std::string make_description(const CLI::App* command) const override {
+    return paragraphs(command->get_description());
+  }
+  std::string make_footer(const CLI::App* command) const override {
+    return paragraphs(command->get_footer());
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<CLI::FormatterBase> help_formatter() { return std::make_shared<HelpFormatter>(); }
+
+}  // namespace loopbench::harness

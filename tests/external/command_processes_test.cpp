@@ -1,0 +1,150 @@
+// What programs that run as methods start, allocate, read and write: ended, limited, restricted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+
+#include "datasets/formats/formats.hpp"
+#include "harness/execution/sandbox/landlock.hpp"
+#include "tests/support/problems.hpp"
+#include "tests/support/program_sweep.hpp"
+
+namespace loopbench::command_processes_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using testing::HasSubstr;
+
+using CommandProcesses = test::ProgramSweep;
+
+/// Whether a process has this command line, with blanks between its words.
+bool is_running(const std::string& command_line) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::string text = read_all(entry.path() / "cmdline");
+    for (char& c : text) c = c == '\0' ? ' ' : c;
+    if (text == command_line + " ") return true;
+  }
+  return false;
+}
+
+bool ends_soon(const std::string& command_line) {
+  for (int i = 0; i < 500 && is_running(command_line); ++i) usleep(10000);
+  return !is_running(command_line);
+}
+
+TEST_F(CommandProcesses, ProcessesThatOutliveTheProgramAreKilled) {
+  folder_.file("forks.sh",
+               "sleep 8731 &\nsetsid sleep 8732 &\n(setsid sh -c 'sleep 8733 & sleep 8734' &)\n"
+               "cp $1/keyframes.txt $2\n");
+  const auto done = cells(entry("forks", "'sh forks.sh {problem} {result}'"));
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "ok") << done[1].why;
+  EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
+  for (const char* time : {"8731", "8732", "8733", "8734"}) {
+    EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
+  }
+}
+
+TEST_F(CommandProcesses, ProcessesOfAServerThatEndsAreKilled) {
+  const auto done =
+      cells("  - {method: command, serve: '" LOOPBENCH_SERVING " forks'}\n", "repeats: 4\n");
+  ASSERT_EQ(done.size(), 8u);
+  EXPECT_TRUE(std::ranges::any_of(done, [](const CellRecord& cell) {
+    return cell.why.find("exited with code 3") != std::string::npos;
+  }));
+  EXPECT_FALSE(is_running("sleep 8761"));
+}
+
+TEST_F(CommandProcesses, AForkBombIsEnded) {
+  folder_.file("bomb.sh", "while :; do sleep 8771 & done\n");
+  const auto done = cells(entry("bomb", "'sh bomb.sh {problem} {result}'"));
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "failed");
+  EXPECT_THAT(done[1].why, HasSubstr("more than 64 processes"));
+  EXPECT_TRUE(ends_soon("sleep 8771"));
+}
+
+TEST_F(CommandProcesses, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
+  folder_.file("hangs.sh", "setsid sleep 8741 &\necho >$TMPDIR/left\nsleep 8742\n");
+  const auto done =
+      cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 1}\n");
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "timeout") << done[1].why;
+  EXPECT_TRUE(ends_soon("sleep 8741"));
+  EXPECT_TRUE(ends_soon("sleep 8742"));
+}
+
+TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
+  if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
+  const Problem problem = test::circle(41);
+  write_tum(folder_.path() / "estimate.txt", problem.keyframes);
+  write_tum(folder_.path() / "reference.txt", problem.keyframes);
+  folder_.file("curious.sh",
+               "cat reference.txt >/dev/null && echo has read the reference\n"
+               "echo x >outside && echo has written beside the config\n"
+               "echo x >$TMPDIR/inside && cp $1/keyframes.txt $2\n");
+  folder_.file("c.yaml",
+               "datasets: [{dataset: trajectory, estimate: estimate.txt, reference: reference.txt}]"
+               "\ntimes: keyframes\nmethods:\n" +
+                   entry("curious", "'sh curious.sh {problem} {result}'") +
+                   "  - {method: command, label: served, serve: '" LOOPBENCH_SERVING
+                   " curious'}\nmetrics: [ate]\n");
+  for (const char* option : {"", " --no-sandbox"}) {
+    loopbench_command("run c.yaml --fresh --out r" + std::string(option), folder_);
+    const auto done = read_cells(folder_.path() / "r");
+    ASSERT_EQ(done.size(), 2u);
+    const bool is_free = *option != '\0';
+    for (const CellRecord& cell : done) {
+      EXPECT_EQ(cell.status, "ok") << cell.why;
+      const std::string said = notes(cell);
+      EXPECT_EQ(said.find("has read the reference") != std::string::npos, is_free) << said;
+      EXPECT_EQ(said.find("has written beside the config") != std::string::npos, is_free) << said;
+    }
+  }
+}
+
+TEST_F(CommandProcesses, NoneOfItsProcessesAndFilesOutlivesAKilledSweep) {
+  folder_.file("hangs.sh", "echo >$TMPDIR/left\nsetsid sleep 8751 &\nsleep 8752\n");
+  const std::string served = "  - {method: command, serve: 'sh -c \"sleep 8753 & sleep 8754\"'}\n";
+  using Sleeps = std::array<const char*, 2>;
+  for (const auto& [method, all] : {std::pair{entry("hangs", "'sh hangs.sh {problem} {result}'"),
+                                              Sleeps{"sleep 8751", "sleep 8752"}},
+                                    std::pair{served, Sleeps{"sleep 8753", "sleep 8754"}}}) {
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n" +
+                     method + "metrics: [ate]\n");
+    const pid_t sweep = fork();
+    if (sweep == 0) {
+      if (chdir(folder_.path().c_str()) != 0) _exit(1);
+      execl(LOOPBENCH_BINARY, "loopbench", "run", "c.yaml", "--out", "r", nullptr);
+      _exit(1);
+    }
+    for (const char* each : all) {
+      for (int i = 0; i < 1000 && !is_running(each); ++i) usleep(10000);
+      EXPECT_TRUE(is_running(each)) << each;
+    }
+    kill(sweep, SIGKILL);
+    waitpid(sweep, nullptr, 0);
+    for (const char* each : all) EXPECT_TRUE(ends_soon(each)) << each;
+    for (int i = 0; i < 500 && !std::filesystem::is_empty(tmp_); ++i) usleep(10000);
+  }
+}
+
+TEST_F(CommandProcesses, MemoryOfTheTreeIsLimited) {
+  const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
+                          "limits: {memory: 700MiB}\n");
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(done[1].status, "out_of_memory") << done[1].why;
+  EXPECT_THAT(done[1].why, HasSubstr("grew "));
+}
+
+}  // namespace
+}  // namespace loopbench::command_processes_test

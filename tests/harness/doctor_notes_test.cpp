@@ -1,0 +1,108 @@
+/// Findings of `doctor` in `eval`, `run` and `correct`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "datasets/core/params.hpp"
+#include "datasets/formats/formats.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench::doctor_notes_test {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+class DoctorNotes : public testing::Test {
+ protected:
+  DoctorNotes() {
+    const Problem problem =
+        test::drifting(truth_, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {{0, 90}, {1, 91}});
+    write("gt.txt", truth_);
+    write("est.txt", problem.keyframes);
+    write("late.txt", changed(problem.keyframes, [](StampedPose& p) { p.stamp += 0.4; }));
+    write("small.txt",
+          changed(problem.keyframes, [](StampedPose& p) { p.world_from_body.translation *= 0.4; }));
+    write("wxyz.txt", changed(problem.keyframes, [](StampedPose& p) {
+            const Rotation q = p.world_from_body.rotation;
+            p.world_from_body.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
+          }));
+    loops(problem, "0.02 0.01");
+  }
+
+  void write(const std::string& name, const Trajectory& poses) {
+    write_tum(folder_.path() / name, poses);
+  }
+
+  template <class Change>
+  static Trajectory changed(Trajectory poses, Change change) {
+    for (StampedPose& pose : poses) change(pose);
+    return poses;
+  }
+
+  /// `sigmas`: standard deviations of the closures [m], [rad].
+  void loops(const Problem& problem, const std::string& sigmas) {
+    std::string text;
+    for (const Edge& edge : problem.closures) {
+      text += to_text(problem.keyframes[edge.from].stamp) + " " +
+              to_text(problem.keyframes[edge.to].stamp);
+      for (const double x : edge.from_from_to.translation) text += " " + to_text(x);
+      for (const double x : edge.from_from_to.rotation.coeffs()) text += " " + to_text(x);
+      text += " " + sigmas + "\n";
+    }
+    folder_.file("loops.txt", text);
+  }
+
+  CommandResult run(const std::string& estimate, const std::string& protocol, const char* methods) {
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: trajectory, label: mine, estimate: " + estimate +
+                     ", reference: gt.txt, closures: {source: file, file: loops.txt}}]\nmethods: " +
+                     methods + "\nmetrics: [ate]\nprotocol: " + protocol + "\n");
+    return loopbench_command("run c.yaml --fresh --out r", folder_);
+  }
+
+  const Trajectory truth_ = test::hand_held_truth(120);
+  TemporaryFolder folder_;
+};
+
+TEST_F(DoctorNotes, EvalNotesWhatItsOptionsLeave) {
+  const char* const kOffset = "--offset -0\\.(3[6-9]|4[0-4])";
+  const auto eval = [&](const std::string& arguments) {
+    return loopbench_command("eval gt.txt " + arguments, folder_).out;
+  };
+  EXPECT_THAT(eval("est.txt"), Not(HasSubstr("doctor:")));
+  EXPECT_THAT(eval("small.txt"), HasSubstr("note       doctor: scale: "));
+  EXPECT_THAT(eval("small.txt --align sim3"), Not(HasSubstr("doctor:")));
+  EXPECT_THAT(eval("small.txt -s"), Not(HasSubstr("doctor:")));
+  EXPECT_THAT(eval("late.txt"), ContainsRegex(kOffset));
+  EXPECT_THAT(eval("late.txt --offset -0.4"), Not(HasSubstr("doctor:")));
+  EXPECT_THAT(eval("late.txt --offset -0.2"), ContainsRegex(kOffset)) << "the sum";
+}
+
+TEST_F(DoctorNotes, RunPrintsThemForMeasuredSequences) {
+  EXPECT_THAT(run("est.txt", "loopbench", "[raw, dual]").err, Not(HasSubstr("doctor:")));
+  EXPECT_THAT(run("wxyz.txt", "loopbench", "[raw]").err,
+              HasSubstr("mine: doctor: quaternion_order: "));
+  EXPECT_THAT(run("small.txt", "loopbench", "[raw]").err, HasSubstr("protocol: {align: sim3}"));
+  EXPECT_THAT(run("small.txt", "{base: loopbench, align: sim3}", "[raw]").err,
+              Not(HasSubstr("doctor: scale")));
+}
+
+TEST_F(DoctorNotes, ClosuresThatMoveNothingAreNoted) {
+  const Problem problem =
+      test::drifting(truth_, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {{0, 90}, {1, 91}});
+  loops(problem, "1e5 1e5");  // no weight
+  const CommandResult ran = run("est.txt", "loopbench", "[raw, dual, cubic_spline, uniform]");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("dual: doctor: nothing_moved: no keyframe moved by more than "));
+  EXPECT_THAT(ran.err, Not(HasSubstr("raw: doctor")));
+  EXPECT_THAT(ran.err, Not(HasSubstr("uniform: doctor")));
+  EXPECT_THAT(ran.err, Not(HasSubstr("cubic_spline: doctor")));
+  EXPECT_THAT(
+      loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
+      HasSubstr("note: doctor: nothing_moved: "));
+}
+
+}  // namespace
+}  // namespace loopbench::doctor_notes_test

@@ -1,0 +1,88 @@
+/// `eval` on a terminal, and its verdict.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "datasets/formats/formats.hpp"
+#include "harness/text/wrap.hpp"
+#include "tests/support/problems.hpp"
+#include "tests/support/terminal_command.hpp"
+
+namespace loopbench::eval_terminal_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::size_t widest(const std::string& text) {
+  std::istringstream in(text);
+  std::size_t out = 0;
+  for (std::string line; std::getline(in, line);) out = std::max(out, harness::width(line));
+  return out;
+}
+
+class EvalOnATerminal : public testing::Test {
+ protected:
+  EvalOnATerminal() {
+    const Trajectory truth = test::hand_held_truth(60);
+    write_tum(folder_.path() / "gt.txt", truth);
+    for (const auto& [name, drift] : {std::pair{"a.txt", 0.002}, std::pair{"b.txt", 0.006}}) {
+      const Problem problem =
+          test::drifting(truth, twist({drift, 0, 0.001}, {0, 0, drift}), {{0, 50}});
+      write_tum(folder_.path() / name, problem.keyframes);
+    }
+  }
+  CommandResult run(const std::string& arguments, std::size_t columns) {
+    return terminal_command(arguments, folder_, columns, "TERM=dumb");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(EvalOnATerminal, OneEstimateFits) {
+  const CommandResult narrow = run("eval gt.txt a.txt", 80);
+  EXPECT_EQ(narrow.exit_code, 0) << narrow.out;
+  EXPECT_LE(widest(narrow.out), 80u) << narrow.out;
+  EXPECT_THAT(narrow.out, HasSubstr("\nscore "));
+  EXPECT_THAT(narrow.out, HasSubstr("\nrpe 1 s x [m] "));
+  const CommandResult wide = run("eval gt.txt a.txt", 160);
+  EXPECT_EQ(wide.out, loopbench_command("eval gt.txt a.txt", folder_).out);
+}
+
+TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
+  for (const std::size_t columns : {80UL, 120UL}) {
+    const std::string text = run("eval gt.txt a.txt b.txt", columns).out;
+    EXPECT_LE(widest(text), columns) << text;
+    EXPECT_THAT(text, Not(HasSubstr("|")));
+    EXPECT_THAT(text,
+                HasSubstr("\nverdict on ate: nothing is proven: the baseline a ranks first: "
+                          "b is "));
+  }
+  const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
+  EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
+  EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot prove a difference"));
+}
+
+TEST_F(EvalOnATerminal, StoresEndWithATableThatFits) {
+  for (const char* system : {"one", "two"}) {
+    const std::filesystem::path runs = folder_.path() / "systems" / system / "gt";
+    std::filesystem::create_directories(runs);
+    for (const char* run : {"1.txt", "2.txt"}) {
+      std::filesystem::copy_file(
+          folder_.path() / (std::string(system) == "one" ? "a.txt" : "b.txt"), runs / run);
+    }
+  }
+  std::filesystem::create_directories(folder_.path() / "truths");
+  std::filesystem::copy_file(folder_.path() / "gt.txt", folder_.path() / "truths" / "gt.txt");
+  const std::string text = run("eval truths systems --store s", 80).out;
+  EXPECT_LE(widest(text), 80u) << text;
+  EXPECT_THAT(text, HasSubstr(" / one "));
+  EXPECT_THAT(text, HasSubstr("4 runs in s/results.sqlite"));
+  const std::string costs = run("profile s", 80).out;
+  EXPECT_LE(widest(costs), 80u) << costs;
+  EXPECT_THAT(costs, Not(HasSubstr("|")));
+  EXPECT_THAT(loopbench_command("profile s", folder_).out, HasSubstr("### costs\n\n| method"));
+}
+
+}  // namespace
+}  // namespace loopbench::eval_terminal_test

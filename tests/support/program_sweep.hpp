@@ -1,0 +1,65 @@
+/// Sweeps with programs as methods.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/store/read.hpp"
+#include "tests/support/command.hpp"
+
+namespace loopbench::test {
+
+/// One simulated sequence, `raw` and programs; checks that no temporary files are left.
+class ProgramSweep : public testing::Test {
+ protected:
+  ProgramSweep() {
+    std::filesystem::create_directory(tmp_);
+    setenv("TMPDIR", tmp_.c_str(), 1);
+  }
+  ~ProgramSweep() override {
+    unsetenv("TMPDIR");
+    EXPECT_TRUE(std::filesystem::is_empty(tmp_)) << "files of programs are left";
+  }
+
+  /// Runs a sweep of one simulated sequence with these method entries; returns its cells.
+  std::vector<harness::CellRecord> cells(const std::string& entries,
+                                         const std::string& settings = "") {
+    folder_.file(
+        "c.yaml",
+        "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n  - raw\n" +
+            entries + "metrics: [ate]\ntimes: keyframes\n" + settings);
+    ran_ = loopbench_command("run c.yaml --out r -j 2", folder_);
+    return harness::read_cells(folder_.path() / "r");
+  }
+
+  static std::string entry(const std::string& label, const std::string& run) {
+    return "  - {method: command, label: " + label + ", run: " + run + "}\n";
+  }
+
+  /// ATE of each method [m]
+  std::map<std::string, double> errors() {
+    std::map<std::string, double> out;
+    for (const harness::Record& record : harness::read_records(folder_.path() / "r")) {
+      if (record.metric == "ate" && record.relation == "translation")
+        out[record.method] = record.statistics.rmse;
+    }
+    return out;
+  }
+
+  static std::string notes(const harness::CellRecord& cell) {
+    std::string out;
+    for (const std::string& note : cell.notes) out += note + "\n";
+    return out;
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path tmp_ = folder_.path() / "tmp";
+  CommandResult ran_;
+};
+
+}  // namespace loopbench::test
