@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Checks outputs that the pages print against the program. A comment before a code block or a table names the
 # command: <!-- output of: ./run.sh eval a.txt b.txt -->. Every line of the block must be among the printed lines, in
-# that order; "..." stands for further lines. Spaces and times are ignored. <!-- part of: FILE --> names a file.
+# that order; "..." stands for further lines. Spaces and times are ignored. <!-- part of: FILE --> names a file, and
+# <!-- numbers of: FILE --> one that contains all numbers with decimals of the block.
 # Usage: documented_outputs.sh LOOPBENCH ROOT [QUICKSTART], a folder with the results of quickstart; without it, its
 # outputs are skipped.
 set -euo pipefail
@@ -28,9 +29,12 @@ missing_line() {
     END { if (wanted < n) print line[wanted + 1] }' "$1" "$2"
 }
 
+# The first number with decimals of the block (file 1) that is not in file 2.
+missing_number() { grep -oE '[0-9]+\.[0-9]+' "$1" | grep -vxFf <(grep -oE '[0-9]+\.[0-9]+' "$2") | head -n 1 || true; }
+
 check() {
   local where=$1 kind=$2 text=$3 block=$4
-  if [[ $kind == part ]]; then
+  if [[ $kind != output ]]; then
     cp "$root/$text" "$work/.said"
   else
     read -ra words <<<"${text#./run.sh }"
@@ -46,15 +50,19 @@ check() {
   grep -v '^ *\.\.\.$' <<<"$block" | sed '/^ *$/d' | plain >"$work/.block"
   checked=$((checked + 1))
   local line
-  line=$(missing_line "$work/.block" "$work/.plain")
-  [[ -z $line ]] || { printf '%s: %s: does not print\n  %s\n' "$where" "$text" "$line"; failures=$((failures + 1)); }
+  if [[ $kind == numbers ]]; then
+    line=$(missing_number "$work/.block" "$work/.said")
+  else
+    line=$(missing_line "$work/.block" "$work/.plain")
+  fi
+  [[ -z $line ]] || { printf '%s: %s: does not contain\n  %s\n' "$where" "$text" "$line"; failures=$((failures + 1)); }
 }
 
 while IFS= read -r page; do
   kind='' text='' block='' number=0 at=0 is_fenced=false
   while IFS= read -r line || [[ -n $line ]]; do
     number=$((number + 1))
-    if [[ $line =~ ^'<!-- '(output|part)' of: '(.*)' -->'$ ]]; then
+    if [[ $line =~ ^'<!-- '(output|part|numbers)' of: '(.*)' -->'$ ]]; then
       kind=${BASH_REMATCH[1]} text=${BASH_REMATCH[2]} block='' at=$number is_fenced=false
     elif [[ -z $kind ]]; then
       continue
