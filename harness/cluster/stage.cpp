@@ -1,15 +1,10 @@
 #include "harness/cluster/stage.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/text/file_lock.hpp"
 #include "harness/text/hash.hpp"
 #include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
@@ -18,25 +13,6 @@ namespace loopbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Lock of a staging folder, held until destroyed; waits for other processes.
-class StageLock {
- public:
-  explicit StageLock(const fs::path& folder)
-      : descriptor_(open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) {
-      throw InputError(folder.string() + ": cannot be written: " + std::strerror(errno));
-    }
-    while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ~StageLock() { close(descriptor_); }
-  StageLock(const StageLock&) = delete;
-  StageLock& operator=(const StageLock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -97,7 +73,7 @@ DataRoot stage_inputs(const Sweep& sweep,
   out.folders.clear();
   try {
     fs::create_directories(folder);
-    const StageLock lock(folder);
+    const FileLock lock(folder / ".lock");
     const std::set<fs::path> paths = named_paths(sweep, cells, catalogue);
     for (const fs::path& original : root.folders) {
       // Files of the same name from different folders do not replace each other.

@@ -108,8 +108,9 @@ std::string submitted(std::vector<std::string> words, const std::filesystem::pat
 
 int submit(const SubmitArguments& arguments) {
   const std::string config = absolute(config_path(arguments.config));
-  std::vector<std::filesystem::path> plugins(arguments.plugins.begin(), arguments.plugins.end());
-  const Catalogue known = catalogue(plugins);
+  const std::vector<std::filesystem::path> plugins(arguments.plugins.begin(),
+                                                   arguments.plugins.end());
+  const Catalogue known = catalogue(with_config_plugins(plugins, config));
   const Sweep sweep = read_sweep(config, known, arguments.data);
   const std::size_t count = cells(sweep, seeded(sweep, known), arguments.only).size();
   if (count == 0) throw InputError(arguments.config + ": no cells to run");

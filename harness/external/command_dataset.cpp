@@ -9,6 +9,7 @@
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/process_tree.hpp"
 #include "harness/external/scratch.hpp"
+#include "harness/text/file_lock.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -137,9 +138,11 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
   if (all.empty()) all = std::filesystem::temp_directory_path() / "loopbench-programs";
   const std::filesystem::path out = all / key;
   if (std::filesystem::is_regular_file(out / kOpen)) return out;
+  std::filesystem::create_directories(all);
+  const FileLock lock(all / (key + ".lock"));  // a worker that needs the same run waits for it
+  if (std::filesystem::is_regular_file(out / kOpen)) return out;
   const ExchangeFolder work;
   run_program(o, root, folder, sequence, work.path() / kOpen);
-  std::filesystem::create_directories(all);
   std::string part = (all / (key + "-XXXXXX")).string();
   if (mkdtemp(part.data()) == nullptr) throw InputError(part + ": cannot be created");
   try {
@@ -149,9 +152,8 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
         std::filesystem::copy_file(work.path() / name, std::filesystem::path(part) / name);
       }
     }
-    std::error_code exists;  // another worker was faster: its output is as good
-    std::filesystem::rename(part, out, exists);
-    if (exists) std::filesystem::remove_all(part);
+    std::filesystem::remove_all(out);  // an incomplete one
+    std::filesystem::rename(part, out);
   } catch (...) {
     std::filesystem::remove_all(part);
     throw;
