@@ -72,9 +72,9 @@ std::vector<const CellRow*> claim(const CheckedStore& stored,
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (out[i] != nullptr) continue;
-      const auto same =
-          std::ranges::equal_range(rows, std::pair(wanted[i].low, wanted[i].high), {}, key_of);
-      for (auto row = same.begin(); row != same.end(); ++row) {
+      const std::pair key(wanted[i].low, wanted[i].high);
+      auto row = std::ranges::lower_bound(rows, key, {}, key_of);
+      for (; row != rows.end() && key_of(*row) == key; ++row) {
         const auto number = static_cast<std::size_t>(row - rows.begin());
         if (is_claimed[number] || (exact && !same_labels(**row, all[i], keys.sweep()))) continue;
         is_claimed[number] = true;
