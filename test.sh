@@ -7,7 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 (($#)) || set -- release
 [[ $* == all ]] && set -- lint tsan debug release
-install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" "${test_packages[@]}"
+install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" \
+  "${python_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" clang "* ]] && install_missing clang-14
 
 # Runs shellcheck for all scripts, clang-format for all files; clang-tidy for the product, each library as one source.

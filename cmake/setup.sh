@@ -16,8 +16,10 @@ get_packages=(curl ca-certificates)
 lint_packages=(clang-format clang-tidy shellcheck)
 slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
 package_packages=(dpkg-dev file lintian debootstrap)
+# The compiled module of the Python package is optional: without these it is not built.
+python_packages=(python3-dev python3-numpy pybind11-dev)
 test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
-  python3-numpy python3-scipy)
+  python3-scipy)
 # Programs that configs/external compares with; no script installs them.
 external_packages=(mrpt-apps)
 

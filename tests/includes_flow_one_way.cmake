@@ -70,11 +70,11 @@ set(order
   "harness/report harness/article harness/calibrate harness/correct"
   "harness/eval"
   "harness/commands"
-  "harness/program"
+  "harness/program harness/python"
 )
 
 # Only files that match folder_<library> may include the headers that match header_<library>.
-set(libraries ceres yaml sqlite re2 cli json opencv stb compression)
+set(libraries ceres yaml sqlite re2 cli json opencv stb compression pybind11)
 set(header_ceres "ceres/")
 set(folder_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
@@ -93,6 +93,8 @@ set(header_stb "stb/")
 set(folder_stb "datasets/rgbd/.*\\.cpp")
 set(header_compression "(zlib|bzlib|zstd|lz4frame)\\.h")
 set(folder_compression "datasets/compressed/decompress\\.cpp")
+set(header_pybind11 "pybind11/")
+set(folder_pybind11 "harness/python/")
 
 set(level 0)
 foreach(line IN LISTS order)

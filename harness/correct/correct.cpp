@@ -79,12 +79,12 @@ std::optional<Residuals> residuals(const Problem& problem, const Trajectory& key
   return out;
 }
 
-/// Stamps of the output that are inside the curve's time span, ascending.
+/// Stamps of the output, ascending; those outside the keyframes' time span are only counted.
 std::vector<double> output_stamps(const CorrectArguments& a,
                                   const Problem& problem,
-                                  const Curve& curve,
                                   std::size_t& outside) {
-  std::vector<double> wanted = stamps(problem.keyframes);
+  const Trajectory& keyframes = problem.keyframes;
+  std::vector<double> wanted = stamps(keyframes);
   if (!a.at.empty()) {
     wanted = stamps(read_trajectory(a.at));
   } else if (a.dense) {
@@ -92,15 +92,17 @@ std::vector<double> output_stamps(const CorrectArguments& a,
     std::ranges::sort(wanted);
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   }
+  if (keyframes.empty()) return wanted;
+  const double start = keyframes.front().stamp, end = keyframes.back().stamp;
   const std::size_t all = wanted.size();
-  std::erase_if(wanted, [&](double t) { return t < curve.start() || t > curve.end(); });
+  std::erase_if(wanted, [&](double t) { return t < start || t > end; });
   outside = all - wanted.size();
   if (wanted.empty()) {
     throw InputError(fmt::format("{}: none of the {} stamps is between {} and {} s, the keyframes",
                                  a.at,
                                  all,
-                                 to_text(curve.start()),
-                                 to_text(curve.end())));
+                                 to_text(start),
+                                 to_text(end)));
   }
   return wanted;
 }
@@ -129,37 +131,55 @@ std::optional<std::size_t> rejected_closures(const Correction& done) {
 
 }  // namespace
 
-Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
-  reject_standard_output("-o", a.out);
-  if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
-  const MethodChoice choice = parse_method(a.method, catalogue);
-  for (const Choice& stage : choice.stages) {
+MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
+  MethodChoice out = parse_method(text, catalogue);
+  for (const Choice& stage : out.stages) {
     if (find_oracle(catalogue, stage.name) != nullptr) {
       throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
     }
   }
-  const bool graph = is_graph(a);
-  Correction out;
-  out.problem = loaded(a, catalogue, graph).problem;
-  out.estimate = a.estimate;
-  out.method = a.method;
+  return out;
+}
+
+Correction correct(Problem problem,
+                   const std::string& name,
+                   const MethodChoice& choice,
+                   const std::vector<double>& at,
+                   const Catalogue& catalogue) {
   const auto method = make_method(choice, catalogue, {});
-  if (const auto why = method->declines(out.problem)) {
-    throw InputError(a.estimate + ": " + a.method + " declines: " + *why);
+  if (const auto why = method->declines(problem)) {
+    throw InputError(name + ": " + choice.label + " declines: " + *why);
   }
+  Correction out;
+  out.problem = std::move(problem);
+  out.estimate = name;
+  out.method = choice.label;
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   out.keyframes = curve->sample(stamps(out.problem.keyframes));
-  check(out.keyframes, a.method);
-  out.output = curve->sample(output_stamps(a, out.problem, *curve, out.outside));
-  check(out.output, a.method);
+  check(out.keyframes, choice.label);
+  out.output = curve->sample(at);
+  check(out.output, choice.label);
   out.before = residuals(out.problem, out.problem.keyframes);
   out.after = residuals(out.problem, out.keyframes);
   out.rejected = rejected_closures(out);
   const std::string unmoved =
       movement_note(out.problem, out.keyframes, out.report, uses_closures(choice, catalogue));
   if (!unmoved.empty()) out.report.notes.push_back(unmoved);
+  return out;
+}
+
+Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
+  reject_standard_output("-o", a.out);
+  if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
+  const MethodChoice choice = method_without_reference(a.method, catalogue);
+  const bool graph = is_graph(a);
+  Problem problem = loaded(a, catalogue, graph).problem;
+  std::size_t outside = 0;
+  const std::vector<double> at = output_stamps(a, problem, outside);
+  Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
+  out.outside = outside;
   if (!a.out.empty()) write(a, out, graph);
   out.out = a.out;
   return out;

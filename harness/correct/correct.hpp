@@ -52,6 +52,18 @@ struct Correction {
 /// The choice of a method as in a config. Throws InputError, also for a text with several methods.
 MethodChoice parse_method(const std::string& text, const Catalogue& catalogue);
 
+/// The same. Throws InputError also for an oracle.
+MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue);
+
+/// Runs the method on a problem in memory, which must be valid; `output` is at the stamps `at`,
+/// ascending and within the keyframes' time span. `name` is for messages. Throws InputError if the
+/// method declines; other exceptions of the method are not caught.
+Correction correct(Problem problem,
+                   const std::string& name,
+                   const MethodChoice& choice,
+                   const std::vector<double>& at,
+                   const Catalogue& catalogue);
+
 /// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, runs the method and
 /// writes the output file. Numbers are written so that reading them is bit-identical. Throws
 /// InputError, also if the method declines; other exceptions of the method are not caught.

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "datasets/formats/kitti.hpp"
-#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -87,6 +86,48 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
 
 }  // namespace
 
+std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
+                                            const std::vector<metrics::NamedProtocol>& rules,
+                                            const EvaluationInput& input,
+                                            bool throws_failures) {
+  const auto& [reference, estimate, reference_name, estimate_name, has_stamps] = input.read;
+  std::vector<std::string> remarks;
+  if (!input.findings.damage.empty()) remarks.push_back(input.findings.damage);
+  for (std::string& note : doctor_notes(input.read, rules)) remarks.push_back(std::move(note));
+  std::vector<EvaluationResult> out;
+  for (const metrics::NamedProtocol& protocol : rules) {
+    const EvaluationOptions options{metric_requests(a, protocol.rules),
+                                    !a.per_pose.empty(),
+                                    !a.plot.empty() || !a.report.empty(),
+                                    a.min_coverage.value_or(0.0),
+                                    input.printed,
+                                    input.findings,
+                                    pose_of(reference_body(a))};
+    const FilePair pair{reference_name, estimate_name};
+    const std::string why =
+        why_two_clocks(a, protocol.rules, input.reference_unstamped, input.estimate_unstamped);
+    if (throws_failures && !why.empty()) throw InputError(why);
+    if (!why.empty()) {
+      out.push_back(failure(a, pair, protocol, why));
+      continue;
+    }
+    try {
+      out.push_back(evaluate_estimate(reference, estimate, protocol, options));
+      std::vector<std::string>& notes = out.back().notes;
+      notes.insert(notes.end(), remarks.begin(), remarks.end());
+    } catch (const std::runtime_error& error) {
+      if (throws_failures) {
+        throw InputError(estimate_name + " with reference " + reference_name + ": " + error.what());
+      }
+      out.push_back(failure(a, pair, protocol, error.what()));
+    }
+    out.back().reference = reference_name;
+    out.back().reference_body = a.reference_body.value_or("");
+    out.back().estimate = estimate_name;
+  }
+  return out;
+}
+
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
@@ -126,41 +167,18 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
-    std::vector<std::string> remarks;
-    if (!loaded.repaired.damage.empty()) remarks.push_back(loaded.repaired.damage);
     const bool has_stamps = unstamped.empty() && loaded.unstamped.empty();
-    const ReadPair read{reference, loaded.poses, pair.reference, pair.estimate, has_stamps};
-    for (std::string& note : doctor_notes(read, rules)) remarks.push_back(std::move(note));
     const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
-    for (const metrics::NamedProtocol& protocol : rules) {
-      const EvaluationOptions options{metric_requests(a, protocol.rules),
-                                      !a.per_pose.empty(),
-                                      !a.plot.empty() || !a.report.empty(),
-                                      a.min_coverage.value_or(0.0),
-                                      are_printed ? &printed : nullptr,
-                                      {std::max(repaired.off_unit, loaded.repaired.off_unit),
-                                       repaired.repeated + loaded.repaired.repeated},
-                                      pose_of(body)};
-      const std::string why = why_two_clocks(a, protocol.rules, unstamped, loaded.unstamped);
-      if (is_alone && !why.empty()) throw InputError(why);
-      if (!why.empty()) {
-        out.push_back(failure(a, pair, protocol, why));
-        continue;
-      }
-      try {
-        out.push_back(evaluate_estimate(reference, loaded.poses, protocol, options));
-        std::vector<std::string>& notes = out.back().notes;
-        notes.insert(notes.end(), remarks.begin(), remarks.end());
-      } catch (const std::runtime_error& error) {
-        if (is_alone) {
-          throw InputError(pair.estimate + " with reference " + pair.reference + ": " +
-                           error.what());
-        }
-        out.push_back(failure(a, pair, protocol, error.what()));
-      }
-      out.back().reference = pair.reference;
-      out.back().reference_body = a.reference_body.value_or("");
-      out.back().estimate = pair.estimate;
+    const EvaluationInput input{
+        {reference, loaded.poses, pair.reference, pair.estimate, has_stamps},
+        {std::max(repaired.off_unit, loaded.repaired.off_unit),
+         repaired.repeated + loaded.repaired.repeated,
+         loaded.repaired.damage},
+        are_printed ? &printed : nullptr,
+        unstamped,
+        loaded.unstamped};
+    for (EvaluationResult& result : evaluate_read(a, rules, input, is_alone)) {
+      out.push_back(std::move(result));
     }
   }
   if (!a.times.empty() && !reader.has_used_times) {

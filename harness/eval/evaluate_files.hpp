@@ -1,12 +1,30 @@
-/// Reads the trajectory files of `eval` and evaluates every estimate under every protocol.
+/// Evaluation of every estimate under every protocol, of trajectories in files or in memory.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluation_result.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 
 namespace loopbench::harness {
+
+/// Two trajectories in memory, and what is known of their files.
+struct EvaluationInput {
+  ReadPair read;  ///< the reference in the body of the estimate
+  ReadFindings findings = {};
+  const metrics::PrintedPoses* printed = nullptr;
+  std::string reference_unstamped = {};  ///< file and format if stamps were generated, or empty
+  std::string estimate_unstamped = {};
+};
+
+/// Returns one result for each protocol. Throws InputError if the evaluation fails and
+/// `throws_failures` is set; otherwise its result has a `why_failed`.
+std::vector<EvaluationResult> evaluate_read(const EvalArguments& arguments,
+                                            const std::vector<metrics::NamedProtocol>& protocols,
+                                            const EvaluationInput& input,
+                                            bool throws_failures);
 
 /// Returns one result for each estimate and protocol, in that order. If there are several, an
 /// estimate that cannot be read or evaluated has a result with `why_failed`. Throws InputError,

@@ -1,37 +1,22 @@
-"""The Python package and the examples of programs. Arguments: loopbench, ceres_pose_graph. Exits with
-77 without numpy."""
+"""The Python package and the examples of programs. Arguments: loopbench, ceres_pose_graph."""
 
 import doctest
 import importlib
-import json
 import os
 import shutil
-import sqlite3
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-try:
-    import numpy as np
-except ImportError:
-    print("numpy is not installed")
-    sys.exit(77)
+from python_support import SIMULATED, has, sweep
+
+import numpy as np
 
 import loopbench
 
-PROGRAM, CERES = sys.argv[1:3]
-os.environ["LOOPBENCH_PROGRAM"] = PROGRAM
+CERES = sys.argv[2]
 EXAMPLES = Path(__file__).parents[2] / "configs" / "external"
-
-
-def has(module):
-    try:
-        importlib.import_module(module)
-    except ImportError:
-        return False
-    return True
 
 
 class Doctests(unittest.TestCase):
@@ -40,26 +25,6 @@ class Doctests(unittest.TestCase):
             found = doctest.testmod(importlib.import_module("loopbench." + name))
             self.assertEqual(found.failed, 0, name)
             self.assertGreater(found.attempted, 0, name)
-
-
-SIMULATED = {"dataset": "simulated", "path": "room", "keyframes": 40}
-
-
-def sweep(methods, dataset=SIMULATED, **settings):
-    """Rows of a sweep of Python methods, as dictionaries."""
-    config = {"datasets": [dataset], "methods": methods, "metrics": ["ate", {"metric": "graph_cost"}],
-              "times": "keyframes", **settings}
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "c.yaml"
-        file.write_text(json.dumps(config))
-        subprocess.run([PROGRAM, "run", str(file), "--out", folder + "/r"], capture_output=True,
-                       check=False)
-        database = sqlite3.connect(folder + "/r/results.sqlite")
-        database.row_factory = sqlite3.Row
-        rows = database.execute(
-            "SELECT cell.method, cell.status AS cell_status, cell.why AS cell_why, score.metric,"
-            " score.axis, score.relation, score.rmse FROM cell LEFT JOIN score ON score.cell = cell.id")
-        return [dict(row) for row in rows]
 
 
 class Methods(unittest.TestCase):
@@ -95,82 +60,57 @@ class Methods(unittest.TestCase):
         for expected, found in self.costs("MRPT", adapter):
             self.assertGreater(found, expected)
 
-    def test_what_misbehaves_costs_its_cell(self):
-        cases = {
-            "raises": ("raise RuntimeError('no luck')", "RuntimeError: no luck"),
-            "shape": ("return problem.poses[:3]", "array of shape (3, 7)"),
-            "nothing": ("return None", "array of shape (1,)"),
-            "nan": ("return problem.poses * float('nan')", "quaternion has norm nan"),
-            "exits": ("import sys; sys.exit(3)", "exited with code 3"),
-            "aborts": ("import os; os.abort()", "was ended by SIGABRT"),
-            "prints": ("print('hello'); return problem.poses", None),
-            "declines": ("raise loopbench.Declined('too flat')", "too flat"),
-        }
-        with tempfile.TemporaryDirectory() as folder:
-            methods = []
-            for name, (body, _) in cases.items():
-                file = Path(folder) / f"{name}.py"
-                file.write_text("import loopbench\n@loopbench.corrector\ndef method(problem):\n"
-                                f"    {body}\nloopbench.serve()\n")
-                methods.append({"method": "command", "label": name,
-                                "serve": f"{sys.executable} {file}"})
-            rows = {row["method"]: row for row in sweep(methods + ["raw"])}
-        for name, (_, why) in cases.items():
-            status = {None: "ok", "too flat": "declined"}.get(why, "failed")
-            self.assertEqual(rows[name]["cell_status"], status, rows[name]["cell_why"])
-            self.assertIn(why or "", rows[name]["cell_why"])
-
-
-class Hostile(unittest.TestCase):
-    """Python methods that hang, grow, flood, leave processes, or return other stamps."""
-
-    def cell(self, body, **limits):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "mine.py"
-            file.write_text("import loopbench\n@loopbench.corrector\ndef method(problem):\n"
-                            f"    {body}\nloopbench.serve()\n")
-            method = {"method": "command", "serve": f"{sys.executable} {file}"}
-            return sweep([method], limits=limits)[0]
-
-    def test_a_hang_is_a_timeout(self):
-        row = self.cell("import time; time.sleep(8781)", seconds=2)
-        self.assertEqual(row["cell_status"], "timeout", row)
-
-    def test_memory_is_limited(self):
-        row = self.cell("x = [bytearray(b'x') * 2**24 for _ in range(1000)]", memory="700MiB")
-        self.assertEqual(row["cell_status"], "out_of_memory", row)
-
-    def test_a_flood_of_output_is_cut_off(self):
-        row = self.cell("for _ in range(30): print('x' * 10**6)\n    return problem.poses")
-        self.assertEqual(row["cell_status"], "ok", row)
-
-    def test_other_stamps_are_rejected(self):
-        row = self.cell("rows = problem.keyframes.copy(); rows[:, 0] += 0.5; return rows")
-        self.assertEqual(row["cell_status"], "failed", row)
-        self.assertIn("has stamp", row["cell_why"])
-
-    def test_processes_do_not_outlive_the_sweep(self):
-        self.cell("import subprocess; subprocess.Popen(['sleep', '8791'], start_new_session=True)\n"
-                  "    return problem.poses")
-        left = [each for each in Path("/proc").glob("[0-9]*/cmdline")
-                if each.read_bytes() == b"sleep\x008791\x00"]
-        self.assertEqual(left, [])
-
 
 class Sweeps(unittest.TestCase):
-    def test_a_dictionary_is_run_read_and_compared(self):
+    def test_a_dictionary_is_run_read_compared_and_drawn(self):
         config = {"datasets": [SIMULATED], "methods": ["raw", "uniform"], "metrics": ["ate"],
-                  "times": "keyframes", "repeats": 6}
+                  "times": "keyframes", "repeats": 9}
         with tempfile.TemporaryDirectory() as folder:
             rows = loopbench.run(config, folder + "/r")
             compared = loopbench.compare(folder + "/r", "relation=translation")
-        rows = rows if isinstance(rows, list) else rows.to_dict("records")
+            self.check_pandas(folder + "/r", rows)
+            self.check_figures(folder + "/r")
         found = {(row["method"], row["repeat"]) for row in rows if row["cell_status"] == "ok"}
-        self.assertEqual(len(found), 12)
+        self.assertEqual(len(found), 18)
         self.assertTrue(all(row["rmse"] > 0 for row in rows if row["relation"] == "translation"))
-        self.assertIn("uniform", json.dumps(compared))
+        self.assertEqual([(each.metric, each.runs) for each in compared], [("ate", 9)])
+        self.assertLess(compared[0]["uniform"].ratio, 1)
+        self.assertEqual(compared[0]["raw"].ratio, 1)
+        self.assertIn("uniform", compared[0].verdict)
+
+    def test_errors_are_those_of_the_program(self):
         with self.assertRaisesRegex(RuntimeError, "datasets"):
             loopbench.run({"methods": ["raw"]})
+        with self.assertRaisesRegex(FileNotFoundError, "absent"):
+            loopbench.rows("absent")
+        with self.assertRaisesRegex(AttributeError, "no attribute absent"):
+            loopbench.absent
+
+    def check_pandas(self, store, rows):
+        if not has("pandas"):
+            with self.assertRaisesRegex(ImportError, "needs pandas"):
+                loopbench.read(store)
+            return
+        frame = loopbench.read(store)
+        self.assertEqual(frame["rmse"].tolist(), [row["rmse"] for row in rows])
+
+    def check_figures(self, store):
+        if not has("matplotlib"):
+            with self.assertRaisesRegex(ImportError, "need matplotlib"):
+                loopbench.plot_scores(store)
+            return
+        os.environ["MPLBACKEND"] = "agg"
+        axes = loopbench.plot_scores(store)
+        self.assertEqual([each.get_text() for each in axes.get_yticklabels()], ["raw", "uniform"])
+        with self.assertRaisesRegex(ValueError, "has no score rpe"):
+            loopbench.plot_scores(store, "rpe")
+        t = np.arange(9.0)
+        rows = np.column_stack([t, t, np.sin(t), 0 * t, 0 * t, 0 * t, 0 * t, 0 * t + 1])
+        lines = loopbench.plot_trajectories({"reference": rows}, "xy").lines
+        self.assertEqual(lines[0].get_ydata().tolist(), np.sin(t).tolist())
+        if has("loopbench._core"):
+            lines = loopbench.plot_errors(rows, {"one": rows + [0, 0, 0, 1, 0, 0, 0, 0]}).lines
+            self.assertLess(max(lines[0].get_ydata()), 1e-9)
 
 
 class Slam(unittest.TestCase):

@@ -103,6 +103,18 @@ TEST_F(Sandboxed, GuardedProcessesCannotBeSignalled) {
             0);
 }
 
+TEST_F(Sandboxed, MemoryIsOutOfReachOfProcessesThatItStarts) {
+  const auto error_in_child = [] {
+    const std::string memory = "/proc/" + std::to_string(getpid()) + "/mem";
+    const pid_t child = fork();
+    if (child == 0) _exit(read_error(memory));
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  EXPECT_EQ(in_sandbox({}, error_in_child), EACCES);
+}
+
 TEST_F(Sandboxed, NothingIsRestrictedIfItIsOff) {
   SandboxOptions options;
   options.enabled = false;

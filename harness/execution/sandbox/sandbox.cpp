@@ -46,6 +46,7 @@ void Sandbox::enter() const {
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   if (landlock_ >= 0) landlock_restrict(landlock_);
   drop_capabilities();
+  prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);  // hides /proc/PID/mem from programs that it starts
   restrict_system_calls(guarded_);
 }
 

@@ -5,7 +5,8 @@
 /// - a PID namespace for each worker: nothing outside can be signalled, and its end ends all of it;
 /// - Landlock: files can be read except `unreachable`, and written only in `writable`; no TCP;
 /// - seccomp: no sockets but local ones, no ptrace, no access to the memory of other processes, no
-///   io_uring, no mounts; capabilities are dropped.
+///   io_uring, no mounts; capabilities are dropped, and core files and the process's memory in
+///   /proc, which may hold the reference, are switched off until it executes a program.
 /// Programs that a method starts inherit the restrictions. A method may start programs and read
 /// shared libraries and data anywhere else, so a method that runs an external program only needs a
 /// folder of its own in `writable`.

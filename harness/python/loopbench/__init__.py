@@ -1,4 +1,4 @@
-"""Methods for loopbench in Python, and sweeps from Python; needs numpy only.
+"""Methods for loopbench in Python, evaluation on arrays, and sweeps from Python; needs numpy.
 
 A method in ten lines, run by a config with `{method: command, serve: "python3 mine.py"}`::
 
@@ -11,21 +11,76 @@ A method in ten lines, run by a config with `{method: command, serve: "python3 m
         return poses
 
     loopbench.serve()
+
+In a notebook, with the compiled module (python3-dev and pybind11-dev when loopbench is built)::
+
+    problem, reference = loopbench.load("simulated", path="room")
+    poses, facts = loopbench.correct(problem, mine)
+    loopbench.score(loopbench.evaluate(reference, poses), "ate")
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from .problem import Declined, Edges, Problem, read_problem
 from .serving import corrector, serve, solve
-from .sweeps import compare, read, run
+
+if TYPE_CHECKING:
+    from .correction import correct, load, methods, problem_of
+    from .evaluation import Alignment, align, associate, evaluate, score
+    from .figures import plot_errors, plot_scores, plot_trajectories
+    from .sweeps import ComparedMethod, Comparison, compare, read, rows, run
+
+# Imported when they are used: a served method starts without them.
+_MODULES = {
+    "correction": ("correct", "load", "methods", "problem_of"),
+    "evaluation": ("Alignment", "align", "associate", "evaluate", "score"),
+    "figures": ("plot_errors", "plot_scores", "plot_trajectories"),
+    "sweeps": ("ComparedMethod", "Comparison", "compare", "read", "rows", "run"),
+}
+_LATER = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
+    "Alignment",
+    "ComparedMethod",
+    "Comparison",
     "Declined",
     "Edges",
     "Problem",
+    "align",
+    "associate",
     "compare",
+    "correct",
     "corrector",
+    "evaluate",
+    "load",
+    "methods",
+    "plot_errors",
+    "plot_scores",
+    "plot_trajectories",
+    "problem_of",
     "read",
     "read_problem",
+    "rows",
     "run",
+    "score",
     "serve",
     "solve",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module loopbench has no attribute {name}")
+    try:
+        module = import_module("." + _LATER[name], __name__)
+    except ImportError as error:
+        if "_core" not in str(error):
+            raise
+        raise ImportError(
+            f"loopbench.{name} needs the compiled module loopbench._core, which is built as target "
+            "loopbench_python if python3-dev, python3-numpy and pybind11-dev are installed"
+        ) from error
+    return getattr(module, name)

@@ -40,6 +40,11 @@ class Edges:
             rows[:, 10:46].reshape(-1, 6, 6),
         )
 
+    def to_rows(self) -> Array:
+        """(m, 46) rows, the inverse of `from_rows`."""
+        information = np.reshape(self.information, (-1, 36))
+        return np.column_stack([self.begin, self.end, self.poses, self.scale, information])
+
 
 @dataclass(frozen=True)
 class Problem:

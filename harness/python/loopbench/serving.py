@@ -58,8 +58,17 @@ def _parse(text: bytes, data: bytes) -> Problem:
     )
 
 
+def call(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
+    """Runs a method; returns the facts of result.json and (k, 8) poses, or raises its exception."""
+    begin = time.perf_counter()
+    returned = function(problem)
+    seconds = time.perf_counter() - begin
+    poses, facts = returned if isinstance(returned, tuple) else (returned, {})
+    return {**facts, "seconds": seconds}, stamped(problem, poses)
+
+
 def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
-    """Runs a method; returns the facts of result.json and (k, 8) poses.
+    """Runs a method as `serve` does: never raises.
 
     An exception becomes status failed with its message, `Declined` status declined.
 
@@ -75,12 +84,8 @@ def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
     {'status': 'declined', 'why': 'no closures'}
     """
     nothing = np.empty((0, 8))
-    begin = time.perf_counter()
     try:
-        returned = function(problem)
-        seconds = time.perf_counter() - begin
-        poses, facts = returned if isinstance(returned, tuple) else (returned, {})
-        return {**facts, "seconds": seconds}, stamped(problem, poses)
+        return call(function, problem)
     except Declined as why:
         return {"status": "declined", "why": str(why)}, nothing
     except Exception as error:  # noqa: BLE001: reported as the reason of the failed cell

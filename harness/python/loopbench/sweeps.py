@@ -8,8 +8,14 @@ import shutil
 import sqlite3
 import subprocess
 import tempfile
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Mapping
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import]
+
+Row = dict[str, Any]
 
 
 def _program() -> str:
@@ -26,16 +32,19 @@ def _call(*words: str, accepted: tuple[int, ...] = (0,)) -> str:
     return done.stdout
 
 
-def run(config: str | Path | dict[str, Any], out: str | Path | None = None, jobs: int = 1) -> Any:
-    """Runs a sweep from a file or from the dictionary that a file would contain; returns its rows.
+def run(
+    config: str | Path | Mapping[str, Any], out: str | Path | None = None, jobs: int = 1
+) -> list[Row]:
+    """Runs a sweep from a file or from the dictionary that a file would contain; returns `rows`.
 
-    Paths in a dictionary are relative to the current folder. Failed cells are rows, not errors.
-    Raises RuntimeError with the program's message if the config is invalid.
+    Paths in a dictionary are relative to the current folder. The store is written to `out`, by
+    default results/NAME for a file; that of a dictionary is removed. Failed cells are rows, not
+    errors. Raises RuntimeError with the program's message if the config is invalid.
     """
-    if not isinstance(config, dict):
+    if not isinstance(config, Mapping):
         out = Path(out or Path("results") / Path(config).stem)
         _call("run", str(config), "--out", str(out), "-j", str(jobs), accepted=(0, 1))
-        return read(out)
+        return rows(out)
     with tempfile.NamedTemporaryFile("w", suffix=".yaml", dir=".", prefix=".sweep-") as file:
         json.dump(config, file)
         file.flush()
@@ -45,9 +54,7 @@ def run(config: str | Path | dict[str, Any], out: str | Path | None = None, jobs
             return run(file.name, folder, jobs)
 
 
-def read(store: str | Path) -> Any:
-    """Every score of a store with the labels of its cell: a pandas data frame if pandas is
-    installed, otherwise a list of dictionaries."""
+def _select(store: str | Path) -> tuple[list[str], list[Any]]:
     file = Path(store)
     if file.is_dir():
         file = file / "results.sqlite"
@@ -57,21 +64,108 @@ def read(store: str | Path) -> Any:
         " score ON score.cell = cell.id WHERE cell.position IS NOT NULL ORDER BY cell.position,"
         " score.rowid"
     )
+    if not file.exists():
+        raise FileNotFoundError(f"{file}: no such file, expected the store of a sweep")
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
     try:
         cursor = database.execute(query)
-        names = [column[0] for column in cursor.description]
-        rows = cursor.fetchall()
+        return [column[0] for column in cursor.description], cursor.fetchall()
     finally:
         database.close()
+
+
+def rows(store: str | Path) -> list[Row]:
+    """Every score of a store with the labels of its cell; a cell without scores has one row."""
+    names, found = _select(store)
+    return [dict(zip(names, row)) for row in found]
+
+
+def read(store: str | Path) -> pandas.DataFrame:
+    """The same as a pandas data frame. Raises ImportError without pandas; `rows` needs none."""
     try:
         import pandas
-    except ImportError:
-        return [dict(zip(names, row)) for row in rows]
-    return pandas.DataFrame(rows, columns=names)
+    except ImportError as error:
+        raise ImportError(
+            "loopbench.read needs pandas (Debian: python3-pandas); loopbench.rows does not"
+        ) from error
+    names, found = _select(store)
+    return pandas.DataFrame(found, columns=names)
 
 
-def compare(store: str | Path, where: str = "") -> Any:
-    """Comparisons with significance tests, as `loopbench compare --format json` prints them."""
+@dataclass(frozen=True)
+class ComparedMethod:
+    """One method in a comparison with the baseline."""
+
+    method: str
+    median: float
+    with_value: int  #: runs with a value
+    fails: int
+    ratio: float | None  #: geometric mean of value / baseline
+    interval: tuple[float, float] | None  #: of the ratio
+    why_no_interval: str
+    better: int
+    worse: int
+    equal: int
+    p: float | None
+    rank_biserial: float
+    ranks: tuple[int, int]
+    letters: str  #: methods that share a letter are not proven different
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All methods in one score, over the runs of a store."""
+
+    metric: str
+    label: str
+    relation: str
+    axis: str
+    unit: str
+    value: str
+    times: str
+    protocol: str
+    baseline: str
+    alpha: float
+    over: str
+    groups: int
+    runs: int  #: compared
+    possible: int  #: runs of the store
+    best_is_proven: bool
+    verdict: str
+    remarks: list[str]
+    methods: list[ComparedMethod]  #: best first
+    gaps: list[dict[str, Any]]  #: methods without a value in some run, and why
+
+    def __getitem__(self, method: str) -> ComparedMethod:
+        for each in self.methods:
+            if each.method == method:
+                return each
+        raise KeyError(method)
+
+
+def _known(kind: type[Any], entry: Mapping[str, Any]) -> Any:
+    return kind(**{field.name: entry[field.name] for field in fields(kind)})
+
+
+def _compared(entry: dict[str, Any]) -> ComparedMethod:
+    for name in ("interval", "ranks"):
+        entry[name] = entry[name] and tuple(entry[name])
+    found: ComparedMethod = _known(ComparedMethod, entry)
+    return found
+
+
+def compare(store: str | Path, *where: str, baseline: str = "") -> list[Comparison]:
+    """Comparisons with significance tests, as `loopbench compare` makes them: one per score.
+
+    Conditions select rows, such as "metric=ate", "times=keyframes".
+    """
     words = ["compare", str(store), "--format", "json"]
-    return json.loads(_call(*words, *(["--where", where] if where else [])))
+    for condition in where:
+        words += ["--where", condition]
+    if baseline:
+        words += ["--baseline", baseline]
+    out: list[Comparison] = []
+    for entry in json.loads(_call(*words))["comparisons"]:
+        entry["methods"] = [_compared(each) for each in entry["methods"]]
+        out.append(_known(Comparison, entry))
+    return out

@@ -1,0 +1,38 @@
+# The compiled module of the Python package, if python3-dev, python3-numpy and pybind11-dev are installed. Not
+# under sanitizers, whose runtime the interpreter would have to load.
+set(loopbench_python_default ON)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(loopbench_python_default OFF)
+endif()
+option(LOOPBENCH_PYTHON "Build the Python module if Python, numpy and pybind11 are found" ${loopbench_python_default})
+
+file(GLOB loopbench_python_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/harness/python/loopbench/*.py
+  ${PROJECT_SOURCE_DIR}/harness/python/loopbench/*.pyi ${PROJECT_SOURCE_DIR}/harness/python/loopbench/py.typed)
+set(loopbench_site lib/python3/dist-packages/loopbench)
+install(FILES ${loopbench_python_files} DESTINATION ${loopbench_site} COMPONENT python)
+if(NOT LOOPBENCH_PYTHON)
+  return()
+endif()
+# Debian's interpreter has Debian's numpy; another one can be first in PATH.
+if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python QUIET COMPONENTS Interpreter Development.Module NumPy)
+if(Python_FOUND)
+  find_package(pybind11 2.10 CONFIG QUIET)
+endif()
+if(NOT Python_FOUND OR NOT pybind11_FOUND)
+  message(STATUS "python3-dev, python3-numpy or pybind11-dev was not found: building without the Python module")
+  return()
+endif()
+pybind11_add_module(loopbench_python MODULE NO_EXTRAS harness/python/module.cpp harness/python/arrays.cpp)
+target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::harness)
+# The package in the build folder: the module beside links to the Python files.
+set(loopbench_package ${PROJECT_BINARY_DIR}/python/loopbench)
+set_target_properties(loopbench_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${loopbench_package})
+file(MAKE_DIRECTORY ${loopbench_package})
+foreach(file IN LISTS loopbench_python_files)
+  get_filename_component(name ${file} NAME)
+  file(CREATE_LINK ${file} ${loopbench_package}/${name} SYMBOLIC)
+endforeach()
+install(TARGETS loopbench_python DESTINATION ${loopbench_site} COMPONENT python)

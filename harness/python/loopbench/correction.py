@@ -1,0 +1,112 @@
+"""Methods on arrays: those of loopbench, and Python functions in this process."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .problem import Array, Edges, Problem
+from .serving import Method, call
+
+
+def methods() -> dict[str, str]:
+    """Name and summary of every method.
+
+    >>> "pose_graph" in methods()
+    True
+    """
+    return dict(_core.methods())
+
+
+def load(dataset: str, **options: Any) -> tuple[Problem, Array]:
+    """Problem and reference (n, 8) of one sequence of a dataset, with the options of a config.
+
+    >>> problem, reference = load("simulated", path="room", keyframes=40)
+    >>> len(problem.keyframes), len(problem.closures) > 0, reference.shape[1]
+    (40, True, 8)
+
+    Options with a dot are given as a dictionary: `keyframes={"rule": "every", "value": 5}`. Files
+    are searched in the current folder and in LOOPBENCH_DATA. The seed is used as it is given, while
+    `run` derives one for each repeat.
+    """
+    folders = [os.getcwd(), *filter(None, [os.environ.get("LOOPBENCH_DATA")])]
+    entry = json.dumps({"dataset": dataset, **options}, default=str)
+    keyframes, frames, odometry, closures, planar, reference = _core.load(entry, folders)
+    edges = Edges.from_rows(closures)
+    similarity = bool(np.any(edges.scale != 1) or np.any(odometry[:, 9] != 1))
+    problem = Problem(keyframes, frames, Edges.from_rows(odometry), edges, planar, similarity)
+    return problem, reference
+
+
+def problem_of(
+    keyframes: npt.ArrayLike,
+    closures: Iterable[tuple[int, int, npt.ArrayLike]] = (),
+    frames: npt.ArrayLike = (),
+    sigma_t: float = 0.02,
+    sigma_r: float = 0.01,
+) -> Problem:
+    """A problem from an estimate (n, 8), without a file.
+
+    `closures` are (begin, end, pose): indices of two keyframes, and x y z qx qy qz qw of the later
+    one in the frame of the earlier one, with standard deviations sigma_t [m] and sigma_r [rad].
+    Odometry is the estimate's own motion, with the noise that dataset `trajectory` has by default.
+
+    >>> keyframes = np.zeros((5, 8))
+    >>> keyframes[:, 0], keyframes[:, 1], keyframes[:, 7] = np.arange(5), np.arange(5), 1
+    >>> problem = problem_of(keyframes, [(0, 4, [3, 0, 0, 0, 0, 0, 1])])
+    >>> len(problem.odometry), len(problem.closures)
+    (4, 1)
+    >>> correct(problem, "uniform")[0][4, 1].round(3)
+    3.0
+    """
+    information = np.diag([sigma_t**-2.0] * 3 + [sigma_r**-2.0] * 3).ravel()
+    rows = [np.r_[begin, end, np.asarray(pose), 1.0, information] for begin, end, pose in closures]
+    rows.sort(key=lambda row: (row[1], row[0]))
+    poses = np.ascontiguousarray(keyframes, dtype=float)
+    return Problem(
+        poses,
+        np.reshape(np.asarray(frames, dtype=float), (-1, 8)),
+        Edges.from_rows(_core.odometry(poses)),
+        Edges.from_rows(np.reshape(rows, (-1, 46))),
+    )
+
+
+def correct(
+    problem: Problem, method: str | Method, at: npt.ArrayLike = ()
+) -> tuple[Array, dict[str, Any]]:
+    """Runs a method on a problem: corrected poses (n, 8), and facts.
+
+    `method` is a text as of `loopbench correct --method`, a corrector, a smoother or
+    "corrector + smoother"; or a function as for `serve`, which runs in this process. `at` are the
+    stamps of the poses, by default those of the keyframes; a function chooses its own. The facts
+    are those of `correct --json`, or what the function returned. Raises ValueError if the method is
+    unknown or not applicable; exceptions of a function are not caught.
+
+    >>> problem, reference = load("simulated", path="room", keyframes=40)
+    >>> poses, facts = correct(problem, "pose_graph")
+    >>> poses.shape, facts["after"]["chi2_closures"] < facts["before"]["chi2_closures"]
+    ((40, 8), True)
+    >>> correct(problem, "dual + cubic_spline", at=[1.25, 2.5])[0][:, 0]
+    array([1.25, 2.5 ])
+    >>> correct(problem, lambda problem: problem.poses)[0].shape
+    (40, 8)
+    """
+    stamps = np.asarray(at, dtype=float).ravel()
+    if not isinstance(method, str):
+        if len(stamps):
+            raise TypeError("stamps are chosen by the function, expected no `at`")
+        facts, poses = call(method, problem)
+        return poses, facts
+    first, last = (min(problem.stamps, default=0.0), max(problem.stamps, default=0.0))
+    for stamp in stamps:
+        if not first <= stamp <= last:
+            raise ValueError(f"at: found stamp {stamp}, expected {first} to {last}, the keyframes")
+    odometry, closures = problem.odometry.to_rows(), problem.closures.to_rows()
+    core = _core.Problem(problem.keyframes, problem.frames, odometry, closures, problem.planar)
+    poses, text = _core.correct(core, method, stamps.tolist())
+    return poses, json.loads(text)

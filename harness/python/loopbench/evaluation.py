@@ -1,0 +1,150 @@
+"""Evaluation of trajectories in files and arrays; the numbers are those of `loopbench eval`."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Mapping, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .problem import Array
+
+#: A path, or (n, 8) rows: stamp x y z qx qy qz qw.
+Trajectory = Union[str, "os.PathLike[str]", npt.ArrayLike]
+
+
+class Alignment(NamedTuple):
+    """An estimate that is aligned to its reference."""
+
+    poses: Array  #: (n, 8) aligned estimate
+    scale: float
+    rank: int  #: independent directions of the positions: 3 in general, 1 on a line
+    condition: float  #: large if the rotation about a line is poorly determined
+
+
+def _text(value: Any) -> str:
+    return str(value).lower() if isinstance(value, (bool, np.bool_)) else str(value)
+
+
+def _arguments(
+    protocol: str, align: str, settings: Mapping[str, Any] | None
+) -> _core.EvalArguments:
+    out = _core.EvalArguments()
+    out.protocols = [protocol]
+    out.align = align
+    out.settings = [f"{name}={_text(value)}" for name, value in (settings or {}).items()]
+    return out
+
+
+def _rows(poses: npt.ArrayLike) -> Array:
+    return np.ascontiguousarray(poses, dtype=float)
+
+
+def evaluate(
+    reference: Trajectory,
+    estimate: Trajectory,
+    protocol: str = "loopbench",
+    align: str = "",
+    *,
+    settings: Mapping[str, Any] | None = None,
+    correct_scale: bool = False,
+    relation: str = "",
+    delta: float | None = None,
+    delta_unit: str = "",
+    min_coverage: float | None = None,
+    reference_body: str | None = None,
+    format: str = "auto",
+    reference_format: str = "",
+    repeats: str = "refuse",
+    times: str | os.PathLike[str] = "",
+    period: float | None = None,
+) -> dict[str, Any]:
+    """Evaluates one estimate; returns the object that `loopbench eval --json` prints.
+
+    Reference and estimate are two paths or two arrays. The other arguments are the options of
+    `eval`; `settings` are fields of the protocol, as of `--set`. `format` and all after it refer
+    to files. Raises ValueError for invalid input. Does not hold the interpreter's lock.
+
+    >>> t = np.arange(20.0)
+    >>> none = 0 * t
+    >>> curve = np.column_stack([t, t, t**2, none, none, none, none, none + 1])
+    >>> higher = curve + [0, 0, 0, 1, 0, 0, 0, 0]
+    >>> round(score(evaluate(curve, higher), "ate"), 9)
+    0.0
+    >>> round(score(evaluate(curve, higher, align="none"), "ate"), 9)
+    1.0
+    >>> round(score(evaluate(curve, higher, align="none", settings={"max_diff": 0.01}), "ate"), 9)
+    1.0
+    """
+    arguments = _arguments(protocol, align, settings)
+    arguments.correct_scale = correct_scale
+    arguments.relation = relation
+    arguments.delta = delta
+    arguments.delta_unit = delta_unit
+    arguments.min_coverage = min_coverage
+    arguments.reference_body = reference_body
+    arguments.format = format
+    arguments.reference_format = reference_format
+    arguments.repeats = repeats
+    arguments.times = os.fspath(times)
+    arguments.period = period
+    if isinstance(reference, (str, os.PathLike)) and isinstance(estimate, (str, os.PathLike)):
+        text = _core.evaluate_files(arguments, os.fspath(reference), os.fspath(estimate))
+    elif isinstance(reference, (str, os.PathLike)) or isinstance(estimate, (str, os.PathLike)):
+        raise TypeError("found a path and an array, expected two paths or two arrays")
+    else:
+        text = _core.evaluate_arrays(arguments, _rows(reference), _rows(estimate))
+    result: dict[str, Any] = json.loads(text)[0]
+    return result
+
+
+def score(
+    result: Mapping[str, Any],
+    metric: str,
+    relation: str = "translation",
+    axis: str | None = None,
+    value: str = "rmse",
+) -> float:
+    """One number of a result of `evaluate`: the first score that matches. Raises KeyError."""
+    for each in result["metrics"]:
+        names = (each["metric"], each["relation"], each["axis"])
+        if names == (metric, relation, each["axis"] if axis is None else axis):
+            return float(each[value])
+    raise KeyError(f"no score {metric} {relation} {axis or ''}".rstrip())
+
+
+def associate(
+    reference: npt.ArrayLike,
+    estimate: npt.ArrayLike,
+    protocol: str = "loopbench",
+    settings: Mapping[str, Any] | None = None,
+) -> tuple[Array, Array]:
+    """Paired rows of reference and estimate, of equal length.
+
+    >>> rows = np.zeros((9, 8))
+    >>> rows[:, 0], rows[:, 7] = np.arange(9), 1
+    >>> first, second = associate(rows, rows[::3] + [0.01, 0, 0, 0, 0, 0, 0, 0])
+    >>> first[:, 0], second[:, 0]
+    (array([0., 3., 6.]), array([0.01, 3.01, 6.01]))
+    """
+    arguments = _arguments(protocol, "", settings)
+    return _core.associate(arguments, _rows(reference), _rows(estimate))
+
+
+def align(
+    reference: npt.ArrayLike, estimate: npt.ArrayLike, how: str = "se3", first: int = 0
+) -> Alignment:
+    """Aligns paired rows, by least squares over the `first` ones (0: all) or as `how` says.
+
+    >>> rows = np.random.default_rng(1).normal(size=(9, 8))
+    >>> rows[:, 0] = np.arange(9)
+    >>> rows[:, 4:] = [0, 0, 0, 1]
+    >>> larger = rows * [1, 2, 2, 2, 1, 1, 1, 1]
+    >>> aligned = align(larger, rows, "sim3")
+    >>> round(aligned.scale, 9), bool(np.allclose(aligned.poses, larger))
+    (2.0, True)
+    """
+    return Alignment(*_core.align(_rows(reference), _rows(estimate), how, first))

@@ -1,0 +1,185 @@
+/// The module loopbench._core: evaluation and methods on numpy arrays. It releases the global
+/// interpreter lock while it computes.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/derive/odometry.hpp"
+#include "harness/config/choices.hpp"
+#include "harness/correct/correct.hpp"
+#include "harness/eval/evaluate_files.hpp"
+#include "harness/python/arrays.hpp"
+#include "metrics/alignment/alignment.hpp"
+#include "metrics/pairing/association.hpp"
+
+namespace py = pybind11;
+
+namespace loopbench::python {
+namespace {
+
+std::string evaluate_files(harness::EvalArguments arguments,
+                           const std::string& reference,
+                           const std::string& estimate) {
+  arguments.reference = reference;
+  arguments.estimates = {estimate};
+  return harness::json(harness::evaluate_files(arguments));
+}
+
+std::string evaluate_arrays(const harness::EvalArguments& arguments,
+                            const Array& reference_rows,
+                            const Array& estimate_rows) {
+  ReadRows reference = read_rows(reference_rows, "reference");
+  const ReadRows estimate = read_rows(estimate_rows, "estimate");
+  const py::gil_scoped_release unlocked;
+  check(reference.poses, "reference");
+  check(estimate.poses, "estimate");
+  const Trajectory in_body =
+      to_estimate_body(std::move(reference.poses), harness::reference_body(arguments));
+  const harness::EvaluationInput input{{in_body, estimate.poses, "reference", "estimate"},
+                                       {std::max(reference.off_unit, estimate.off_unit)}};
+  return harness::json(
+      harness::evaluate_read(arguments, harness::protocols(arguments), input, true));
+}
+
+/// One trajectory of the arguments of a function.
+Trajectory checked(const Array& rows, const std::string& name) {
+  Trajectory out = read_rows(rows, name).poses;
+  check(out, name);
+  return out;
+}
+
+py::tuple associate(const harness::EvalArguments& arguments,
+                    const Array& reference_rows,
+                    const Array& estimate_rows) {
+  const Trajectory reference = checked(reference_rows, "reference");
+  const Trajectory estimate = checked(estimate_rows, "estimate");
+  metrics::Paired paired;
+  {
+    const py::gil_scoped_release unlocked;
+    paired = metrics::associate(reference, estimate, harness::protocols(arguments).front().rules);
+  }
+  return py::make_tuple(rows_of(paired.reference), rows_of(paired.estimate));
+}
+
+py::tuple align(const Array& reference_rows,
+                const Array& estimate_rows,
+                const std::string& how,
+                std::size_t first) {
+  metrics::Align type = metrics::Align::none;
+  FieldType<metrics::Align>::assign("align", type, how);
+  const Trajectory reference = read_rows(reference_rows, "reference").poses;
+  Trajectory estimate = read_rows(estimate_rows, "estimate").poses;
+  metrics::Alignment found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = metrics::align(reference, estimate, type, first);
+    estimate = metrics::moved(found, std::move(estimate));
+  }
+  return py::make_tuple(rows_of(estimate), found.scale, found.rank, found.condition);
+}
+
+Problem problem_of(const Array& keyframes,
+                   const Array& frames,
+                   const Array& odometry,
+                   const Array& closures,
+                   bool planar) {
+  Problem out{checked(keyframes, "keyframes"),
+              read_edges(odometry, "odometry"),
+              read_edges(closures, "closures"),
+              checked(frames, "frames"),
+              planar};
+  check(out, "problem");
+  return out;
+}
+
+py::tuple correct(const Problem& problem, const std::string& method, std::vector<double> at) {
+  harness::Correction done;
+  {
+    const py::gil_scoped_release unlocked;
+    const harness::Catalogue known = harness::catalogue({});
+    if (at.empty()) at = stamps(problem.keyframes);
+    done = harness::correct(
+        problem, "problem", harness::method_without_reference(method, known), at, known);
+  }
+  return py::make_tuple(rows_of(done.output), harness::json(done));
+}
+
+/// Edges between consecutive keyframes, with the default noise of measured odometry.
+Array odometry(const Array& keyframes) {
+  return edge_rows(odometry_edges(checked(keyframes, "keyframes"), {}));
+}
+
+/// The data of one sequence; `entry` is the text of one entry of a config's `datasets`.
+py::tuple load(const std::string& entry, const std::vector<std::string>& folders) {
+  Sequence loaded;
+  {
+    const py::gil_scoped_release unlocked;
+    const harness::Catalogue known = harness::catalogue({});
+    const harness::Folders roots(folders.begin(), folders.end());
+    const std::vector<harness::DatasetChoice> choices =
+        harness::dataset_choices(harness::parse_yaml(entry, "dataset"), "dataset", known, roots);
+    if (choices.size() != 1) {
+      throw InputError("dataset: found " + std::to_string(choices.size()) +
+                       " sequences, expected one: no lists, and no pattern of several files");
+    }
+    const harness::Choice& chosen = choices.front().dataset;
+    loaded = harness::find_dataset(known, chosen.name).load(chosen.options, DataRoot{roots});
+    check(loaded.problem, choices.front().label);
+    check(loaded.reference, choices.front().label + ": reference");
+  }
+  const Problem& problem = loaded.problem;
+  return py::make_tuple(rows_of(problem.keyframes),
+                        rows_of(problem.frames),
+                        edge_rows(problem.odometry),
+                        edge_rows(problem.closures),
+                        problem.planar,
+                        rows_of(loaded.reference));
+}
+
+std::vector<std::pair<std::string, std::string>> method_list() {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const methods::MethodEntry& entry : harness::catalogue({}).methods) {
+    out.emplace_back(entry.name, entry.summary);
+  }
+  return out;
+}
+
+}  // namespace
+}  // namespace loopbench::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace loopbench;
+  using Arguments = harness::EvalArguments;
+  module.doc() = "Compiled part of loopbench";
+  py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::class_<Arguments>(module, "EvalArguments")
+      .def(py::init<>())
+      .def_readwrite("protocols", &Arguments::protocols)
+      .def_readwrite("settings", &Arguments::settings)
+      .def_readwrite("align", &Arguments::align)
+      .def_readwrite("correct_scale", &Arguments::correct_scale)
+      .def_readwrite("relation", &Arguments::relation)
+      .def_readwrite("delta", &Arguments::delta)
+      .def_readwrite("delta_unit", &Arguments::delta_unit)
+      .def_readwrite("min_coverage", &Arguments::min_coverage)
+      .def_readwrite("reference_body", &Arguments::reference_body)
+      .def_readwrite("format", &Arguments::format)
+      .def_readwrite("reference_format", &Arguments::reference_format)
+      .def_readwrite("repeats", &Arguments::repeats)
+      .def_readwrite("times", &Arguments::times)
+      .def_readwrite("period", &Arguments::period);
+  py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));
+  module.def("evaluate_files",
+             &python::evaluate_files,
+             py::call_guard<py::gil_scoped_release>(),
+             "JSON of `eval --json`");
+  module.def("evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`");
+  module.def("associate", &python::associate, "paired rows of reference and estimate");
+  module.def("align", &python::align, "aligned rows, scale, rank, condition");
+  module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
+  module.def("odometry", &python::odometry, "edges between consecutive keyframes");
+  module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
+  module.def("methods", &python::method_list, "name and summary of every method");
+}
