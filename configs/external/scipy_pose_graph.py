@@ -154,7 +154,7 @@ def scipy_pose_graph(problem):
         cost = graph.cost(R, t)
     damping = 1e-6
     iterations = 0
-    while iterations < 100:
+    while iterations < 1000:
         iterations += 1
         H, g = graph.system(R, t)
         step = factorise(H + damping * identity(H.shape[0])).solve(-g)

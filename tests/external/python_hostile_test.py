@@ -93,6 +93,12 @@ def memory(process):
                 file.seek(begin)
                 yield file.read(end - begin)
 
+def is_loopbench(comm):
+    try:
+        return open(comm).read() == "loopbench\\n"
+    except OSError:  # it has ended
+        return False
+
 def holds_reference(parts):
     try:
         return any(b"SEC" b"RET" in part or NUMBERS in part for part in parts)
@@ -102,8 +108,7 @@ def holds_reference(parts):
 @loopbench.corrector
 def curious(problem):
     places = [{reference!r}, {folder!r} + "/*", "**", "../*.txt"]
-    processes = [each.split("/")[2] for each in glob.glob("/proc/[0-9]*/comm")
-                 if open(each).read() == "loopbench\\n"]
+    processes = [each.split("/")[2] for each in glob.glob("/proc/[0-9]*/comm") if is_loopbench(each)]
     for each in processes:
         places += [f"/proc/{{each}}/{{name}}" for name in ("cwd/*", "cwd/data/*", "fd/*", "environ")]
     found = [path for place in places for path in glob.glob(place, recursive=True)
