@@ -195,30 +195,39 @@ std::vector<Table> pivot(const std::vector<Record>& records,
   const TableSpec spec = separating_protocols(given, records);
   NameOrder titles;
   std::vector<TableNumbers> builders;
-  const auto builder = [&](const std::string& title) -> TableNumbers& {
-    const std::size_t index = titles.index(title);
-    if (index == builders.size()) builders.emplace_back();
+  std::vector<const Record*> first;  // of each table
+  const auto builder = [&](const Record& record) -> TableNumbers& {
+    const std::size_t index = titles.index(fields_joined(record, spec.split, ", "));
+    if (index == builders.size()) {
+      builders.emplace_back();
+      first.push_back(&record);
+    }
     return builders[index];
+  };
+  // A cell without any score has no times and no protocol.
+  const auto belongs_to = [&](const Record& record, std::size_t table) {
+    return std::ranges::all_of(spec.split, [&](const std::string& name) {
+      const std::string own = field(record, name);
+      return own.empty() || own == field(*first[table], name);
+    });
   };
   const auto shown = [&](const Record& record) {
     return spec.show.empty() || std::ranges::count(spec.show, field(record, "score")) > 0;
   };
   for (const Record& record : records) {
-    if (!record.metric.empty() && shown(record))
-      add(builder(fields_joined(record, spec.split, ", ")), record, spec);
+    if (!record.metric.empty() && shown(record)) add(builder(record), record, spec);
   }
+  const std::size_t with_scores = builders.size();
   // A cell without any score is listed in every table of its sequence.
   for (const Record& record : records) {
     if (!record.metric.empty()) continue;
-    const std::string own = fields_joined(record, spec.split, ", ");
     bool placed = false;
-    for (std::size_t t = 0; t < builders.size(); ++t) {
-      if (titles.names()[t].starts_with(own)) {
-        add(builders[t], record, spec);
-        placed = true;
-      }
+    for (std::size_t t = 0; t < with_scores; ++t) {
+      if (!belongs_to(record, t)) continue;
+      add(builders[t], record, spec);
+      placed = true;
     }
-    if (!placed) add(builder(own), record, spec);
+    if (!placed) add(builder(record), record, spec);
   }
   if (builders.empty()) throw InputError("the table is empty: no rows to show");
   std::vector<Table> out;

@@ -69,6 +69,23 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
   EXPECT_NE(csv(tables).find("dense,raw,ate [m],1.5,4,1,ok,"), std::string::npos) << csv(tables);
 }
 
+TEST(Pivot, ListsAFailureOnlyUnderItsOwnSequence) {
+  std::vector<Record> records{ate("dm", 0.0)};
+  records[0].sequence = "a";
+  records[0].status = "failed";
+  records[0].metric.clear();
+  records[0].times.clear();
+  for (const std::string sequence : {"a", "a2", "a, b"}) {
+    records.push_back(ate("raw", 1.0));
+    records.back().sequence = sequence;
+  }
+  const std::vector<Table> tables = pivot(records, TableSpec{.show = {}, .where = {}});
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[0].rows.size(), 2u);
+  EXPECT_EQ(tables[1].rows, std::vector<std::string>{"raw"});
+  EXPECT_EQ(tables[2].rows, std::vector<std::string>{"raw"});
+}
+
 /// Errors by method and repeat; nan: the method failed there.
 std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
   std::vector<Record> out;
