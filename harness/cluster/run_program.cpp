@@ -93,7 +93,8 @@ pid_t start_program(const std::vector<std::string>& words,
 
 std::string start_of_process(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/stat");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  std::getline(in, text, '\0');                  // does not throw if the process ends meanwhile
   const std::size_t name_end = text.rfind(')');  // the name can contain anything
   if (name_end == std::string::npos) return "";
   std::istringstream words(text.substr(name_end + 1));

@@ -9,6 +9,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -41,7 +42,9 @@ constexpr std::chrono::milliseconds kPause{2};
 
 std::string command_line(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/cmdline", std::ios::binary);
-  std::string out{std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;
+  text << in.rdbuf();  // does not throw if the process ends
+  std::string out = text.str();
   for (char& c : out) {
     if (c == '\0') c = ' ';
   }

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 
 #include "tests/support/temporary_folder.hpp"
@@ -22,8 +22,10 @@ struct CommandResult {
 };
 
 inline std::string read_all(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();  // does not throw if a file of /proc ends with its process
+  return out.str();
 }
 
 /// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.
