@@ -37,7 +37,7 @@ void fields(ClusterSettings& o, Visit visit) {
   visit("array", o.array, "number of shards", Between{1.0, 1e6});
   visit("cores", o.cores, "cores of one shard", Between{1.0, 1024.0});
   visit("time", o.time, "time limit of a shard as in Slurm: MINUTES, HH:MM:SS or D-HH:MM:SS");
-  visit("memory", o.memory, "memory of one shard: 4GiB");
+  visit("memory", o.memory, "memory of one shard, for example 4GiB");
   visit("partition", o.partition, "Slurm partition");
   visit("account", o.account, "Slurm account");
   visit("qos", o.qos, "Slurm quality of service");

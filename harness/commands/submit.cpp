@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <charconv>
 #include <map>
 
@@ -170,17 +171,18 @@ void add_submit(CLI::App& app, int& exit_code) {
       ->required();
   for (const OptionInfo& option : describe(ClusterSettings{})) {
     const std::string fallback = to_text(option.value);
+    std::string help = option.help + (fallback.empty() ? "" : "; default: " + fallback);
+    help.front() = static_cast<char>(std::toupper(help.front()));
     CLI::Option* added =
-        command->add_option("--" + option.name,
-                            arguments->settings[option.name],
-                            option.help + (fallback.empty() ? "" : "; default: " + fallback));
+        command->add_option("--" + option.name, arguments->settings[option.name], help)
+            ->type_name(option.is_text ? "TEXT" : "NUMBER");
     if (option.name == "engine") added->check(CLI::IsMember({"slurm", "local"}));
   }
   command->add_flag("--dry-run", arguments->dry_run, "Print the scripts without submitting them");
   command->add_flag("--missing", arguments->missing, "Only cells that the store in --out lacks");
   command->add_flag("--pin-instructions",
                     arguments->pin_instructions,
-                    "Use the code paths of old processors, see `run`");
+                    "Use the code paths of old processors on all nodes, see `run`");
   command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
       ->type_name("REGEX");
   command->add_option("--costs", arguments->costs, "Balance the shards by the times in a store")
