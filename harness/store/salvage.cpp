@@ -80,7 +80,8 @@ Found write_view(const PageFile& damaged, const PageView& view, const std::files
   Found out;
   out.nameless = count(
       database,
-      "SELECT count(*) FROM (SELECT cell FROM score UNION SELECT cell FROM phase UNION SELECT cell "
+      "SELECT count(*) FROM (SELECT cell FROM scores UNION SELECT cell FROM phase UNION SELECT "
+      "cell "
       "FROM count UNION SELECT cell FROM note UNION SELECT cell FROM section UNION SELECT cell "
       "FROM "
       "trace) WHERE cell NOT IN (SELECT id FROM cell)");
@@ -104,7 +105,11 @@ void add_missing(Database& database, const std::filesystem::path& from) {
         "main.cell) AND (position IS NULL OR position NOT IN (SELECT position FROM main.cell WHERE "
         "position IS NOT NULL))");
     database.execute("INSERT INTO main.cell SELECT * FROM source.cell WHERE id IN missing");
-    for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+    const ScoreLists lists(database, "source.");
+    for (const auto& [key, list] : lists.all()) {
+      write_list(database, key, list);
+    }
+    for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
       const std::string name = table;
       database.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
                        " WHERE cell IN missing ORDER BY cell, rowid");

@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import sqlite3
+import struct
 import subprocess
 import sys
 import tempfile
@@ -56,6 +57,7 @@ def sweep(methods, dataset=SIMULATED, **settings):
                        check=False)
         database = sqlite3.connect(folder + "/r/results.sqlite")
         database.row_factory = sqlite3.Row
+        database.create_function("ieee754_from_blob", 1, lambda blob: struct.unpack(">d", blob)[0])
         rows = database.execute(
             "SELECT cell.method, cell.status AS cell_status, cell.why AS cell_why, score.metric,"
             " score.axis, score.relation, score.rmse FROM cell LEFT JOIN score ON score.cell = cell.id")

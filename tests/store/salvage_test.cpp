@@ -116,7 +116,9 @@ TEST_F(Salvage, NamesWhatIsLost) {
   run(kUsual);
   const std::string expected = store_text(file_);
   Database(file_, Database::Mode::read)
-      .execute("UPDATE score SET rmse = 7 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
+      .execute(
+          "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell "
+          "WHERE position = 3)");
   const Salvaged out = salvaged(kUsual, expected);
   EXPECT_EQ(out.cells, 3u);
   EXPECT_EQ(out.lost, Labels{"b / shifted"});

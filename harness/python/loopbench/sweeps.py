@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import sqlite3
+import struct
 import subprocess
 import tempfile
 from pathlib import Path
@@ -55,9 +56,10 @@ def read(store: str | Path) -> Any:
         "SELECT cell.sequence, cell.repeat, cell.method, cell.closures, cell.seconds_median AS"
         " seconds, cell.status AS cell_status, cell.why AS cell_why, score.* FROM cell LEFT JOIN"
         " score ON score.cell = cell.id WHERE cell.position IS NOT NULL ORDER BY cell.position,"
-        " score.rowid"
+        " score.number"
     )
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
+    database.create_function("ieee754_from_blob", 1, lambda blob: struct.unpack(">d", blob)[0])
     try:
         cursor = database.execute(query)
         names = [column[0] for column in cursor.description]
