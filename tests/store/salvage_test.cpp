@@ -160,7 +160,7 @@ TEST_F(Salvage, MissingTablesCostWhatTheyContained) {
                                           {"DROP TABLE run", 0},
                                           {"DROP TABLE provenance", 0},
                                           {"DROP TABLE sequence_trace", 0},
-                                          {"DROP INDEX cell_position; DROP INDEX score_cell", 0}}) {
+                                          {"DROP INDEX cell_position; DROP INDEX phase_cell", 0}}) {
     put(intact);
     Database(file_, Database::Mode::read).execute(sql);
     const Salvaged out = salvaged(kMany, expected);
