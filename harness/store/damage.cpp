@@ -38,11 +38,6 @@ void remove(Database& database, const CheckedStore& found) {
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.intact) remove_cell(database, cell.id);
   }
-  // Rows of a removed cell must not be assigned to a later cell with the same id.
-  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
-    database.execute(std::string("DELETE FROM ") + table +
-                     " WHERE cell NOT IN (SELECT id FROM cell)");
-  }
   for (const auto& [sequence_key, sequence] : found.sequences.by_key) {
     if (sequence.intact) continue;
     for (const char* table : {"input", "sequence", "sequence_trace"}) {
@@ -51,11 +46,24 @@ void remove(Database& database, const CheckedStore& found) {
           .run();
     }
   }
+  remove_orphans(database);
   update_sum(database, "cell");
   update_sum(database, "sequence");
 }
 
 }  // namespace
+
+void remove_orphans(Database& database) {
+  // They would be assigned to a later cell with the same id.
+  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
+    database.execute(std::string("DELETE FROM ") + table +
+                     " WHERE cell NOT IN (SELECT id FROM cell)");
+  }
+  for (const char* table : {"input", "sequence_trace"}) {
+    database.execute(std::string("DELETE FROM ") + table +
+                     " WHERE sequence_key NOT IN (SELECT sequence_key FROM sequence)");
+  }
+}
 
 CheckedStore check_rows(Database& database, bool traces) {
   CheckedStore out;

@@ -168,6 +168,7 @@ TEST_F(Salvage, MissingTablesCostWhatTheyContained) {
     EXPECT_EQ(out.run_lost, sql == "DROP TABLE run" || sql == "DROP TABLE digest");
     EXPECT_EQ(out.unknown_origin, sql == "DROP TABLE provenance" ? 160u : 0u);
     EXPECT_EQ(out.traces.size(), sql == "DROP TABLE sequence_trace" ? 40u : 0u);
+    EXPECT_EQ(out.without_phases, sql == "DROP TABLE phase" ? 120u : 0u);
   }
   put(intact);
   Database(file_, Database::Mode::read).execute("DROP TABLE cell");
@@ -224,6 +225,39 @@ TEST_F(Salvage, ATruncatedOrDamagedLogCostsItsOwnCellsOnly) {
   }
   put(bytes, "no log" + log.substr(6));
   EXPECT_EQ(salvaged(kMany, expected).cells, all) << "a damaged header of the log";
+}
+
+TEST_F(Salvage, RowsOfAnUnfinishedCellAreNotGivenToTheNextOne) {
+  run(kMany);
+  const std::string expected = store_text(file_);
+  std::filesystem::remove(file_);
+  run(kUsual);
+  Database(file_, Database::Mode::read)
+      .execute(
+          "INSERT INTO scores SELECT max(cell) + 1, list, numbers, statuses FROM scores;"
+          "INSERT INTO phase SELECT max(id) + 1, 'unfinished', 1.0 FROM cell;"
+          "INSERT INTO count SELECT max(id) + 1, 'unfinished', 1.0 FROM cell;"
+          "INSERT INTO note SELECT max(id) + 1, 'unfinished' FROM cell");
+  const Salvaged out = salvaged(kMany, expected);
+  EXPECT_EQ(out.cells, 4u);
+  EXPECT_EQ(out.nameless, 1u);
+}
+
+TEST_F(Salvage, SequencesMissingInTheLogAreTakenFromTheFile) {
+  run(kUsual);
+  const std::string expected = store_text(file_);
+  std::string bytes;
+  std::string log;
+  {
+    Database database(file_, Database::Mode::read);
+    database.execute(
+        "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; DELETE FROM sequence");
+    bytes = bytes_of(file_);
+    log = bytes_of(file_.string() + "-wal");
+  }
+  put(bytes, log);
+  EXPECT_EQ(salvaged(kUsual, expected).cells, 4u);
+  EXPECT_EQ(cells_run_again_, 0u);
 }
 
 TEST_F(Salvage, RejectsOtherFilesAndKeepsExistingStores) {
