@@ -92,7 +92,7 @@ set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")
 set(folder_stb "datasets/rgbd/.*\\.cpp")
 set(header_compression "(zlib|bzlib|zstd|lz4frame)\\.h")
-set(folder_compression "datasets/compressed/decompress\\.cpp")
+set(folder_compression "datasets/compressed/(de)?compress\\.cpp")
 set(header_pybind11 "pybind11/")
 set(folder_pybind11 "harness/python/")
 

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 
@@ -32,12 +33,6 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
-/// Writes and closes; returns 0 or errno. Some file systems report a full disk only on closing.
-int write_and_close(int descriptor, std::string_view text) {
-  const int reason = write_all(descriptor, text);
-  return ::close(descriptor) != 0 && reason == 0 ? errno : reason;
-}
-
 /// Resolves symbolic links, also if the target does not exist.
 FilePath link_target(FilePath file) {
   constexpr int kMostLinks = 40;  // as in Linux
@@ -55,16 +50,12 @@ bool is_standard_output(const struct stat& status) {
          out.st_ino == status.st_ino;
 }
 
-/// Writes into pipes and devices instead of replacing them.
-void write_into(const FilePath& file, const struct stat& status, std::string_view text) {
-  // Standard output is written at its current position: opening it again would write from the
-  // start of the file.
-  const bool is_own_output = is_standard_output(status);
-  if (is_own_output) std::fflush(stdout);
-  const int descriptor =
-      is_own_output ? ::dup(STDOUT_FILENO) : ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
-  const int reason = descriptor < 0 ? errno : write_and_close(descriptor, text);
-  if (reason != 0) throw cannot_write(file, std::strerror(reason));
+/// Opens a pipe or device. Standard output is written at its current position: opening it again
+/// would write from the start of the file.
+int open_existing(const FilePath& file, const struct stat& status) {
+  if (!is_standard_output(status)) return ::open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  std::fflush(stdout);
+  return ::dup(STDOUT_FILENO);
 }
 
 std::string random_digits() {
@@ -98,7 +89,7 @@ void reject_read_only(const FilePath& file, const struct stat& status) {
 
 }  // namespace
 
-void replace_file(const FilePath& file, std::string_view bytes, Target target) {
+PendingFile::PendingFile(const FilePath& file, Target target) : file_(file) {
   struct stat status {};
   const bool is_named = target == Target::named;
   const int missing = is_named ? ::stat(file.c_str(), &status) : ::lstat(file.c_str(), &status);
@@ -106,22 +97,43 @@ void replace_file(const FilePath& file, std::string_view bytes, Target target) {
   if (exists && S_ISDIR(status.st_mode)) throw cannot_write(file, "is a folder");
   const bool is_regular = exists && S_ISREG(status.st_mode);
   if (exists && is_named && (!is_regular || is_standard_output(status))) {
-    return write_into(file, status, bytes);
+    descriptor_ = open_existing(file, status);
+  } else {
+    if (is_regular) reject_read_only(file, status);
+    place_ = is_named ? link_target(file) : file;
+    descriptor_ = create_in(place_.parent_path(), part_);
+    if (descriptor_ < 0) part_.clear();
   }
-  if (is_regular) reject_read_only(file, status);
+  if (descriptor_ < 0) throw cannot_write(file, std::strerror(errno));
+  if (is_regular && !part_.empty()) ::fchmod(descriptor_, status.st_mode & 0777);
+}
 
-  const FilePath place = is_named ? link_target(file) : file;
-  FilePath part;
-  const int descriptor = create_in(place.parent_path(), part);
-  if (descriptor < 0) throw cannot_write(file, std::strerror(errno));
-  if (is_regular) ::fchmod(descriptor, status.st_mode & 0777);
-  const int reason = write_and_close(descriptor, bytes);
+PendingFile::~PendingFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+}
+
+void PendingFile::write(std::string_view bytes) {
+  const int reason = write_all(descriptor_, bytes);
+  if (reason != 0) throw cannot_write(file_, std::strerror(reason));
+}
+
+void PendingFile::commit() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  // Some file systems report a full disk only on closing.
+  if (::close(descriptor) != 0) throw cannot_write(file_, std::strerror(errno));
+  if (part_.empty()) return;
   std::error_code error;
-  if (reason == 0) std::filesystem::rename(part, place, error);
-  if (reason == 0 && !error) return;
-  const std::string why = reason != 0 ? std::strerror(reason) : error.message();
-  std::filesystem::remove(part, error);
-  throw cannot_write(file, why);
+  std::filesystem::rename(part_, place_, error);
+  if (error) throw cannot_write(file_, error.message());
+  part_.clear();
+}
+
+void replace_file(const FilePath& file, std::string_view bytes, Target target) {
+  PendingFile out(file, target);
+  out.write(bytes);
+  out.commit();
 }
 
 }  // namespace loopbench

@@ -16,6 +16,26 @@ enum class Target {
   own,
 };
 
+/// replace_file() in pieces.
+class PendingFile {
+ public:
+  /// Throws InputError as replace_file() does.
+  PendingFile(const std::filesystem::path& file, Target target);
+  /// Without commit(), removes the temporary file.
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  void write(std::string_view bytes);  ///< throws InputError
+  void commit();                       ///< call once, at the end; throws InputError
+
+ private:
+  std::filesystem::path file_;   ///< as given
+  std::filesystem::path place_;  ///< to replace
+  std::filesystem::path part_;   ///< temporary file; empty: bytes go directly into a pipe or device
+  int descriptor_ = -1;
+};
+
 /// Writes a temporary file in the same folder and renames it, so that readers never see a partial
 /// file. The temporary file has an unpredictable name and is created exclusively. The mode of a
 /// replaced regular file is kept. Throws InputError if the folder is missing, if the folder or file

@@ -5,9 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 
+#include "datasets/compressed/compress.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/replace_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/execution/run/estimate_files.hpp"
@@ -70,6 +73,40 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
   return kExitOk;
 }
 
+/// Streams the long table. The file is complete or not there.
+void export_rows(const std::filesystem::path& store, const std::filesystem::path& file) {
+  const std::string baseline = read_run(store).at("baseline");
+  RecordReader reader(store);
+  std::optional<PendingFile> pending;
+  if (!file.empty() && !is_dash(file)) {
+    reject_overwriting({store_file(store)}, file);
+    std::error_code ignored;  // a failure is reported when the file is created
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+    pending.emplace(file, Target::named);
+  }
+  const auto write = [&](std::string_view bytes) {
+    if (pending) return pending->write(bytes);
+    std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() reports write errors
+  };
+  std::optional<ZstdWriter> compressed;
+  if (file.extension() == ".zst") compressed.emplace(write);
+  std::string text = kRowsHeader;
+  const auto flush = [&] {
+    compressed ? compressed->write(text) : write(text);
+    text.clear();
+  };
+  constexpr std::size_t kBlock = std::size_t{1} << 20;  // [bytes]
+  for_each_record(reader, baseline, true, [&](const Record& record) {
+    text += csv_row(record);
+    if (text.size() >= kBlock) flush();
+    return true;
+  });
+  flush();
+  if (compressed) compressed->finish();
+  if (pending) pending->commit();
+  write_provenance_of_csv(read_store_provenance(store), file.string());
+}
+
 }  // namespace
 
 void add_export(CLI::App& app, int& exit_code) {
@@ -88,13 +125,16 @@ void add_export(CLI::App& app, int& exit_code) {
                    "--save-trajectories`")
       ->check(CLI::IsMember({"rows", "trajectories"}))
       ->capture_default_str();
-  command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");
+  command->add_option(
+      "-o,--out",
+      a->out,
+      "CSV file (default: standard output), compressed if it ends in .zst; or folder");
   command->callback([a, &exit_code] {
     if (a->what == "trajectories") {
       exit_code = export_trajectories(a->store, a->out);
       return;
     }
-    write_output(csv(all_records(a->store)), ExportFormat::csv, "rows", a->store, a->out.string());
+    export_rows(a->store, a->out);
     exit_code = kExitOk;
   });
 }

@@ -54,6 +54,11 @@ struct RunArguments {
   std::filesystem::path stage;
 };
 
+/// Larger sweeps get no tables and no summary after each run, because they take longer than
+/// matching the store with its config and all records do not fit into memory; `table` and `export`
+/// read them a few sequences at a time.
+constexpr std::size_t kMostCellsInTables = 100'000;
+
 /// Whether the method or a metric failed.
 bool has_failure(const CellResult& result) {
   return is_failure(result.status) ||
@@ -188,8 +193,9 @@ int run(const RunArguments& arguments, const Source& source) {
   };
   const bool is_up_to_date = resumed.exported && done == 0 && is_there("table.md") &&
                              is_there("table.csv") && is_there("rows.csv");
-  const std::vector<Record> records = all_records(file);
-  if (!is_up_to_date) {
+  const bool has_tables = all.size() <= kMostCellsInTables;
+  const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
+  if (has_tables && !is_up_to_date) {
     write_tables(file, sweep, records, out);
     store->exported();
   }
@@ -205,11 +211,16 @@ int run(const RunArguments& arguments, const Source& source) {
                   incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
                   sweep.table.value,
                   protocol_names(sweep));
-  fmt::print("{}{}\n{}\n{}",
-             summary_text(records, sweep),
-             fitted(status),
-             printable((out / "{results.sqlite,table.md,table.csv,rows.csv}").string()),
-             next_commands(out));
+  fmt::print(
+      "{}{}\n{}{}\n{}",
+      has_tables ? summary_text(records, sweep) : "",
+      fitted(status),
+      has_tables ? ""
+                 : fmt::format("more than {} cells: no tables and summary\n", kMostCellsInTables),
+      printable(
+          (out / (has_tables ? "{results.sqlite,table.md,table.csv,rows.csv}" : "results.sqlite"))
+              .string()),
+      next_commands(out));
   report_interruption();
   return exit_code;
 }

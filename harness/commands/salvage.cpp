@@ -61,6 +61,9 @@ void print_losses(const Salvaged& salvaged, const std::filesystem::path& out) {
   if (salvaged.unknown_origin > 0) {
     fmt::print("lost: the provenance of {} cells\n", salvaged.unknown_origin);
   }
+  if (salvaged.without_phases > 0) {
+    fmt::print("lost: the durations of phases of {} cells\n", salvaged.without_phases);
+  }
   if (salvaged.run_lost) fmt::print("lost: the config; run it with this store to write it again\n");
 }
 
@@ -90,7 +93,8 @@ void add_salvage(CLI::App& app, int& exit_code) {
     print_losses(salvaged, out);
     const bool is_complete = salvaged.lost.empty() && salvaged.nameless == 0 &&
                              !salvaged.incomplete && salvaged.traces.empty() &&
-                             salvaged.unknown_origin == 0 && !salvaged.run_lost;
+                             salvaged.unknown_origin == 0 && salvaged.without_phases == 0 &&
+                             !salvaged.run_lost;
     exit_code = is_complete ? kExitOk : kExitSomeCellsFailed;
   });
 }

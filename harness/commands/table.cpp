@@ -8,8 +8,8 @@
 #include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
+#include "harness/tables/store_tables.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/tables/usual_table.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -67,22 +67,19 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
-  std::vector<Record> records = all_records(arguments.store);
-  keep_where(records, arguments.where);
-  if (records.empty()) {
-    throw InputError(arguments.store +
-                     (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
-  }
   std::string shown;
   if (format == TableFormat::rows) {
+    std::vector<Record> records = all_records(arguments.store);
+    keep_where(records, arguments.where);
+    if (records.empty()) {
+      throw InputError(arguments.store +
+                       (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
+    }
     shown = csv(records);
   } else {
-    const std::string note = make_usual(records, arguments.spec);
-    std::vector<Table> tables = pivot(records, arguments.spec, arguments.ranking);
-    for (Table& table : tables) {
-      if (!note.empty()) table.notes.insert(table.notes.begin(), note);
-    }
-    shown = text(tables, format, style);
+    shown = text(store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking),
+                 format,
+                 style);
   }
   write_output(shown, container_format(format), "tables", arguments.store, arguments.out);
   return kExitOk;

@@ -37,9 +37,12 @@ void write_output(const std::string& text,
     reject_overwriting({store_file(store)}, file);
     write_file(file, out);
   }
-  if (format != ExportFormat::csv) return;
+  if (format == ExportFormat::csv) write_provenance_of_csv(provenance, file);
+}
+
+void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file) {
   // Standard output has no folder for a second file.
-  if (!is_printed && std::filesystem::is_regular_file(file))
+  if (!file.empty() && !is_dash(file) && std::filesystem::is_regular_file(file))
     return write_result(provenance_file(file), json(provenance));
   print_error(
       "loopbench: {}\nloopbench: with -o FILE, the provenance is written next to the file\n",

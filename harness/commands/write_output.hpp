@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/tables/store_provenance.hpp"
+
 namespace loopbench::harness {
 
 enum class ExportFormat { markdown, terminal, latex, csv, json };
@@ -18,5 +20,8 @@ void write_output(const std::string& text,
                   const std::string& key,
                   const std::filesystem::path& store,
                   const std::string& file);
+
+/// Writes the provenance of a CSV file next to it; see write_output().
+void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file);
 
 }  // namespace loopbench::harness

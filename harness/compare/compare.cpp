@@ -93,25 +93,61 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   return out;
 }
 
+/// Collects oracle_methods().
+class OracleMethods {
+ public:
+  void add(const Record& r) {
+    if (!r.oracle) fair_runs_.insert(run_name(r));
+    if (r.oracle) runs_of_[r.method].insert(run_name(r));
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> out;
+    for (const auto& [method, runs] : runs_of_) {
+      const auto is_fair = [&](const std::string& run) { return fair_runs_.contains(run); };
+      if (std::ranges::any_of(runs, is_fair)) out.push_back(method);
+    }
+    return out;
+  }
+
+ private:
+  std::set<std::string> fair_runs_;  // with a method that does not use the reference
+  std::map<std::string, std::set<std::string>> runs_of_;
+};
+
 }  // namespace
 
 std::vector<std::string> oracle_methods(const std::vector<Record>& records) {
-  std::set<std::string> non_oracle_runs;  // runs with a method that does not use the reference
-  for (const Record& r : records) {
-    if (!r.oracle) non_oracle_runs.insert(run_name(r));
-  }
-  std::set<std::string> out;
-  for (const Record& r : records) {
-    if (r.oracle && non_oracle_runs.contains(run_name(r))) out.insert(r.method);
-  }
-  return {out.begin(), out.end()};
+  OracleMethods out;
+  for (const Record& r : records) out.add(r);
+  return out.names();
 }
 
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options) {
-  const std::vector<std::string> oracles = oracle_methods(records);
-  std::vector<Record> fair = records;
-  std::erase_if(fair, [&](const Record& r) { return std::ranges::count(oracles, r.method) > 0; });
-  std::vector<Observations> all = observations(fair, options.value);
+  return compare(
+      [&](const auto& visit) {
+        for (const Record& r : records) visit(r);
+      },
+      options);
+}
+
+std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options) {
+  OracleMethods excluded;
+  ObservationsBuilder everything(options.value);
+  records([&](const Record& r) {
+    excluded.add(r);
+    everything.add(r);
+  });
+  const std::vector<std::string> oracles = excluded.names();
+  std::vector<Observations> all = everything.build();
+  if (!oracles.empty()) {
+    all.clear();
+    ObservationsBuilder fair(options.value);
+    records([&](const Record& r) {
+      if (std::ranges::count(oracles, r.method) == 0) fair.add(r);
+    });
+    all = fair.build();
+  }
   if (all.empty()) throw InputError("no scores to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {
     throw InputError("baseline: " + unknown_name("method", options.baseline, all[0].methods));
@@ -122,6 +158,7 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
     const std::size_t copies = drop_duplicates(table);
     out.push_back(compare_one(table, copies, options));
     out.back().oracles = oracles;
+    table.values.clear();  // large
   }
   if (out.empty()) {
     throw InputError("'" + metric_label(all[0].kind) +

@@ -7,6 +7,7 @@
 /// scores.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,6 +85,12 @@ struct Comparison {
 /// baseline is not a method of the records, if `where` leaves no score, and for an unknown
 /// statistic. Comparisons without a common run, or with one method, have no methods.
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options);
+
+/// Visits the same records in the same order at every call.
+using RecordSource = std::function<void(const std::function<void(const Record&)>& visit)>;
+
+/// The same for records that are not in memory, which are visited once or twice.
+std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options);
 
 /// Methods that use the reference on a run where another method does not.
 std::vector<std::string> oracle_methods(const std::vector<Record>& records);

@@ -25,6 +25,13 @@ Levels::Levels(const GroupedValues& all, double relevant)
       floor_[run] = std::max(floor_[run], zero_floor(std::abs(*row[run])));
     }
   }
+  for (const auto& row : costs_) {
+    std::vector<double>& own = levels_.emplace_back(row.size(), 0.0);
+    for (std::size_t run = 0; run < row.size(); ++run) {
+      if (!row[run]) continue;
+      own[run] = sign_ * (is_ratio_ ? std::log(std::max(*row[run], floor_[run])) : *row[run]);
+    }
+  }
   for (std::size_t run = 0; run < all.group.size(); ++run) {
     if (all.group[run] >= runs_of_.size()) runs_of_.resize(all.group[run] + 1);
     runs_of_[all.group[run]].push_back(run);
@@ -33,11 +40,6 @@ Levels::Levels(const GroupedValues& all, double relevant)
 
 bool Levels::is_zero(std::size_t method, std::size_t run) const {
   return std::abs(*costs_[method][run]) <= floor_[run];
-}
-
-double Levels::level(std::size_t method, std::size_t run) const {
-  const double cost = *costs_[method][run];
-  return sign_ * (is_ratio_ ? std::log(std::max(cost, floor_[run])) : cost);
 }
 
 double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {

@@ -49,13 +49,14 @@ class Levels {
   double standing(std::size_t method) const;
 
  private:
-  double level(std::size_t method, std::size_t run) const;
+  double level(std::size_t method, std::size_t run) const { return levels_[method][run]; }
   double level_of_failure(std::size_t run) const;
 
   std::vector<std::vector<std::optional<double>>> values_;
   std::vector<std::vector<std::optional<double>>> costs_;
   std::vector<std::vector<std::size_t>> runs_of_;
-  std::vector<double> floor_;  // per run: values up to this count as zero
+  std::vector<std::vector<double>> levels_;  // of the costs
+  std::vector<double> floor_;                // per run: values up to this count as zero
   double sign_ = 1.0;
   double relevant_ = 0.0;
   bool is_ratio_ = true;

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
-
-#include "harness/compare/name_order.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -13,9 +10,6 @@ namespace {
 auto table_kind(const Record& r) {
   return std::tie(r.protocol, r.times, r.metric, r.label, r.relation, r.axis);
 }
-using TableKind =
-    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
-
 Observed observed(const Record& r, const std::string& value_name) {
   if (!r.metric.empty() && r.status == "ok") {
     const double number = value(r, value_name);
@@ -38,37 +32,46 @@ bool is_loss(const Record& r) {
   return r.metric.empty() || (r.status != "undefined" && r.status != "declined");
 }
 
+void ObservationsBuilder::put(Observations& table, const Unscored& one) {
+  if (table.values.size() <= one.method) table.values.resize(one.method + 1);
+  std::vector<Observed>& of_method = table.values[one.method];
+  if (of_method.size() <= one.run) of_method.resize(one.run + 1);
+  of_method[one.run] = one.observed;
+}
+
+void ObservationsBuilder::add(const Record& r) {
+  const Unscored one{methods_.index(r.method), run_names_.index(run_name(r)), observed(r, value_)};
+  if (one.run == runs_.size()) {
+    runs_.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
+  }
+  if (r.metric.empty()) {
+    for (Observations& table : tables_) put(table, one);
+    unscored_.push_back(one);
+    return;
+  }
+  const auto [found, is_new] = index_.emplace(table_kind(r), tables_.size());
+  if (is_new) {
+    tables_.emplace_back().kind = r;
+    for (const Unscored& earlier : unscored_) put(tables_.back(), earlier);
+  }
+  put(tables_[found->second], one);
+}
+
+std::vector<Observations> ObservationsBuilder::build() {
+  for (Observations& table : tables_) {
+    table.methods = methods_.names();
+    table.runs = runs_;
+    table.values.resize(table.methods.size());
+    for (std::vector<Observed>& of_method : table.values) of_method.resize(runs_.size());
+  }
+  return std::move(tables_);
+}
+
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value_name) {
-  NameOrder methods;
-  NameOrder runs;
-  std::vector<ObservedRun> found_runs;
-  std::map<TableKind, std::size_t> tables;
-  std::vector<Observations> out;
-  for (const Record& r : records) {
-    methods.index(r.method);
-    if (runs.index(run_name(r)) == found_runs.size()) {
-      found_runs.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
-    }
-    if (r.metric.empty() || !tables.emplace(table_kind(r), out.size()).second) continue;
-    out.emplace_back().kind = r;
-  }
-  for (Observations& table : out) {
-    table.methods = methods.names();
-    table.runs = found_runs;
-    table.values.assign(table.methods.size(), std::vector<Observed>(found_runs.size()));
-  }
-  const auto put = [&](Observations& table, const Record& r) {
-    table.values[methods.index(r.method)][runs.index(run_name(r))] = observed(r, value_name);
-  };
-  for (const Record& r : records) {
-    if (!r.metric.empty()) {
-      put(out[tables.at(table_kind(r))], r);
-    } else {
-      for (Observations& table : out) put(table, r);
-    }
-  }
-  return out;
+  ObservationsBuilder out(value_name);
+  for (const Record& r : records) out.add(r);
+  return out.build();
 }
 
 std::size_t drop_duplicates(Observations& all) {

@@ -4,8 +4,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "harness/compare/name_order.hpp"
 #include "harness/model/record.hpp"
 
 namespace loopbench::harness {
@@ -41,6 +43,37 @@ struct Observations {
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]
+};
+
+/// Builds observations(), record by record.
+class ObservationsBuilder {
+ public:
+  explicit ObservationsBuilder(std::string value) : value_(std::move(value)) {}
+
+  /// Throws InputError for an unknown statistic. O(log n).
+  void add(const Record& record);
+
+  /// Call once.
+  std::vector<Observations> build();
+
+ private:
+  struct Unscored {
+    std::size_t method = 0;
+    std::size_t run = 0;
+    Observed observed;
+  };
+
+  static void put(Observations& table, const Unscored& one);
+
+  std::string value_;
+  NameOrder methods_;
+  NameOrder run_names_;
+  std::vector<ObservedRun> runs_;
+  std::map<std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>,
+           std::size_t>
+      index_;
+  std::vector<Observations> tables_;
+  std::vector<Unscored> unscored_;  ///< records without a score, which count in every table
 };
 
 /// One table for every score (protocol, times, metric, relation, axis) in the records, in order of

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numeric>
+#include <ranges>
+#include <thread>
 
 #include "harness/statistics/holm.hpp"
 
@@ -54,19 +57,53 @@ void decide(Ranking& out,
   out.p[test.a][test.b] = out.p[test.b][test.a] = test.p;
 }
 
+std::vector<double> standings_of(const Levels& levels) {
+  std::vector<double> out;
+  for (std::size_t m = 0; m < levels.methods(); ++m) out.push_back(levels.standing(m));
+  return out;
+}
+
+std::vector<std::size_t> order_of(const std::vector<double>& standings) {
+  std::vector<std::size_t> out(standings.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::ranges::stable_sort(out, {}, [&](std::size_t m) { return standings[m]; });
+  return out;
+}
+
+/// Calls each(0) to each(count - 1), on several threads if there is much to do.
+template <class Each>
+void for_all(std::size_t count, std::size_t groups, Each each) {
+  constexpr std::size_t kFewPairs = 100'000;  // pairs of values, less than a thread costs
+  const std::size_t threads =
+      count * groups < kFewPairs ? 1 : std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> others;
+  for (std::size_t t = 0; t < threads; ++t) {
+    const auto part = [=] {
+      for (std::size_t i = t; i < count; i += threads) each(i);
+    };
+    others.push_back(
+        std::async(t + 1 < threads ? std::launch::async : std::launch::deferred, part));
+  }
+  for (std::future<void>& other : others | std::views::reverse) other.get();
+}
+
 std::vector<Test> tests(const Levels& levels, Ranking& out) {
+  std::vector<Test> all;
+  for (std::size_t a = 0; a < levels.methods(); ++a) {
+    for (std::size_t b = a + 1; b < levels.methods(); ++b) all.push_back({a, b, {}, {}, 1.0});
+  }
+  for_all(all.size(), levels.groups(), [&](std::size_t i) {
+    all[i].pair = paired(levels, all[i].a, all[i].b);
+    all[i].ranks = signed_rank(all[i].pair.losses_last);
+  });
   std::vector<Test> found;
   std::size_t groups = 0;
-  for (std::size_t a = 0; a < levels.methods(); ++a) {
-    for (std::size_t b = a + 1; b < levels.methods(); ++b) {
-      Test test{a, b, paired(levels, a, b), {}, 1.0};
-      test.ranks = signed_rank(test.pair.losses_last);
-      groups = std::max(groups, test.pair.losses_last.size());
-      if (test.ranks.count == 0) {
-        out.equal[a][b] = out.equal[b][a] = true;
-      } else {
-        found.push_back(std::move(test));
-      }
+  for (Test& test : all) {
+    groups = std::max(groups, test.pair.losses_last.size());
+    if (test.ranks.count == 0) {
+      out.equal[test.a][test.b] = out.equal[test.b][test.a] = true;
+    } else {
+      found.push_back(std::move(test));
     }
   }
   out.pairs = found.size();
@@ -78,6 +115,24 @@ std::vector<Test> tests(const Levels& levels, Ranking& out) {
 
 }  // namespace
 
+bool is_surely_unproven(const GroupedValues& values, const RankingOptions& options) {
+  const Levels levels(values, options.relevant);
+  const std::vector<std::size_t> order = order_of(standings_of(levels));
+  const std::size_t first = order.front();
+  const auto k = static_cast<double>(order.size());
+  for (const std::size_t other : order) {
+    if (other == first) continue;
+    const PairedMethods pair = paired(levels, std::min(first, other), std::max(first, other));
+    const std::size_t groups = pair.losses_last.size();
+    if (groups < kFewestForInterval || least_p(groups) * 0.5 * k * (k - 1.0) > options.alpha) {
+      return false;
+    }
+    const SignedRank ranks = signed_rank(pair.losses_last);
+    if (ranks.count > 0 && ranks.p > options.alpha) return true;
+  }
+  return false;
+}
+
 Ranking rank_methods(const GroupedValues& values, const RankingOptions& options) {
   const Levels levels(values, options.relevant);
   const std::size_t k = levels.methods();
@@ -85,11 +140,8 @@ Ranking rank_methods(const GroupedValues& values, const RankingOptions& options)
   out.beats.assign(k, std::vector<bool>(k));
   out.equal.assign(k, std::vector<bool>(k));
   out.p.assign(k, std::vector<double>(k, 1.0));
-  std::vector<double> standings;
-  for (std::size_t m = 0; m < k; ++m) standings.push_back(levels.standing(m));
-  out.order.resize(k);
-  std::iota(out.order.begin(), out.order.end(), std::size_t{0});
-  std::ranges::stable_sort(out.order, {}, [&](std::size_t m) { return standings[m]; });
+  const std::vector<double> standings = standings_of(levels);
+  out.order = order_of(standings);
 
   std::vector<Test> all = tests(levels, out);
   std::vector<double> p;

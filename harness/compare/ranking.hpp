@@ -51,6 +51,11 @@ struct Ranking {
 /// Deterministic. O(methods^2 * (runs + groups^3)) for exact tests.
 Ranking rank_methods(const GroupedValues& values, const RankingOptions& options);
 
+/// Whether some method is not significantly worse than the first even without a correction,
+/// although the number of groups would suffice: then no best method is proven. Few tests instead of
+/// all pairs; false if that is unknown.
+bool is_surely_unproven(const GroupedValues& values, const RankingOptions& options);
+
 /// Letters for each method; two methods share a letter exactly if neither beats the other (Piepho,
 /// Journal of Computational and Graphical Statistics 13, 2004). The first in order has `a`. Empty
 /// strings if more than 100 letters are needed.

@@ -34,7 +34,7 @@ std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& key
     for (const std::string& key : keys[run]) {
       const std::size_t other = group[first.emplace(key, run).first->second];
       const std::size_t own = group[run];
-      std::ranges::replace(group, own, other);
+      if (own != other) std::ranges::replace(group, own, other);
     }
   }
   NameOrder order;

@@ -16,9 +16,7 @@ inline constexpr const char* kCellColumns =
 
 /// The tables of a cell's rows, with their columns except `cell`.
 inline constexpr std::pair<const char*, const char*> kDetails[] = {
-    {"score",
-     "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target, "
-     "count, rmse, mean, median, std, min, max, sse, pairs, possible, span, status, why"},
+    {"scores", "list, numbers, statuses"},
     {"phase", "name, seconds"},
     {"count", "name, value"},
     {"note", "text"},

@@ -9,7 +9,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kDetailTables[] = {"score", "phase", "count", "note", "section", "trace"};
+constexpr const char* kDetailTables[] = {"scores", "phase", "count", "note", "section", "trace"};
 
 template <class T>
 std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
@@ -18,57 +18,95 @@ std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
   return none ? std::nullopt : std::optional<T>(value);
 }
 
+/// A text of a column; neighbouring cells mostly have the same.
+class SharedColumn {
+ public:
+  const std::string* read(Statement& row, CellRows& out) {
+    const std::string_view text = row.view();
+    if (last_ != nullptr && *last_ == text) return last_;
+    auto found = out.texts.find(text);
+    if (found == out.texts.end()) found = out.texts.emplace(text).first;
+    return last_ = &*found;
+  }
+
+ private:
+  const std::string* last_ = nullptr;
+};
+
+/// All columns that tables need; `row` is at its first column.
+CellRecord record_of(Statement& row) {
+  CellRecord c;
+  row.skip();  // id
+  c.position = row.integer();
+  c.key = row.text();
+  c.build = row.text();
+  row.skip();  // sequence_key
+  row.skip();  // made
+  c.sequence = row.text();
+  c.repeat = row.integer();
+  c.method = row.text();
+  c.dataset_options = row.text();
+  c.method_options = row.text();
+  c.closures = row.text();
+  c.oracle_closures = row.integer() != 0;
+  c.oracle = row.integer() != 0;
+  c.worker = row.text();
+  c.runs = row.integer();
+  c.seconds = row.real();
+  c.seconds_min = row.real();
+  c.seconds_max = row.real();
+  c.cpu_seconds = maybe(row, &Statement::real);
+  c.peak_memory = maybe(row, &Statement::integer);
+  c.added_memory = maybe(row, &Statement::integer);
+  c.allocations = maybe(row, &Statement::integer);
+  c.status = row.text();
+  c.signal = row.text();
+  c.why = row.text();
+  return c;
+}
+
 class RowReader {
  public:
-  RowReader(CellRows& out, WithRecords with) : out_(out), with_(with) {}
+  explicit RowReader(CellRows& out) : out_(out) {}
 
   void add(Statement& row) {
     CellRow& cell = out_.cells.emplace_back();
-    CellRecord own;
-    CellRecord& c = with_ == WithRecords::yes ? out_.records.emplace_back() : own;
     cell.id = row.integer();
     cell.placed = !row.is_null();
-    cell.position = c.position = row.integer();
-    c.key = row.text();
-    cell.key = hash_of(c.key);
-    c.build = row.text();
-    cell.sequence_key = shared(row.text());
-    row.text();  // made
-    c.sequence = row.text();
-    cell.sequence = shared(c.sequence);
-    cell.repeat = c.repeat = row.integer();
-    c.method = row.text();
-    cell.method = shared(c.method);
-    c.dataset_options = row.text();
-    c.method_options = row.text();
-    c.closures = row.text();
-    c.oracle_closures = row.integer() != 0;
-    c.oracle = row.integer() != 0;
-    c.worker = row.text();
-    c.runs = row.integer();
-    c.seconds = row.real();
-    c.seconds_min = row.real();
-    c.seconds_max = row.real();
-    c.cpu_seconds = maybe(row, &Statement::real);
-    c.peak_memory = maybe(row, &Statement::integer);
-    c.added_memory = maybe(row, &Statement::integer);
-    c.allocations = maybe(row, &Statement::integer);
-    c.status = row.text();
-    cell.status = shared(c.status);
-    c.signal = row.text();
-    c.why = row.text();
+    cell.position = row.integer();
+    cell.key = hash_of(row.view());
+    row.skip();  // build
+    cell.sequence_key = sequence_key_.read(row, out_);
+    row.skip();  // made
+    cell.sequence = sequence_.read(row, out_);
+    cell.repeat = row.integer();
+    cell.method = method_.read(row, out_);
+    row.skip();  // dataset_options
+    row.skip();  // method_options
+    cell.closures = closures_.read(row, out_);
+    cell.oracle_closures = row.integer() != 0;
+    cell.oracle = row.integer() != 0;
+    row.skip();  // worker
+    row.skip();  // runs
+    cell.seconds = row.real();
+    for (int i = 0; i < 6; ++i) row.skip();  // seconds_min to allocations
+    cell.status = status_.read(row, out_);
+    row.skip();  // signal
+    cell.why = why_.read(row, out_);
     cell.failed_scores = row.integer();
-    for (Hash& digest : cell.details) digest = parsed_digest(row.text());
-    cell.digest = parsed_digest(row.text());
+    for (Hash& digest : cell.details) digest = parsed_digest(row.view());
+    cell.digest = parsed_digest(row.view());
     cell.intact = digest_of_row(row, 0, row.columns() - 1) == cell.digest;
   }
 
  private:
-  /// Neighbouring cells mostly have the same texts.
-  const std::string* shared(const std::string& text) { return &*out_.texts.insert(text).first; }
-
   CellRows& out_;
-  WithRecords with_;
+  SharedColumn sequence_key_;
+  SharedColumn sequence_;
+  SharedColumn method_;
+  SharedColumn closures_;
+  SharedColumn status_;
+  SharedColumn why_;
 };
 
 std::string cell_label(const std::string& sequence,
@@ -90,11 +128,15 @@ std::size_t detail_number(const std::string& table) {
 
 CellRows read_cell_rows(Database& database, WithRecords with) {
   CellRows out;
-  RowReader reader(out, with);
+  RowReader reader(out);
   SumOfDigests sum;
   Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
   while (rows.step()) {
     reader.add(rows);
+    if (with == WithRecords::yes) {
+      rows.rewind();
+      out.records.push_back(record_of(rows));
+    }
     sum.add(out.cells.back().digest);
   }
   out.complete = sum.text() == written_digest(database, "cell");
@@ -124,6 +166,12 @@ void read_details(Database& database,
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     if (digests[i].value() != rows.cells[i].details[number]) rows.cells[i].intact = false;
   }
+}
+
+void check_scores(Database& database, const ScoreLists& lists, CellRows& rows) {
+  read_details(database, "scores", rows, [&](std::size_t cell, Statement& row) {
+    if (!is_complete(lists, row)) rows.cells[cell].intact = false;
+  });
 }
 
 void throw_damaged(const std::filesystem::path& file, const std::string& what) {

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
+#include "harness/store/score_lists.hpp"
 #include "harness/store/sqlite.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 
-/// About 200 bytes: a store can have millions. Texts that cells share are pointers into
+/// About 250 bytes: a store can have millions. Texts that cells share are pointers into
 /// CellRows::texts.
 struct CellRow {
   std::int64_t id = 0;
@@ -26,9 +27,14 @@ struct CellRow {
   const std::string* sequence = nullptr;
   const std::string* method = nullptr;
   const std::string* status = nullptr;
+  const std::string* closures = nullptr;
+  const std::string* why = nullptr;
+  double seconds = 0.0;         ///< CellRecord::seconds
   Hash key;                     ///< of the text of CellRecord::key
   std::array<Hash, 6> details;  ///< digests of its rows by detail_number(); zero: none
   Hash digest;
+  bool oracle_closures = false;
+  bool oracle = false;
   bool placed = false;  ///< part of the current config
   bool intact = false;  ///< unchanged since it was written, as far as checked
 };
@@ -36,7 +42,7 @@ struct CellRow {
 struct CellRows {
   std::vector<CellRow> cells;       ///< by id
   std::vector<CellRecord> records;  ///< parallel to cells, if requested; see read_cell_rows()
-  std::set<std::string> texts = {};
+  std::set<std::string, std::less<>> texts = {};
   bool complete = false;  ///< no row is missing: the digests match the stored sum
 
   CellRows() = default;
@@ -52,14 +58,17 @@ enum class WithRecords { no, yes };
 /// Reads the table cell. O(cells).
 CellRows read_cell_rows(Database& database, WithRecords with = WithRecords::no);
 
-/// Visits every row of `table` (score, phase, count, note or section) whose cell exists, in order
+/// Visits every row of `table` (scores, phase, count, note or section) whose cell exists, in order
 /// of writing, from its second column; then marks the damaged cells. O(rows).
 void read_details(Database& database,
                   const std::string& table,
                   CellRows& rows,
                   const std::function<void(std::size_t cell, Statement& row)>& each = {});
 
-/// Index of a table (score, phase, count, note, section or trace) in CellRow::details.
+/// Marks cells whose scores are damaged: their row or its list. O(cells).
+void check_scores(Database& database, const ScoreLists& lists, CellRows& rows);
+
+/// Index of a table (scores, phase, count, note, section or trace) in CellRow::details.
 std::size_t detail_number(const std::string& table);
 
 /// Throws InputError naming the first damaged cell, or if a cell is missing.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/store/score_lists.hpp"
 #include "harness/store/traces.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -25,7 +26,7 @@ std::string text_of(const Worker& worker) {
 }  // namespace
 
 void remove_cell(Database& database, std::int64_t id) {
-  for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
     database.prepare(std::string("DELETE FROM ") + table + " WHERE cell = ?").bind(id).run();
   }
   database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
@@ -42,8 +43,7 @@ CellWriter::CellWriter(Database& database, std::string made)
           "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
           "status, signal, why, failed_scores) VALUES "
           "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      score_(database.prepare(
-          "INSERT INTO score VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      scores_(database.prepare("INSERT INTO scores VALUES (?,?,?,?)")),
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
@@ -53,8 +53,10 @@ CellWriter::CellWriter(Database& database, std::string made)
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   Transaction transaction(database_);
+  new_list_.clear();
   write_rows(result, keys);
   transaction.commit();
+  if (!new_list_.empty()) lists_.insert(new_list_);
 }
 
 void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
@@ -132,35 +134,33 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
 }
 
 void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
+  if (result.scores.empty()) return;
+  ScoreList list;
+  std::string numbers;
+  std::vector<std::string> statuses;
   for (const ScoreResult& row : result.scores) {
-    const metrics::Statistics& s = row.score.statistics;
     const metrics::NamedProtocol& protocol = sweep.protocols[row.protocol];
-    score_.bind(id)
-        .bind(protocol.label())
-        .bind(protocol.version)
-        .bind(to_text(row.times))
-        .bind(row.metric)
-        .bind(row.label)
-        .bind(row.score.relation)
-        .bind(row.score.axis)
-        .bind(row.score.unit)
-        .bind(to_text(row.score.better))
-        .bind(row.score.target)
-        .bind(static_cast<std::int64_t>(s.count))
-        .bind(s.rmse)
-        .bind(s.mean)
-        .bind(s.median)
-        .bind(s.std)
-        .bind(s.min)
-        .bind(s.max)
-        .bind(s.sse)
-        .bind(static_cast<std::int64_t>(row.coverage.pairs))
-        .bind(static_cast<std::int64_t>(row.coverage.possible))
-        .bind(row.coverage.span)
-        .bind(to_text(row.status))
-        .bind(row.why)
-        .run();
+    list.push_back({protocol.label(),
+                    protocol.version,
+                    to_text(row.times),
+                    row.metric,
+                    row.label,
+                    row.score.relation,
+                    row.score.axis,
+                    row.score.unit,
+                    to_text(row.score.better),
+                    row.score.target});
+    pack({row.score.statistics,
+          static_cast<std::int64_t>(row.coverage.pairs),
+          static_cast<std::int64_t>(row.coverage.possible),
+          row.coverage.span},
+         numbers);
+    statuses.push_back(to_text(row.status));
+    statuses.push_back(row.why);
   }
+  const std::string key = key_of(list);
+  if (!lists_.contains(key)) write_list(database_, new_list_ = key, list);
+  scores_.bind(id).bind(key).bind_blob(numbers).bind(joined_statuses(statuses)).run();
 }
 
 void CellWriter::write_metadata(const Cell& cell,

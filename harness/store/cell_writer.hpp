@@ -31,13 +31,15 @@ class CellWriter {
   std::string made_;
   Statement remove_;
   Statement cell_;
-  Statement score_;
+  Statement scores_;
   Statement phase_;
   Statement count_;
   Statement note_;
   Statement section_;
   Statement trace_;
   DigestWriter digests_;
+  std::set<std::string> lists_;     ///< keys of score lists that are written
+  std::string new_list_;            ///< key of one that the open transaction writes
   std::set<std::string> metadata_;  ///< keys of sequences whose metadata are written
 };
 

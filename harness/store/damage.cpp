@@ -38,11 +38,6 @@ void remove(Database& database, const CheckedStore& found) {
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.intact) remove_cell(database, cell.id);
   }
-  // Rows of a removed cell must not be assigned to a later cell with the same id.
-  for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
-    database.execute(std::string("DELETE FROM ") + table +
-                     " WHERE cell NOT IN (SELECT id FROM cell)");
-  }
   for (const auto& [sequence_key, sequence] : found.sequences.by_key) {
     if (sequence.intact) continue;
     for (const char* table : {"input", "sequence", "sequence_trace"}) {
@@ -51,16 +46,30 @@ void remove(Database& database, const CheckedStore& found) {
           .run();
     }
   }
+  remove_orphans(database);
   update_sum(database, "cell");
   update_sum(database, "sequence");
 }
 
 }  // namespace
 
+void remove_orphans(Database& database) {
+  // They would be assigned to a later cell with the same id.
+  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
+    database.execute(std::string("DELETE FROM ") + table +
+                     " WHERE cell NOT IN (SELECT id FROM cell)");
+  }
+  for (const char* table : {"input", "sequence_trace"}) {
+    database.execute(std::string("DELETE FROM ") + table +
+                     " WHERE sequence_key NOT IN (SELECT sequence_key FROM sequence)");
+  }
+}
+
 CheckedStore check_rows(Database& database, bool traces) {
   CheckedStore out;
   out.cells = read_cell_rows(database);
-  for (const char* table : {"score", "phase", "count", "note", "section"}) {
+  check_scores(database, ScoreLists(database), out.cells);
+  for (const char* table : {"phase", "count", "note", "section"}) {
     read_details(database, table, out.cells);
   }
   out.sequences = read_sequence_rows(database);
@@ -86,6 +95,7 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
   require_intact_texts(database, "run", file);
   require_intact_texts(database, "provenance", file);
   if (traces) database.execute("REINDEX");
+  if (const ScoreLists lists(database); !lists.intact()) rewrite_lists(database, lists);
   CheckedStore found = check_rows(database, traces);
   if (is_intact(found)) return found;
   remove(database, found);

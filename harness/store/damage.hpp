@@ -26,6 +26,9 @@ CheckedStore check_rows(Database& database, bool traces);
 /// Throws InputError if the damage is outside the cells.
 CheckedStore remove_damaged(Database& database, const std::filesystem::path& file, bool traces);
 
+/// Removes the rows of cells and sequences that have no row of their own. O(rows).
+void remove_orphans(Database& database);
+
 /// Throws InputError unless the complete store, including traces, is as written. O(bytes).
 void require_intact_store(const std::filesystem::path& file);
 

@@ -161,6 +161,10 @@ class Merge {
   }
 
   void add_details() {
+    const ScoreLists lists(database_, "source.");
+    for (const auto& [key, list] : lists.all()) {
+      write_list(database_, key, list);
+    }
     for (const auto& [table, fields] : kDetails) {
       const std::string name = table;
       const std::string list = fields;

@@ -7,8 +7,8 @@
 
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/damage.hpp"
-#include "harness/store/failed_metrics.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/store/sequence_rows.hpp"
 
 namespace loopbench::harness {
@@ -28,54 +28,6 @@ void add_lines(std::string& text, const std::string& more) {
 std::string sequence_label(const CellRow& cell) {
   return cell.repeat > 0 ? *cell.sequence + " (repeat " + std::to_string(cell.repeat) + ")"
                          : *cell.sequence;
-}
-
-/// The common fields of all records of a cell.
-Record record_of(const CellRecord& cell) {
-  Record r;
-  r.cell = cell.position;
-  r.sequence = cell.sequence;
-  r.repeat = cell.repeat;
-  r.method = cell.method;
-  r.closures = cell.closures;
-  r.oracle_closures = cell.oracle_closures;
-  r.oracle = cell.oracle;
-  r.milliseconds = cell.seconds * 1000;
-  r.status = cell.status;
-  r.why = cell.why;
-  return r;
-}
-
-void add_score(const CellRecord& cell, Statement& row, std::vector<Record>& out) {
-  Record& r = out.emplace_back(record_of(cell));
-  r.protocol = row.text();
-  r.protocol_version = row.text();
-  r.times = row.text();
-  r.metric = row.text();
-  r.label = row.text();
-  r.relation = row.text();
-  r.axis = row.text();
-  r.unit = row.text();
-  r.better = from_text<metrics::Better>(row.text()).value_or(metrics::Better::neither);
-  r.target = row.real();
-  r.statistics.count = static_cast<std::size_t>(row.integer());
-  for (double* number : {&r.statistics.rmse,
-                         &r.statistics.mean,
-                         &r.statistics.median,
-                         &r.statistics.std,
-                         &r.statistics.min,
-                         &r.statistics.max,
-                         &r.statistics.sse}) {
-    *number = row.real();
-  }
-  r.pairs = row.integer();
-  r.possible = row.integer();
-  row.real();  // span
-  // An incomplete cell can be complete at other times, so its scores have their own status.
-  const std::string status = row.text();
-  const std::string why = row.text();
-  if (cell.status == "ok" || cell.status == "incomplete") r.status = status;
-  if (cell.why.empty() || cell.status == "incomplete") r.why = why;
 }
 
 /// Calls `add(sequence label, row)` once for every sequence of the config's cells.
@@ -99,28 +51,11 @@ void for_sequences(const std::filesystem::path& file, Add add) {
 }  // namespace
 
 std::vector<Record> read_records(const std::filesystem::path& file) {
-  Database database = open_store(file);
-  CellRows rows = read_cell_rows(database, WithRecords::yes);
-  std::vector<std::vector<Record>> scores(rows.cells.size());
-  read_details(database, "score", rows, [&](std::size_t cell, Statement& row) {
-    if (rows.cells[cell].placed) add_score(rows.records[cell], row, scores[cell]);
-  });
-  require_intact(rows, store_file(file));
-  const SequenceRows sequences = read_sequence_rows(database);
-  require_intact(sequences, store_file(file));
   std::vector<Record> out;
-  for (const std::size_t cell : in_order(rows)) {
-    const auto sequence = sequences.by_key.find(*rows.cells[cell].sequence_key);
-    // A declined or failed cell has no scores.
-    if (scores[cell].empty()) scores[cell].push_back(record_of(rows.records[cell]));
-    for (Record& r : scores[cell]) {
-      if (sequence == sequences.by_key.end()) break;
-      r.content = sequence->second.content;
-      r.group = sequence->second.group;
-    }
-    std::ranges::move(scores[cell], std::back_inserter(out));
-  }
-  expand_failed_metrics(out);
+  RecordReader(file).for_each_chunk([&](std::vector<Record>& records) {
+    std::ranges::move(records, std::back_inserter(out));
+    return true;
+  });
   return out;
 }
 

@@ -71,8 +71,32 @@ void check_texts(Database& database) {
   for (const char* table : {"run", "provenance"}) update_texts(database, table);
 }
 
+/// Keeps the cells of which only the phases are damaged, without them.
+void remove_damaged_phases(Database& database, CellRows& rows) {
+  std::vector<const CellRow*> intact;
+  for (const CellRow& cell : rows.cells) {
+    if (cell.intact) intact.push_back(&cell);
+  }
+  read_details(database, "phase", rows);
+  Statement phases = database.prepare("DELETE FROM phase WHERE cell = ?");
+  Statement digest = database.prepare("UPDATE cell SET phase_digest = '' WHERE id = ?");
+  DigestWriter writer(database);
+  for (const CellRow* cell : intact) {
+    if (cell->intact) continue;
+    phases.bind(cell->id).run();
+    digest.bind(cell->id).run();
+    writer.update_cell(cell->id);
+  }
+}
+
+/// Whether a cell without its phases counts as intact.
+enum class Phases { required, optional };
+
 /// Writes the intact cells of `view` into the new store `file`.
-Found write_view(const PageFile& damaged, const PageView& view, const std::filesystem::path& file) {
+Found write_view(const PageFile& damaged,
+                 const PageView& view,
+                 const std::filesystem::path& file,
+                 Phases phases) {
   Database database(file, Database::Mode::create);
   create_tables(database);
   Transaction transaction(database);
@@ -80,13 +104,16 @@ Found write_view(const PageFile& damaged, const PageView& view, const std::files
   Found out;
   out.nameless = count(
       database,
-      "SELECT count(*) FROM (SELECT cell FROM score UNION SELECT cell FROM phase UNION SELECT cell "
+      "SELECT count(*) FROM (SELECT cell FROM scores UNION SELECT cell FROM phase UNION SELECT "
+      "cell "
       "FROM count UNION SELECT cell FROM note UNION SELECT cell FROM section UNION SELECT cell "
       "FROM "
       "trace) WHERE cell NOT IN (SELECT id FROM cell)");
-  const CellRows rows = read_cell_rows(database);
+  CellRows rows = read_cell_rows(database);
   out.complete = rows.complete;
   for (const CellRow& cell : rows.cells) out.cells.emplace(cell.id, label_of(cell));
+  remove_orphans(database);
+  if (phases == Phases::optional) remove_damaged_phases(database, rows);
   check_texts(database);
   out.traces = remove_damaged_traces(database);
   remove_damaged(database, file, true);
@@ -104,7 +131,11 @@ void add_missing(Database& database, const std::filesystem::path& from) {
         "main.cell) AND (position IS NULL OR position NOT IN (SELECT position FROM main.cell WHERE "
         "position IS NOT NULL))");
     database.execute("INSERT INTO main.cell SELECT * FROM source.cell WHERE id IN missing");
-    for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+    const ScoreLists lists(database, "source.");
+    for (const auto& [key, list] : lists.all()) {
+      write_list(database, key, list);
+    }
+    for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
       const std::string name = table;
       database.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
                        " WHERE cell IN missing ORDER BY cell, rowid");
@@ -126,35 +157,51 @@ void add_missing(Database& database, const std::filesystem::path& from) {
   database.execute("DETACH source");
 }
 
-Salvaged salvage(const PageFile& damaged, const std::filesystem::path& out) {
-  std::map<std::int64_t, std::string> lost;
-  std::set<std::string> traces;
-  Salvaged result;
-  const std::filesystem::path other = out.string() + ".other";
-  bool is_first = true;
-  for (const PageView& view : damaged.views()) {
+/// Adds to `out` the cells of all views that it lacks. `other`: a file for one view.
+void add_views(const PageFile& damaged,
+               const std::vector<PageView>& views,
+               Phases phases,
+               const std::filesystem::path& out,
+               const std::filesystem::path& other,
+               std::map<std::int64_t, std::string>& found) {
+  for (const PageView& view : views) {
     std::filesystem::remove(other);
-    const Found found = write_view(damaged, view, is_first ? out : other);
-    lost.insert(found.cells.begin(), found.cells.end());
-    if (is_first) {
-      traces = found.traces;
-      result.nameless = static_cast<std::size_t>(found.nameless);
-      result.incomplete = !found.complete;
-    } else {
-      Database database(out, Database::Mode::create);
-      add_missing(database, other);
-    }
-    is_first = false;
+    found.merge(write_view(damaged, view, other, phases).cells);
+    Database database(out, Database::Mode::create);
+    add_missing(database, other);
   }
   std::filesystem::remove(other);
-  if (is_first) return result;
+}
 
+/// Removes the cells of the store `out` from `lost`, and returns their number.
+std::size_t remove_present(const std::filesystem::path& out,
+                           std::map<std::int64_t, std::string>& lost) {
   Database database(out, Database::Mode::create);
   const CellRows rows = read_cell_rows(database);
   for (const CellRow& cell : rows.cells) lost.erase(cell.id);
-  result.cells = rows.cells.size();
+  return rows.cells.size();
+}
+
+Salvaged salvage(const PageFile& damaged, const std::filesystem::path& out) {
+  Salvaged result;
+  const std::filesystem::path other = out.string() + ".other";
+  const std::vector<PageView> views = damaged.views();
+  if (views.empty()) return result;
+  Found best = write_view(damaged, views.front(), out, Phases::required);
+  result.nameless = static_cast<std::size_t>(best.nameless);
+  result.incomplete = !best.complete;
+  result.traces.assign(best.traces.begin(), best.traces.end());
+  std::map<std::int64_t, std::string> lost = std::move(best.cells);
+  add_views(damaged, {views.begin() + 1, views.end()}, Phases::required, out, other, lost);
+  result.cells = remove_present(out, lost);
+  if (!lost.empty()) {
+    add_views(damaged, views, Phases::optional, out, other, lost);
+    const std::size_t before = result.cells;
+    result.cells = remove_present(out, lost);
+    result.without_phases = result.cells - before;
+  }
   for (const auto& [id, label] : lost) result.lost.push_back(label);
-  result.traces.assign(traces.begin(), traces.end());
+  Database database(out, Database::Mode::create);
   result.run_lost = count(database, "SELECT count(*) FROM run") == 0;
   result.unknown_origin = static_cast<std::size_t>(
       count(database, "SELECT count(*) FROM cell WHERE made NOT IN (SELECT made FROM provenance)"));

@@ -2,9 +2,27 @@
 
 #include <sqlite3.h>
 
+#include <bit>
+
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
+
+namespace {
+
+/// The SQL function of the sqlite3 shell, for the view `score`.
+void ieee754_from_blob(sqlite3_context* context, int, sqlite3_value** values) {
+  constexpr int kBytes = 8;
+  if (sqlite3_value_type(values[0]) != SQLITE_BLOB || sqlite3_value_bytes(values[0]) != kBytes) {
+    return;  // NULL
+  }
+  const auto* bytes = static_cast<const unsigned char*>(sqlite3_value_blob(values[0]));
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kBytes; ++i) bits = bits << 8 | bytes[i];
+  sqlite3_result_double(context, std::bit_cast<double>(bits));
+}
+
+}  // namespace
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
@@ -23,6 +41,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   handle_.reset(handle);
   if (code != SQLITE_OK) fail("cannot be opened");
   sqlite3_busy_timeout(handle, 10000);  // [ms]
+  constexpr int kKind = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS;
+  sqlite3_create_function(
+      handle, "ieee754_from_blob", 1, kKind, nullptr, ieee754_from_blob, nullptr, nullptr);
 }
 
 void Database::execute(const std::string& sql) {
@@ -150,6 +171,11 @@ std::string Statement::blob() {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
   return bytes == nullptr ? "" : std::string(bytes, size);
+}
+std::string_view Statement::view() {
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
+  return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
 }
 std::string Statement::text() {
   const auto* bytes = sqlite3_column_text(handle_.get(), column_);

@@ -62,7 +62,10 @@ class Statement {
   double real();
   std::string text();
   std::string blob();
-  bool is_null() const;  ///< of the next column, without consuming it
+  std::string_view view();        ///< text or blob, valid until the next step
+  void skip() { ++column_; }      ///< the next column
+  void rewind() { column_ = 0; }  ///< to the first column of the row
+  bool is_null() const;           ///< of the next column, without consuming it
 
   int columns() const;
   /// Unambiguous serialisation of types and values of the row's columns in [from, to). Valid until

@@ -25,7 +25,7 @@ DigestWriter::DigestWriter(Database& database)
       set_sequence_(database.prepare("UPDATE sequence SET digest = ? WHERE sequence_key = ?")),
       sum_(database.prepare("SELECT value FROM digest WHERE name = ?")),
       set_sum_(database.prepare("INSERT OR REPLACE INTO digest VALUES (?,?)")) {
-  for (const char* table : {"score", "phase", "count", "note", "section", "trace"}) {
+  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
     details_.push_back(
         database.prepare(std::string("SELECT * FROM ") + table + " WHERE cell = ? ORDER BY rowid"));
   }

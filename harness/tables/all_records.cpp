@@ -4,62 +4,131 @@
 #include <iterator>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/name_order.hpp"
 #include "harness/model/where.hpp"
-#include "harness/store/store.hpp"
+#include "harness/store/read.hpp"
 #include "harness/tables/derived.hpp"
 #include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// Keeps the scores of one metric: by its label, by the short name of a score ("error x") or, if
-/// neither matches, by the metric's name.
-void keep_metric(std::vector<Record>& records, const std::string& metric) {
-  std::vector<std::string> known;
-  for (const char* column : {"label", "score", "metric"}) {
-    const auto is_wanted = [&](const Record& r) { return field(r, column) == metric; };
-    for (const Record& r : records) {
-      if (r.metric.empty() || std::ranges::count(known, field(r, column)) > 0) continue;
-      known.push_back(field(r, column));
-    }
-    if (std::ranges::none_of(records, is_wanted)) continue;
-    std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && !is_wanted(r); });
-    return;
-  }
-  throw InputError("--metric: " + unknown_name("metric", metric, known));
+/// How a record can match --metric, the most specific first.
+constexpr const char* kMetricFields[] = {"label", "score", "metric"};
+constexpr std::size_t kNoField = std::size(kMetricFields);
+
+/// Whether a derived record can match.
+bool can_be_derived(const std::string& metric) {
+  return metric.starts_with("gain") || metric.starts_with("pairs") || metric.starts_with("time");
 }
+
+/// The records of all_records() that pass a filter.
+class FilteredRecords {
+ public:
+  FilteredRecords(const std::filesystem::path& store, const std::vector<std::string>& rules)
+      : reader_(store), baseline_(read_run(store).at("baseline")), is_kept_(where(rules)) {}
+
+  void for_each(bool derived, const std::function<bool(const Record&)>& visit) {
+    for_each_record(
+        reader_, baseline_, derived, [&](const Record& r) { return !is_kept_(r) || visit(r); });
+  }
+
+  /// The first of kMetricFields in which a record has this text; kNoField if there is none.
+  std::size_t field_of(const std::string& metric, bool derived) {
+    std::size_t found = kNoField;
+    for_each(derived, [&](const Record& r) {
+      for (std::size_t f = 0; f < found && !r.metric.empty(); ++f) {
+        if (field(r, kMetricFields[f]) == metric) found = f;
+      }
+      return found > 0;
+    });
+    return found;
+  }
+
+  /// Throws InputError with the metrics that there are.
+  [[noreturn]] void reject(const std::string& metric, const std::string& none) {
+    NameOrder known[kNoField];
+    bool has_score = false;
+    for_each(true, [&](const Record& r) {
+      if (r.metric.empty()) return true;
+      has_score = true;
+      for (std::size_t f = 0; f < kNoField; ++f) known[f].index(field(r, kMetricFields[f]));
+      return true;
+    });
+    if (!has_score) throw InputError(none);
+    NameOrder all;
+    for (const NameOrder& of_field : known) {
+      for (const std::string& name : of_field.names()) all.index(name);
+    }
+    throw InputError("--metric: " + unknown_name("metric", metric, all.names()));
+  }
+
+ private:
+  RecordReader reader_;
+  std::string baseline_;
+  std::function<bool(const Record&)> is_kept_;
+};
 
 }  // namespace
 
 std::vector<Record> all_records(const std::filesystem::path& store) {
   std::vector<Record> records = read_records(store);
-  const auto run = read_run(store);
-  std::vector<Record> gain = gains(records, run.at("baseline"));
+  add_derived(records, read_run(store).at("baseline"));
+  return records;
+}
+
+void add_derived(std::vector<Record>& records, const std::string& baseline) {
+  std::vector<Record> gain = gains(records, baseline);
   std::vector<Record> pairs = pair_counts(records);
   std::vector<Record> time = run_times(records);
   for (std::vector<Record>* more : {&gain, &pairs, &time}) {
     records.insert(
         records.end(), std::move_iterator(more->begin()), std::move_iterator(more->end()));
   }
-  return records;
+}
+
+void for_each_record(RecordReader& reader,
+                     const std::string& baseline,
+                     bool derived,
+                     const std::function<bool(const Record&)>& visit) {
+  using Derive = std::function<std::vector<Record>(const std::vector<Record>&)>;
+  const Derive parts[] = {{},
+                          [&](const auto& records) { return gains(records, baseline); },
+                          [](const auto& records) { return pair_counts(records); },
+                          [](const auto& records) { return run_times(records); }};
+  bool goes_on = true;
+  for (const Derive& derive : parts) {
+    if (!goes_on || (derive && !derived)) return;
+    reader.for_each_chunk([&](std::vector<Record>& records) {
+      if (derive) records = derive(records);
+      goes_on = std::ranges::all_of(records, visit);
+      return goes_on;
+    });
+  }
 }
 
 std::vector<Comparison> compare_store(const std::filesystem::path& store,
                                       const std::string& metric,
                                       const std::vector<std::string>& rules,
                                       CompareOptions options) {
-  std::vector<Record> records = all_records(store);
-  keep_where(records, rules);
-  if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) {
-    throw InputError(store.string() + ": no score to compare" +
-                     (rules.empty() ? "" : " after --where"));
+  FilteredRecords all(store, rules);
+  const bool derived = can_be_derived(metric);
+  const std::size_t own = all.field_of(metric, derived);
+  if (own == kNoField) {
+    all.reject(metric,
+               store.string() + ": no score to compare" + (rules.empty() ? "" : " after --where"));
   }
-  keep_metric(records, metric);
   if (options.baseline.empty()) options.baseline = read_run(store).at("baseline");
   if (options.baseline.empty()) {
     throw InputError(store.string() + ": the sweep has no baseline; set --baseline METHOD");
   }
-  return compare(records, options);
+  const RecordSource wanted = [&](const auto& visit) {
+    all.for_each(derived, [&](const Record& r) {
+      if (r.metric.empty() || field(r, kMetricFields[own]) == metric) visit(r);
+      return true;
+    });
+  };
+  return compare(wanted, options);
 }
 
 }  // namespace loopbench::harness

@@ -2,16 +2,28 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "harness/compare/compare.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 
 /// Stored records, then gains, pair counts and run times: columns in this order.
 std::vector<Record> all_records(const std::filesystem::path& store);
+
+/// Appends gains, pair counts and run times; `records`: complete sequences.
+void add_derived(std::vector<Record>& records, const std::string& baseline);
+
+/// Visits the stored records and, if `derived`, the same records as all_records(), in that order,
+/// until `visit` returns false. Reads the store up to four times, with little memory.
+void for_each_record(RecordReader& reader,
+                     const std::string& baseline,
+                     bool derived,
+                     const std::function<bool(const Record&)>& visit);
 
 /// The comparisons that `loopbench compare` prints, for one metric selected by its label, the short
 /// name of a score ("error x") or its name, over the records that pass the filters `rules` (see

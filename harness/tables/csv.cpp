@@ -65,47 +65,53 @@ std::string csv(const std::vector<Table>& tables) {
   return out;
 }
 
-std::string csv(const std::vector<Record>& records) {
+const char* const kRowsHeader =
+    "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
+    "times,metric,label,"
+    "relation,axis,unit,better,target,count,rmse,"
+    "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
+
+std::string csv_row(const Record& r) {
+  const metrics::Statistics& s = r.statistics;
   std::string out =
-      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
-      "times,metric,label,"
-      "relation,axis,unit,better,target,count,rmse,"
-      "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
-  for (const Record& r : records) {
-    const metrics::Statistics& s = r.statistics;
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
-                       quoted(r.sequence),
-                       r.repeat,
-                       quoted(r.method),
-                       quoted(r.closures),
-                       r.oracle_closures,
-                       r.oracle,
-                       quoted(r.protocol),
-                       quoted(r.protocol_version),
-                       quoted(r.times),
-                       quoted(r.metric),
-                       quoted(metric_label(r)),
-                       quoted(r.relation),
-                       quoted(r.axis),
-                       quoted(r.unit),
-                       to_text(r.better),
-                       r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
-    // An undefined score has empty fields, not zeros.
-    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
-    out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
-                                               : fmt::format("{},{},{},{},{},{},{},{},{},{},",
-                                                             s.count,
-                                                             number(s.rmse),
-                                                             number(s.mean),
-                                                             number(s.median),
-                                                             number(s.std),
-                                                             number(s.min),
-                                                             number(s.max),
-                                                             number(s.sse),
-                                                             r.pairs,
-                                                             r.possible);
-    out += fmt::format("{},{},{}\n", r.milliseconds, quoted(r.status), quoted(r.why));
-  }
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
+                  quoted(r.sequence),
+                  r.repeat,
+                  quoted(r.method),
+                  quoted(r.closures),
+                  r.oracle_closures,
+                  r.oracle,
+                  quoted(r.protocol),
+                  quoted(r.protocol_version),
+                  quoted(r.times),
+                  quoted(r.metric),
+                  quoted(metric_label(r)),
+                  quoted(r.relation),
+                  quoted(r.axis),
+                  quoted(r.unit),
+                  to_text(r.better),
+                  r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
+  // An undefined score has empty fields, not zeros.
+  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
+  out += r.metric.empty() || !has_numbers(r) ? std::string(",,,,,,,,,,")
+                                             : fmt::format("{},{},{},{},{},{},{},{},{},{},",
+                                                           s.count,
+                                                           number(s.rmse),
+                                                           number(s.mean),
+                                                           number(s.median),
+                                                           number(s.std),
+                                                           number(s.min),
+                                                           number(s.max),
+                                                           number(s.sse),
+                                                           r.pairs,
+                                                           r.possible);
+  out += fmt::format("{},{},{}\n", r.milliseconds, quoted(r.status), quoted(r.why));
+  return out;
+}
+
+std::string csv(const std::vector<Record>& records) {
+  std::string out = kRowsHeader;
+  for (const Record& r : records) out += csv_row(r);
   return out;
 }
 

@@ -56,6 +56,7 @@ Marks mark_best(const MarkInput& input, const RankingOptions& options) {
   Marks out{std::vector<Mark>(input.competitors.size(), Mark::none), ""};
   const MarkContest all = mark_contest(input);
   if (all.entries.size() < 2 || all.groups == 0) return out;
+  if (is_surely_unproven(all.values, options)) return out;
   const Ranking ranking = rank_methods(all.values, options);
   if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
     out.why_none = fmt::format("{} independent run{} per entry cannot prove a difference at {:g}",

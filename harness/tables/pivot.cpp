@@ -173,9 +173,7 @@ Table finish(TableNumbers& table,
 
 /// Splits the tables by protocol if there are several, unless the spec already separates them.
 TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& records) {
-  for (const auto* names : {&spec.rows, &spec.columns, &spec.split}) {
-    if (std::ranges::count(*names, "protocol") > 0) return spec;
-  }
+  if (separates(spec, {"protocol"})) return spec;
   const std::string* first = nullptr;
   for (const Record& record : records) {
     if (record.metric.empty()) continue;
@@ -190,9 +188,16 @@ TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& record
 }  // namespace
 
 std::vector<Table> pivot(const std::vector<Record>& records,
-                         const TableSpec& given,
+                         const TableSpec& spec,
                          const RankingOptions& options) {
-  const TableSpec spec = separating_protocols(given, records);
+  PivotedTables out = pivot_parts(records, separating_protocols(spec, records), options);
+  if (out.tables.empty()) throw InputError(kEmptyTable);
+  return std::move(out.tables);
+}
+
+PivotedTables pivot_parts(const std::vector<Record>& records,
+                          const TableSpec& spec,
+                          const RankingOptions& options) {
   NameOrder titles;
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table
@@ -217,24 +222,32 @@ std::vector<Table> pivot(const std::vector<Record>& records,
   for (const Record& record : records) {
     if (!record.metric.empty() && shown(record)) add(builder(record), record, spec);
   }
-  const std::size_t with_scores = builders.size();
+  PivotedTables out;
+  out.with_scores = builders.size();
   // A cell without any score is listed in every table of its sequence.
   for (const Record& record : records) {
     if (!record.metric.empty()) continue;
     bool placed = false;
-    for (std::size_t t = 0; t < with_scores; ++t) {
+    for (std::size_t t = 0; t < out.with_scores; ++t) {
       if (!belongs_to(record, t)) continue;
       add(builders[t], record, spec);
       placed = true;
     }
     if (!placed) add(builder(record), record, spec);
   }
-  if (builders.empty()) throw InputError("the table is empty: no rows to show");
-  std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.push_back(finish(builders[t], titles.names()[t], spec, options));
+    out.tables.push_back(finish(builders[t], titles.names()[t], spec, options));
   }
   return out;
+}
+
+bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of) {
+  for (const auto* names : {&spec.rows, &spec.columns, &spec.split}) {
+    for (const char* name : any_of) {
+      if (std::ranges::count(*names, name) > 0) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace loopbench::harness

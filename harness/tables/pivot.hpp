@@ -1,6 +1,7 @@
 /// Conversion of a long table to rows x columns, one table per combination of the split columns.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@ namespace loopbench::harness {
 
 /// Status of an entry without a run that all entries compared with it have finished.
 inline constexpr const char* kNoCommonRun = "no common run";
+
+inline constexpr const char* kEmptyTable = "the table is empty: no rows to show";
 
 /// One entry of a table: the mean over its records. If the entries of several methods finished
 /// different runs, the mean is over the runs that all of them finished.
@@ -46,5 +49,20 @@ struct Table {
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
                          const RankingOptions& options = {});
+
+/// The tables of some of the records, for records that are not in memory at once.
+struct PivotedTables {
+  std::vector<Table> tables;
+  std::size_t with_scores = 0;  ///< the first tables; the others have only cells without a score
+};
+
+/// The tables of complete sequences, if `spec` splits by sequence. Several protocols must be
+/// separated by `spec`. Does not throw if there is none.
+PivotedTables pivot_parts(const std::vector<Record>& records,
+                          const TableSpec& spec,
+                          const RankingOptions& options);
+
+/// Whether rows, columns or split contain one of the fields.
+bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of);
 
 }  // namespace loopbench::harness

@@ -24,6 +24,10 @@ std::string csv(const std::vector<Table>& tables);
 /// The long table: one line per record with all columns.
 std::string csv(const std::vector<Record>& records);
 
+/// Its first line, and the line of one record.
+extern const char* const kRowsHeader;
+std::string csv_row(const Record& record);
+
 /// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, status,
 /// mark}}; value is null unless status is ok.
 std::string json(const std::vector<Table>& tables);

@@ -1,19 +1,11 @@
 #include "harness/tables/usual_table.hpp"
 
 #include <algorithm>
-#include <initializer_list>
+
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of) {
-  for (const auto* names : {&spec.rows, &spec.columns, &spec.split}) {
-    for (const char* name : any_of) {
-      if (std::ranges::count(*names, name) > 0) return true;
-    }
-  }
-  return false;
-}
 
 /// Keeps one kind of times; returns its name if there were several.
 std::string keep_one_time(std::vector<Record>& records) {

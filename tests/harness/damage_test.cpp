@@ -129,7 +129,8 @@ TEST_F(Damage, NamesTheCellAndWhatToDo) {
   run(kUsual);
   const std::string expected = store_text(file_);
   change(
-      "UPDATE score SET rmse = rmse * 0.999 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
+      "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell WHERE "
+      "position = 3)");
   const std::string said = refusal(file_);
   EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is corrupted"), std::string::npos)
       << said;
@@ -144,7 +145,7 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   run(kUsual);
   const std::string sound = bytes_of_file(file_);
   const std::string expected = store_text(file_);
-  for (const char* table : {"cell", "score", "section", "sequence", "trace", "sequence_trace"}) {
+  for (const char* table : {"cell", "scores", "section", "sequence", "trace", "sequence_trace"}) {
     put(sound);
     const std::string key = std::string(table).starts_with("sequence") ? "sequence_key" : "rowid";
     change(std::string("DELETE FROM ") + table + " WHERE " + key + " = (SELECT max(" + key +
@@ -166,6 +167,31 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   }
 }
 
+TEST_F(Damage, OneOfTheTwoListsOfScoresSuffices) {
+  run(kUsual);
+  const std::string sound = bytes_of_file(file_);
+  const std::string expected = store_text(file_);
+  for (const char* table : {"score_list", "score_list_copy"}) {
+    for (const std::string& damage : {"UPDATE " + std::string(table) + " SET metric = 'other'",
+                                      "DELETE FROM " + std::string(table)}) {
+      put(sound);
+      change(damage);
+      EXPECT_EQ(store_text(file_), expected) << damage;
+      EXPECT_EQ(run(kUsual).cells, Labels{}) << damage;
+      const std::string other =
+          std::string(table) == "score_list" ? "score_list_copy" : "score_list";
+      change("DELETE FROM " + other);
+      EXPECT_EQ(store_text(file_), expected) << "repaired by the run after: " << damage;
+    }
+  }
+  put(sound);
+  change("DELETE FROM score_list");
+  change("DELETE FROM score_list_copy");
+  EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos);
+  EXPECT_EQ(run(kUsual).cells.size(), 4u);
+  EXPECT_EQ(store_text(file_), expected);
+}
+
 TEST_F(Damage, ADamagedStoreIsNotMerged) {
   run(kUsual);
   change("UPDATE trace SET samples = zeroblob(length(samples)) WHERE cell = 1");
@@ -183,7 +209,7 @@ TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
   Database reader = open_store(file_);
   CellRows rows = read_cell_rows(reader);
   EXPECT_EQ(run(kUsual).cells.size(), 2u);
-  read_details(reader, "score", rows);
+  check_scores(reader, ScoreLists(reader), rows);
   require_intact(rows, file_);
   EXPECT_EQ(rows.cells.size(), 2u);
   require_intact(read_sequence_rows(reader), file_);

@@ -116,7 +116,9 @@ TEST_F(Salvage, NamesWhatIsLost) {
   run(kUsual);
   const std::string expected = store_text(file_);
   Database(file_, Database::Mode::read)
-      .execute("UPDATE score SET rmse = 7 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
+      .execute(
+          "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell "
+          "WHERE position = 3)");
   const Salvaged out = salvaged(kUsual, expected);
   EXPECT_EQ(out.cells, 3u);
   EXPECT_EQ(out.lost, Labels{"b / shifted"});
@@ -158,7 +160,7 @@ TEST_F(Salvage, MissingTablesCostWhatTheyContained) {
                                           {"DROP TABLE run", 0},
                                           {"DROP TABLE provenance", 0},
                                           {"DROP TABLE sequence_trace", 0},
-                                          {"DROP INDEX cell_position; DROP INDEX score_cell", 0}}) {
+                                          {"DROP INDEX cell_position; DROP INDEX phase_cell", 0}}) {
     put(intact);
     Database(file_, Database::Mode::read).execute(sql);
     const Salvaged out = salvaged(kMany, expected);
@@ -166,6 +168,7 @@ TEST_F(Salvage, MissingTablesCostWhatTheyContained) {
     EXPECT_EQ(out.run_lost, sql == "DROP TABLE run" || sql == "DROP TABLE digest");
     EXPECT_EQ(out.unknown_origin, sql == "DROP TABLE provenance" ? 160u : 0u);
     EXPECT_EQ(out.traces.size(), sql == "DROP TABLE sequence_trace" ? 40u : 0u);
+    EXPECT_EQ(out.without_phases, sql == "DROP TABLE phase" ? 120u : 0u);
   }
   put(intact);
   Database(file_, Database::Mode::read).execute("DROP TABLE cell");
@@ -222,6 +225,39 @@ TEST_F(Salvage, ATruncatedOrDamagedLogCostsItsOwnCellsOnly) {
   }
   put(bytes, "no log" + log.substr(6));
   EXPECT_EQ(salvaged(kMany, expected).cells, all) << "a damaged header of the log";
+}
+
+TEST_F(Salvage, RowsOfAnUnfinishedCellAreNotGivenToTheNextOne) {
+  run(kMany);
+  const std::string expected = store_text(file_);
+  std::filesystem::remove(file_);
+  run(kUsual);
+  Database(file_, Database::Mode::read)
+      .execute(
+          "INSERT INTO scores SELECT max(cell) + 1, list, numbers, statuses FROM scores;"
+          "INSERT INTO phase SELECT max(id) + 1, 'unfinished', 1.0 FROM cell;"
+          "INSERT INTO count SELECT max(id) + 1, 'unfinished', 1.0 FROM cell;"
+          "INSERT INTO note SELECT max(id) + 1, 'unfinished' FROM cell");
+  const Salvaged out = salvaged(kMany, expected);
+  EXPECT_EQ(out.cells, 4u);
+  EXPECT_EQ(out.nameless, 1u);
+}
+
+TEST_F(Salvage, SequencesMissingInTheLogAreTakenFromTheFile) {
+  run(kUsual);
+  const std::string expected = store_text(file_);
+  std::string bytes;
+  std::string log;
+  {
+    Database database(file_, Database::Mode::read);
+    database.execute(
+        "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; DELETE FROM sequence");
+    bytes = bytes_of(file_);
+    log = bytes_of(file_.string() + "-wal");
+  }
+  put(bytes, log);
+  EXPECT_EQ(salvaged(kUsual, expected).cells, 4u);
+  EXPECT_EQ(cells_run_again_, 0u);
 }
 
 TEST_F(Salvage, RejectsOtherFilesAndKeepsExistingStores) {

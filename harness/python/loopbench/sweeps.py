@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import sqlite3
+import struct
 import subprocess
 import tempfile
 from dataclasses import dataclass, fields
@@ -62,11 +63,12 @@ def _select(store: str | Path) -> tuple[list[str], list[Any]]:
         "SELECT cell.sequence, cell.repeat, cell.method, cell.closures, cell.seconds_median AS"
         " seconds, cell.status AS cell_status, cell.why AS cell_why, score.* FROM cell LEFT JOIN"
         " score ON score.cell = cell.id WHERE cell.position IS NOT NULL ORDER BY cell.position,"
-        " score.rowid"
+        " score.number"
     )
     if not file.exists():
         raise FileNotFoundError(f"{file}: no such file, expected the store of a sweep")
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
+    database.create_function("ieee754_from_blob", 1, lambda blob: struct.unpack(">d", blob)[0])
     try:
         cursor = database.execute(query)
         return [column[0] for column in cursor.description], cursor.fetchall()
