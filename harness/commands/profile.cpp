@@ -1,6 +1,7 @@
 #include "harness/profile/profile.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 
 #include "harness/commands/checks.hpp"
@@ -8,6 +9,7 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/text/pattern.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -24,7 +26,7 @@ struct ProfileArguments {
 
 int print_profile(const ProfileArguments& arguments) {
   const Pattern selected = Pattern::of_option("--only", arguments.only);
-  std::vector<CellRecord> cells = read_cells(arguments.store);
+  std::vector<CellRecord> cells = read_costs(arguments.store);
   std::erase_if(cells, [&](const CellRecord& cell) {
     return !selected.is_in(cell.sequence + " / " + cell.method);
   });
@@ -35,12 +37,18 @@ int print_profile(const ProfileArguments& arguments) {
   const ExportFormat format =
       arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
+  RecordReader reader(arguments.store);
+  const RecordSource records = [&](const auto& visit) {
+    reader.for_each_chunk([&](std::vector<Record>& chunk) {
+      std::ranges::for_each(chunk, visit);
+      return true;
+    });
+  };
   std::string out;
-  for (const TextTable& listing :
-       {costs(cells),
-        reported(cells),
-        scaling(cells),
-        pareto(cells, read_records(arguments.store), arguments.accuracy)}) {
+  for (const TextTable& listing : {costs(cells),
+                                   reported(cells),
+                                   scaling(cells),
+                                   pareto(cells, records, arguments.accuracy)}) {
     out += out.empty() ? "" : "\n";
     out += format == ExportFormat::csv        ? csv(listing)
            : format == ExportFormat::terminal ? terminal(table_view(listing), style)

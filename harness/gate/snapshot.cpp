@@ -1,9 +1,12 @@
 #include "harness/gate/snapshot.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
@@ -79,14 +82,18 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   out.protocols = definitions(run.at("protocol"), "]: ", 1);
   out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
   out.methods = definitions(text_of(run, "methods", store), "\t", 0);
-  std::vector<Record> records = read_records(store);
-  if (limits_time(limits)) {
-    for (Record& time : run_times(records)) records.push_back(std::move(time));
+  const bool has_times = limits_time(limits);
+  gate_cells({}, limits);  // rejects an unknown statistic even without records
+  RecordReader(store).for_each_chunk([&](std::vector<Record>& records) {
+    if (has_times) std::ranges::move(run_times(records), std::back_inserter(records));
+    std::ranges::move(gate_cells(records, limits), std::back_inserter(out.cells));
+    return true;
+  });
+  if (has_times) {
     // Times on different machines are not comparable.
     const std::string cpu = fact("cpu");
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
-  out.cells = gate_cells(records, limits);
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
   add_sequences(store, out);
   return out;

@@ -40,14 +40,14 @@ bool is_score(const Record& r, const Accuracy& accuracy) {
 }
 
 /// The first protocol, dense if available; a metric by its label before its name.
-Chosen choose(const std::vector<Record>& records, const Accuracy& accuracy) {
+Chosen choose(const RecordSource& records, const Accuracy& accuracy) {
   Chosen out;
-  for (const Record& r : records) {
-    if (!is_score(r, accuracy)) continue;
+  records([&](const Record& r) {
+    if (!is_score(r, accuracy)) return;
     if (out.protocol.empty()) out = {r.protocol, r.times, metric_label(r)};
     if (metric_label(r) == accuracy.metric) out.label = accuracy.metric;
     if (r.protocol == out.protocol && r.times == "dense") out.times = r.times;
-  }
+  });
   return out;
 }
 
@@ -111,17 +111,24 @@ std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t 
 TextTable pareto(const std::vector<CellRecord>& cells,
                  const std::vector<Record>& records,
                  const Accuracy& accuracy) {
+  const RecordSource source = [&](const auto& visit) { std::ranges::for_each(records, visit); };
+  return pareto(cells, source, accuracy);
+}
+
+TextTable pareto(const std::vector<CellRecord>& cells,
+                 const RecordSource& records,
+                 const Accuracy& accuracy) {
   const Chosen chosen = choose(records, accuracy);
   std::map<std::int64_t, double> error_of;  // by position
   std::string unit;
-  for (const Record& r : records) {
+  records([&](const Record& r) {
     if (!is_score(r, accuracy) || r.protocol != chosen.protocol || r.times != chosen.times ||
         metric_label(r) != chosen.label) {
-      continue;
+      return;
     }
     error_of[r.cell] = value(r, accuracy.value);
     unit = r.unit;
-  }
+  });
   std::set<std::pair<std::string, std::int64_t>> all_runs;
   for (const CellRecord& cell : cells) all_runs.emplace(cell.sequence, cell.repeat);
   const std::vector<Point> points = points_of(cells, error_of);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/compare/compare.hpp"
 #include "harness/model/record.hpp"
 #include "harness/tables/listing.hpp"
 
@@ -53,6 +54,11 @@ struct Accuracy {
 /// reference. Errors are those of the store's first protocol, dense if available.
 TextTable pareto(const std::vector<CellRecord>& cells,
                  const std::vector<Record>& records,
+                 const Accuracy& accuracy);
+
+/// The same, with records that are visited twice and need not be in memory at once.
+TextTable pareto(const std::vector<CellRecord>& cells,
+                 const RecordSource& records,
                  const Accuracy& accuracy);
 
 }  // namespace loopbench::harness

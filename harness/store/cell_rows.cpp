@@ -34,19 +34,24 @@ class SharedColumn {
 };
 
 /// All columns that tables need; `row` is at its first column.
-CellRecord record_of(Statement& row) {
+CellRecord record_of(Statement& row, WithRecords with) {
   CellRecord c;
+  const auto text = [&] {
+    if (with == WithRecords::yes) return row.text();
+    row.skip();
+    return std::string();
+  };
   row.skip();  // id
   c.position = row.integer();
-  c.key = row.text();
-  c.build = row.text();
+  c.key = text();
+  c.build = text();
   row.skip();  // sequence_key
   row.skip();  // made
   c.sequence = row.text();
   c.repeat = row.integer();
   c.method = row.text();
-  c.dataset_options = row.text();
-  c.method_options = row.text();
+  c.dataset_options = text();
+  c.method_options = text();
   c.closures = row.text();
   c.oracle_closures = row.integer() != 0;
   c.oracle = row.integer() != 0;
@@ -60,8 +65,8 @@ CellRecord record_of(Statement& row) {
   c.added_memory = maybe(row, &Statement::integer);
   c.allocations = maybe(row, &Statement::integer);
   c.status = row.text();
-  c.signal = row.text();
-  c.why = row.text();
+  c.signal = text();
+  c.why = text();
   return c;
 }
 
@@ -133,9 +138,9 @@ CellRows read_cell_rows(Database& database, WithRecords with) {
   Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
   while (rows.step()) {
     reader.add(rows);
-    if (with == WithRecords::yes) {
+    if (with != WithRecords::no) {
       rows.rewind();
-      out.records.push_back(record_of(rows));
+      out.records.push_back(record_of(rows, with));
     }
     sum.add(out.cells.back().digest);
   }

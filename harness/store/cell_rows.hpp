@@ -52,8 +52,9 @@ struct CellRows {
   CellRows& operator=(const CellRows&) = delete;
 };
 
-/// Contents of CellRows::records: none, or all without phases, counts, notes and sequence data.
-enum class WithRecords { no, yes };
+/// Contents of CellRows::records: none; without key, build, options, signal and reason; or all.
+/// Phases, counts, notes and sequence data are never read.
+enum class WithRecords { no, costs, yes };
 
 /// Reads the table cell. O(cells).
 CellRows read_cell_rows(Database& database, WithRecords with = WithRecords::no);

@@ -20,6 +20,10 @@ std::vector<Record> read_records(const std::filesystem::path& file);
 /// One row per cell, in sweep order.
 std::vector<CellRecord> read_cells(const std::filesystem::path& file);
 
+/// The same without key, build, options, signal, reason and notes: about 800 bytes of memory per
+/// cell.
+std::vector<CellRecord> read_costs(const std::filesystem::path& file);
+
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);
 

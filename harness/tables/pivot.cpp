@@ -81,6 +81,7 @@ void mark(Table& out,
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
     const MarkInput all = mark_input(table, entries, along_columns);
+    const std::size_t runs = number_of_runs(all);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
@@ -91,8 +92,9 @@ void mark(Table& out,
       is_marked = is_marked || entry.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
+      if (entry.records == 0 || values >= runs) continue;
       const std::size_t most = possible(all, i);
-      if (entry.records > 0 && values < most) entry.possible = entry.records + most - values;
+      if (values < most) entry.possible = entry.records + most - values;
     }
   }
   if (is_marked) {

@@ -1,5 +1,7 @@
 #include "harness/tables/table_numbers.hpp"
 
+#include <string_view>
+
 #include "harness/tables/common_runs.hpp"
 
 namespace loopbench::harness {
@@ -94,6 +96,14 @@ std::size_t possible(const MarkInput& input, std::size_t i) {
         other, [&](const auto& run) { return input.competitors[i].contains(run.first); });
     if (!shares) continue;
     for (const auto& [run, value] : other) out.insert(run);
+  }
+  return out.size();
+}
+
+std::size_t number_of_runs(const MarkInput& input) {
+  std::set<std::string_view> out;
+  for (const ByRun& own : input.competitors) {
+    for (const auto& [run, value] : own) out.insert(run);
   }
   return out.size();
 }

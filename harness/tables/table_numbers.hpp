@@ -59,4 +59,7 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns);
 /// in common with it.
 std::size_t possible(const MarkInput& input, std::size_t i);
 
+/// Number of runs of all competitors together: an upper limit of possible().
+std::size_t number_of_runs(const MarkInput& input);
+
 }  // namespace loopbench::harness
