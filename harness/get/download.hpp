@@ -17,7 +17,7 @@ struct PublicFile {
   std::string summary;
 };
 
-/// The catalogue that the program contains.
+/// The catalogue that the program contains. Every entry has a hash.
 std::vector<PublicFile> public_files();
 
 /// A catalogue in YAML: a list of {name, url, licence, sha256, file, summary}. Throws InputError

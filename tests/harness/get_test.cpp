@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "datasets/core/error.hpp"
 #include "harness/get/download.hpp"
@@ -38,9 +39,24 @@ TEST(PublicFiles, AreCompleteAndHaveDistinctNames) {
     EXPECT_EQ(std::ranges::count(names, each.name), 0) << each.name;
     names.push_back(each.name);
     EXPECT_FALSE(each.licence.empty() || each.summary.empty()) << each.name;
-    EXPECT_TRUE(each.url.starts_with("http")) << each.url;
+    EXPECT_TRUE(each.url.starts_with("https://")) << each.url;
+    EXPECT_EQ(each.sha256.size(), 64u) << each.name;
   }
   EXPECT_GE(names.size(), 5u);
+}
+
+/// The data folder holds copies of some of them, below the same names.
+TEST(PublicFiles, HaveTheHashesOfTheirCopies) {
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  if (root == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set: no copies";
+  const std::filesystem::path data = root;
+  int found = 0;
+  for (const PublicFile& each : public_files()) {
+    if (!std::filesystem::exists(data / each.file)) continue;
+    EXPECT_EQ(sha256_of_file(data / each.file), each.sha256) << each.name;
+    ++found;
+  }
+  EXPECT_GE(found, 9);
 }
 
 TEST(PublicFiles, RejectWrongEntries) {
