@@ -54,9 +54,9 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
       const std::string poses{std::istreambuf_iterator<char>(in), {}};
       write_file(out / name,
                  fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
-                             printable(cell.sequence),
+                             printable(cell.sequence.text()),
                              cell.repeat,
-                             printable(cell.method),
+                             printable(cell.method.text()),
                              to_text(times),
                              cell.key) +
                      poses);

@@ -27,16 +27,17 @@ void add_report(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->capture_default_str();
   command
-      ->add_option("--size",
-                   arguments->megabytes,
-                   "Maximum file size, reached by thinning trajectories [MB]")
+      ->add_option(
+          "--size",
+          arguments->megabytes,
+          "Maximum file size, reached by thinning trajectories, then by leaving out sequences [MB]")
       ->check(finite_number())
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   command->callback([arguments, &exit_code] {
     reject_overwriting({store_file(arguments->store)}, arguments->out);
-    const std::string html = report_html(read_report_content(arguments->store),
-                                         static_cast<std::size_t>(1e6 * arguments->megabytes));
+    const auto bytes = static_cast<std::size_t>(1e6 * arguments->megabytes);
+    const std::string html = report_html(read_report_content(arguments->store, bytes), bytes);
     write_file(arguments->out, html);
     const std::string written = fmt::format(
         "{}: {:.2f} MB\n", printable(arguments->out), 1e-6 * static_cast<double>(html.size()));

@@ -97,6 +97,9 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
 class OracleMethods {
  public:
   void add(const Record& r) {
+    if (r.sequence == last_.sequence && r.repeat == last_.repeat && r.method == last_.method)
+      return;
+    last_ = {r.sequence, r.repeat, r.method};
     if (!r.oracle) fair_runs_.insert(run_name(r));
     if (r.oracle) runs_of_[r.method].insert(run_name(r));
   }
@@ -111,6 +114,13 @@ class OracleMethods {
   }
 
  private:
+  struct LastCell {
+    SharedText sequence;
+    std::int64_t repeat = -1;
+    SharedText method;
+  };
+
+  LastCell last_;                    // records of one cell mostly follow each other
   std::set<std::string> fair_runs_;  // with a method that does not use the reference
   std::map<std::string, std::set<std::string>> runs_of_;
 };
@@ -144,7 +154,7 @@ std::vector<Comparison> compare(const RecordSource& records, const CompareOption
     all.clear();
     ObservationsBuilder fair(options.value);
     records([&](const Record& r) {
-      if (std::ranges::count(oracles, r.method) == 0) fair.add(r);
+      if (std::ranges::count(oracles, r.method.text()) == 0) fair.add(r);
     });
     all = fair.build();
   }

@@ -3,34 +3,49 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace loopbench::harness {
 namespace {
 
-auto table_kind(const Record& r) {
-  return std::tie(r.protocol, r.times, r.metric, r.label, r.relation, r.axis);
+/// Text that differs between different scores.
+std::string score_key(const Record& r) {
+  std::string out;
+  for (const SharedText* text :
+       {&r.protocol, &r.times, &r.metric, &r.label, &r.relation, &r.axis}) {
+    out += text->text() + '\0';
+  }
+  return out;
 }
+
 Observed observed(const Record& r, const std::string& value_name) {
   if (!r.metric.empty() && r.status == "ok") {
     const double number = value(r, value_name);
     if (std::isfinite(number)) return {number, false, ""};
     return {std::nullopt, true, "not finite"};
   }
-  return {std::nullopt, is_loss(r), r.status == "ok" ? "not evaluated" : r.status};
+  return {std::nullopt, is_loss(r), r.status == "ok" ? "not evaluated" : r.status.text()};
 }
 
 }  // namespace
 
 std::string run_name(const Record& r) {
-  return r.repeat == 0 ? r.sequence : r.sequence + " (repeat " + std::to_string(r.repeat) + ")";
+  return r.repeat == 0 ? r.sequence.text()
+                       : r.sequence + " (repeat " + std::to_string(r.repeat) + ")";
 }
 
-std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) : r.group; }
+std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) : r.group.text(); }
 
 bool is_loss(const Record& r) {
   if (r.status == "ok") return false;
   return r.metric.empty() || (r.status != "undefined" && r.status != "declined");
 }
+
+ObservationsBuilder::ObservationsBuilder(std::string value)
+    : value_(std::move(value)),
+      kinds_({"protocol", "times", "metric", "label", "relation", "axis"}, score_key),
+      methods_({"method"}, [](const Record& r) { return r.method.text(); }),
+      run_names_({"sequence", "repeat"}, run_name) {}
 
 void ObservationsBuilder::put(Observations& table, const Unscored& one) {
   if (table.values.size() <= one.method) table.values.resize(one.method + 1);
@@ -40,7 +55,7 @@ void ObservationsBuilder::put(Observations& table, const Unscored& one) {
 }
 
 void ObservationsBuilder::add(const Record& r) {
-  const Unscored one{methods_.index(r.method), run_names_.index(run_name(r)), observed(r, value_)};
+  const Unscored one{methods_.index(r), run_names_.index(r), observed(r, value_)};
   if (one.run == runs_.size()) {
     runs_.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
   }
@@ -49,17 +64,17 @@ void ObservationsBuilder::add(const Record& r) {
     unscored_.push_back(one);
     return;
   }
-  const auto [found, is_new] = index_.emplace(table_kind(r), tables_.size());
-  if (is_new) {
+  const std::size_t kind = kinds_.index(r);
+  if (kind == tables_.size()) {
     tables_.emplace_back().kind = r;
     for (const Unscored& earlier : unscored_) put(tables_.back(), earlier);
   }
-  put(tables_[found->second], one);
+  put(tables_[kind], one);
 }
 
 std::vector<Observations> ObservationsBuilder::build() {
   for (Observations& table : tables_) {
-    table.methods = methods_.names();
+    table.methods = methods_.texts();
     table.runs = runs_;
     table.values.resize(table.methods.size());
     for (std::vector<Observed>& of_method : table.values) of_method.resize(runs_.size());

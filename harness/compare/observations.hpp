@@ -1,14 +1,12 @@
 /// The values of one score by method and run, input of a comparison.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "harness/compare/name_order.hpp"
 #include "harness/model/record.hpp"
+#include "harness/model/text_index.hpp"
 
 namespace loopbench::harness {
 
@@ -23,11 +21,13 @@ std::string group_name(const Record& record);
 /// or declined scores are a property of the metric and do not count.
 bool is_loss(const Record& record);
 
+inline const SharedText kNotRun = "not run";
+
 /// One value, or the reason why there is none.
 struct Observed {
   std::optional<double> value;
   bool is_loss = false;
-  std::string status = "not run";  ///< "" with a value
+  SharedText status = kNotRun;  ///< "" with a value
 };
 
 struct ObservedRun {
@@ -48,9 +48,9 @@ struct Observations {
 /// Builds observations(), record by record.
 class ObservationsBuilder {
  public:
-  explicit ObservationsBuilder(std::string value) : value_(std::move(value)) {}
+  explicit ObservationsBuilder(std::string value);
 
-  /// Throws InputError for an unknown statistic. O(log n).
+  /// Throws InputError for an unknown statistic. O(1).
   void add(const Record& record);
 
   /// Call once.
@@ -66,12 +66,10 @@ class ObservationsBuilder {
   static void put(Observations& table, const Unscored& one);
 
   std::string value_;
-  NameOrder methods_;
-  NameOrder run_names_;
+  TextIndex kinds_;
+  TextIndex methods_;
+  TextIndex run_names_;
   std::vector<ObservedRun> runs_;
-  std::map<std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>,
-           std::size_t>
-      index_;
   std::vector<Observations> tables_;
   std::vector<Unscored> unscored_;  ///< records without a score, which count in every table
 };

@@ -9,8 +9,9 @@ namespace loopbench::harness {
 
 PairedMethods paired(const Levels& levels, std::size_t first, std::size_t second) {
   PairedMethods out;
+  std::vector<double> both;  // differences of the runs of a group
   for (std::size_t group = 0; group < levels.groups(); ++group) {
-    std::vector<double> both;
+    both.clear();
     int lead = 0;  // runs with a value of only the first, minus those of only the second
     bool is_empty = true;
     for (const std::size_t run : levels.runs_of(group)) {

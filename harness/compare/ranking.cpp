@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <numeric>
 #include <ranges>
@@ -120,6 +121,7 @@ bool is_surely_unproven(const GroupedValues& values, const RankingOptions& optio
   const std::vector<std::size_t> order = order_of(standings_of(levels));
   const std::size_t first = order.front();
   const auto k = static_cast<double>(order.size());
+  std::vector<double> p;  // of the tests against the first
   for (const std::size_t other : order) {
     if (other == first) continue;
     const PairedMethods pair = paired(levels, std::min(first, other), std::max(first, other));
@@ -129,6 +131,12 @@ bool is_surely_unproven(const GroupedValues& values, const RankingOptions& optio
     }
     const SignedRank ranks = signed_rank(pair.losses_last);
     if (ranks.count > 0 && ranks.p > options.alpha) return true;
+    if (ranks.count > 0) p.push_back(ranks.p);
+  }
+  // Holm multiplies each p by at least the number of those that are not smaller.
+  std::ranges::sort(p, std::greater<>());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (static_cast<double>(i + 1) * p[i] > options.alpha) return true;
   }
   return false;
 }

@@ -1,5 +1,7 @@
 #include "harness/gate/snapshot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <sstream>
@@ -11,6 +13,8 @@
 
 namespace loopbench::harness {
 namespace {
+
+constexpr std::size_t kMostScores = 1'000'000;  ///< with rmse and max about 1 GB of memory
 
 /// Format of a stored list of definitions, one per line: the delimiter after the label, and how
 /// much of it belongs to the label.
@@ -58,7 +62,7 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
     const auto files = inputs.find(label);
     const auto own = options.find(label);
     // A sequence that could not be loaded has only the options of the config.
-    out.sequences[label] = (own == options.end() ? cell.dataset_options : own->second) +
+    out.sequences[label] = (own == options.end() ? cell.dataset_options.text() : own->second) +
                            (files == inputs.end() ? "" : inputs_of(files->second));
   }
   for (const GateCell& cell : out.cells) {
@@ -83,11 +87,20 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
   out.methods = definitions(text_of(run, "methods", store), "\t", 0);
   const bool has_times = limits_time(limits);
+  std::size_t numbers = 0;
   gate_cells({}, limits);  // rejects an unknown statistic even without records
   RecordReader(store).for_each_chunk([&](std::vector<Record>& records) {
     if (has_times) std::ranges::move(run_times(records), std::back_inserter(records));
-    std::ranges::move(gate_cells(records, limits), std::back_inserter(out.cells));
-    return true;
+    for (GateCell& cell : gate_cells(records, limits)) {
+      numbers += cell.scores.size();
+      out.cells.push_back(std::move(cell));
+    }
+    if (numbers <= kMostScores) return true;
+    throw InputError(fmt::format(
+        "{}: has more than {} scores to check, which a baseline cannot hold; restrict them by the "
+        "`where` of the baseline's limits",
+        store.string(),
+        kMostScores));
   });
   if (has_times) {
     // Times on different machines are not comparable.

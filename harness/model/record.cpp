@@ -18,7 +18,7 @@ std::string short_score(const Record& record) {
 
 }  // namespace
 
-const std::string& metric_label(const Record& record) {
+const SharedText& metric_label(const Record& record) {
   return record.label.empty() ? record.metric : record.label;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/text/shared_text.hpp"
 #include "methods/report.hpp"
 #include "metrics/better.hpp"
 #include "metrics/numerics/statistics.hpp"
@@ -15,48 +16,48 @@ namespace loopbench::harness {
 /// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
   std::int64_t cell = 0;  ///< position in the sweep
-  std::string sequence;
+  SharedText sequence;
   std::int64_t repeat = 0;
-  std::string method;
-  std::string closures;
+  SharedText method;
+  SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;        ///< the method has access to the reference
   double milliseconds = 0.0;  ///< median wall time of the method
-  std::string protocol;       ///< label; empty if not applicable, as are the next two
-  std::string protocol_version;
-  std::string times;   ///< keyframes | dense
-  std::string metric;  ///< catalogue name; or gain, pairs, time
-  std::string label;   ///< of the metric in the config; empty: the metric's name
-  std::string relation;
-  std::string axis;
-  std::string unit;
+  SharedText protocol;        ///< label; empty if not applicable, as are the next two
+  SharedText protocol_version;
+  SharedText times;   ///< keyframes | dense
+  SharedText metric;  ///< catalogue name; or gain, pairs, time
+  SharedText label;   ///< of the metric in the config; empty: the metric's name
+  SharedText relation;
+  SharedText axis;
+  SharedText unit;
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;  ///< best value where `better` is target
-  std::string group;    ///< runs of one group are not independent; empty: a group of its own
-  std::string content;  ///< hash of problem and reference, equal for equal inputs; can be empty
+  SharedText group;     ///< runs of one group are not independent; empty: a group of its own
+  SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
   metrics::Statistics statistics;
   std::int64_t pairs = 0;     ///< evaluated pose pairs
   std::int64_t possible = 0;  ///< possible pose pairs
-  std::string status = "ok";
-  std::string why;
+  SharedText status = "ok";
+  SharedText why;
 };
 
 /// A cell without its scores.
 struct CellRecord {
   std::int64_t position = 0;  ///< in the sweep: Record::cell
   std::string key;            ///< content key: equal keys mean equal results
-  std::string build;
-  std::string sequence;
+  SharedText build;
+  SharedText sequence;
   std::int64_t repeat = 0;
-  std::string method;
-  std::string dataset_options;
-  std::string method_options;
-  std::string closures;
+  SharedText method;
+  SharedText dataset_options;
+  SharedText method_options;
+  SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
-  std::string worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so
+  SharedText worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so
   std::int64_t runs = 0;
   double seconds = 0.0;  ///< wall time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
@@ -65,16 +66,16 @@ struct CellRecord {
   std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   std::optional<std::int64_t> allocations;
-  std::string status;
-  std::string signal;
-  std::string why;
+  SharedText status;
+  SharedText signal;
+  SharedText why;
   std::vector<methods::Phase> phases;
   std::vector<methods::Count> counts;
   std::vector<std::string> notes;
 };
 
 /// Name of the record's metric in tables: its label in the config, or its name.
-const std::string& metric_label(const Record& record);
+const SharedText& metric_label(const Record& record);
 
 /// Text in the named column of a record: sequence, repeat, method, closures, protocol,
 /// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: label,

@@ -92,7 +92,7 @@ TextTable costs(const std::vector<CellRecord>& cells) {
     std::size_t failed = 0;
     for (const CellRecord* cell : all) {
       if (!is_finished(*cell) && cell->status != "declined") ++failed;
-      (cell->worker.find("serial") == std::string::npos ? shared : alone) = true;
+      (cell->worker.text().find("serial") == std::string::npos ? shared : alone) = true;
     }
     out.rows.push_back(
         {table_name(method, all),

@@ -41,7 +41,7 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
     if (cell.oracle && out.empty()) {
       out.emplace_back("oracle: the method or its data uses the reference");
     }
-    if (cell.oracle_closures && std::ranges::count(measured, cell.sequence) == 0) {
+    if (cell.oracle_closures && std::ranges::count(measured, cell.sequence.text()) == 0) {
       measured.push_back(cell.sequence);
     }
   }

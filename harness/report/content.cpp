@@ -1,8 +1,12 @@
 #include "harness/report/content.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/profile/profile.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/tables/all_records.hpp"
 
 namespace loopbench::harness {
@@ -10,6 +14,35 @@ namespace {
 
 void add_new(std::vector<std::string>& list, const std::string& text) {
   if (std::ranges::find(list, text) == list.end()) list.push_back(text);
+}
+
+void visit_scores(RecordReader& reader, const std::function<void(const Record&)>& visit) {
+  reader.for_each_chunk([&](std::vector<Record>& records) {
+    std::ranges::for_each(records, visit);
+    return true;
+  });
+}
+
+/// Sets the comparisons, the scores without a value, and the records of the first sequences: those
+/// that could fit into `bytes`, at least one.
+void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& out) {
+  constexpr std::size_t kLeastBytesOfAScore = 10;
+  RecordReader reader(out.store);
+  bool has_score = false;
+  std::set<SharedText> taken;
+  const auto take = [&](const Record& r) {
+    has_score = has_score || !r.metric.empty();
+    const bool has_value = r.status == "ok" || r.status == "incomplete";
+    if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
+    const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
+    if (taken.empty() || has_room) taken.insert(r.sequence);
+    if (taken.contains(r.sequence)) out.records.push_back(r);
+  };
+  visit_scores(reader, take);
+  if (baseline.empty() || !has_score) return;
+  CompareOptions options;
+  options.baseline = baseline;
+  out.comparisons = compare([&](const auto& visit) { visit_scores(reader, visit); }, options);
 }
 
 }  // namespace
@@ -29,31 +62,44 @@ const Comparison* ReportContent::headline() const {
   return out;
 }
 
-ReportContent read_report_content(const std::filesystem::path& store) {
+void ReportContent::show(std::size_t count) {
+  shown = std::min(count, shown);
+  const std::set<std::string> kept(sequences.begin(),
+                                   sequences.begin() + static_cast<std::ptrdiff_t>(shown));
+  const auto is_hidden = [&](const auto& one) { return !kept.contains(one.sequence.text()); };
+  std::erase_if(shown_cells, is_hidden);
+  std::erase_if(records, is_hidden);
+}
+
+ReportContent read_report_content(const std::filesystem::path& store, std::size_t bytes) {
   ReportContent out;
   out.store = store;
   out.run = read_run(store);
   out.provenance = read_provenance(store);
   out.inputs = read_inputs(store);
+  const std::string baseline = out.run["baseline"];
+  read_scores(baseline, bytes, out);
   out.cells = read_cells(store);
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to report");
-  out.records = all_records(store);
   for (const CellRecord& cell : out.cells) {
     add_new(out.sequences, cell.sequence);
     add_new(out.methods, cell.method);
   }
-  const std::string baseline = out.run["baseline"];
-  std::vector<Record> scores = out.records;
-  // Gain equals the ratio of the comparison, and the profile covers pairs and times.
-  std::erase_if(scores, [](const Record& r) {
-    return r.metric == "gain" || r.metric == "pairs" || r.metric == "time";
-  });
-  const auto has_score = [](const Record& r) { return !r.metric.empty(); };
-  if (!baseline.empty() && std::ranges::any_of(scores, has_score)) {
-    CompareOptions options;
-    options.baseline = baseline;
-    out.comparisons = compare(scores, options);
+  out.accuracy_and_time = pareto(
+      out.cells,
+      [&](const auto& visit) {
+        RecordReader reader(store);
+        visit_scores(reader, visit);
+      },
+      Accuracy{});
+  add_derived(out.records, baseline);
+  std::set<SharedText> with_records;
+  for (const Record& r : out.records) with_records.insert(r.sequence);
+  out.shown = out.sequences.size();
+  for (const CellRecord& cell : out.cells) {
+    if (with_records.contains(cell.sequence)) out.shown_cells.push_back(cell);
   }
+  out.show(with_records.size());
   return out;
 }
 

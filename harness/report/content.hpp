@@ -3,13 +3,17 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "harness/compare/compare.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/listing.hpp"
 
 namespace loopbench::harness {
+
+inline constexpr std::size_t kReportBytes = 9'000'000;  ///< default size limit
 
 struct ReportContent {
   std::filesystem::path store;
@@ -17,17 +21,31 @@ struct ReportContent {
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;
   std::vector<CellRecord> cells;
-  std::vector<Record> records;          ///< including gains, pair counts and times
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
-  std::vector<std::string> sequences;   ///< labels in the order of the sweep
-  std::vector<std::string> methods;     ///< likewise
+  std::vector<Record> undefined;        ///< scores without a value
+  TextTable accuracy_and_time;
+  std::vector<std::string> sequences;  ///< labels in the order of the sweep
+  std::vector<std::string> methods;    ///< likewise
+
+  /// Tables by sequence and figures are of the first sequences, as many as a report can hold.
+  std::size_t shown = 0;
+  std::vector<CellRecord> shown_cells;
+  std::vector<Record> records;  ///< of shown cells, including gains, pair counts and times
+
+  std::span<const std::string> shown_sequences() const { return std::span(sequences).first(shown); }
+
+  /// Reduces `shown`.
+  void show(std::size_t sequences);
 
   /// The headline comparison of the summary: position ATE under the first protocol, dense if
   /// available, otherwise the first comparison. Null if none compares two methods.
   const Comparison* headline() const;
 };
 
-/// Throws InputError if it is not a store, or a store without cells.
-ReportContent read_report_content(const std::filesystem::path& store);
+/// Shows as many sequences as could fit into `bytes`. The memory is bounded by `bytes`, the number
+/// of cells (about 600 bytes each) and the number of compared values (32 bytes each). Throws
+/// InputError if it is not a store, or a store without cells.
+ReportContent read_report_content(const std::filesystem::path& store,
+                                  std::size_t bytes = kReportBytes);
 
 }  // namespace loopbench::harness

@@ -120,11 +120,12 @@ std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
 
 Thinning initial_thinning(const ReportContent& content, std::size_t bytes) {
   std::size_t repeats = 1;
-  for (const auto& [sequence, own] : repeats_of(content.cells)) {
+  for (const auto& [sequence, own] : repeats_of(content.shown_cells)) {
     repeats = std::max(repeats, own.size());
   }
   for (;; --repeats) {
-    const std::size_t points = points_of_a_cell(drawn_cells(content.cells, repeats).size(), bytes);
+    const std::size_t points =
+        points_of_a_cell(drawn_cells(content.shown_cells, repeats).size(), bytes);
     if (repeats == 1 || points >= kGoodPoints) return {points, repeats};
   }
 }
@@ -148,8 +149,8 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning) 
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
   std::string grids;
   std::string cells;
-  for (const std::size_t i : drawn_cells(content.cells, thinning.repeats)) {
-    const CellRecord& cell = content.cells[i];
+  for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
+    const CellRecord& cell = content.shown_cells[i];
     DrawnSequence* sequence = nullptr;
     if (const auto known = sequences.find(cell.sequence);
         known != sequences.end() && known->second.runs.contains(cell.repeat)) {
@@ -185,7 +186,7 @@ std::string traces_json(const ReportContent& content, const Thinning& thinning) 
                     cut);
   }
   std::string all;
-  for (const std::string& name : content.sequences) {
+  for (const std::string& name : content.shown_sequences()) {
     const auto found = sequences.find(name);
     all += (all.empty() ? "" : ",\n") + (found == sequences.end() ? "null" : found->second.text());
   }

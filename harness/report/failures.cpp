@@ -27,7 +27,8 @@ TextTable of_cells(const ReportContent& content) {
   for (const CellRecord& cell : content.cells) {
     if (cell.status == "ok" && cell.why.empty()) continue;
     const std::string status = cell.status == "ok" ? "not evaluated" : cell.status;
-    const std::string why = cell.signal.empty() ? cell.why : cell.signal + ": " + cell.why;
+    const std::string why =
+        cell.signal.empty() ? cell.why.text() : cell.signal + ": " + cell.why.text();
     Affected& affected = reasons[{status, cell.method, why}];
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
@@ -48,8 +49,7 @@ TextTable of_scores(const ReportContent& content) {
     if (cell.status == "ok" || cell.status == "incomplete") ended.insert(cell.position);
   }
   std::map<Reason, Affected> reasons;
-  for (const Record& r : content.records) {
-    if (r.metric.empty() || r.status == "ok" || r.status == "incomplete") continue;
+  for (const Record& r : content.undefined) {
     if (!ended.contains(r.cell)) continue;
     Affected& affected = reasons[{r.status, r.method, r.why}];
     affected.cells.insert(r.cell);

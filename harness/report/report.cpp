@@ -82,9 +82,8 @@ std::string policy() {
   return out;
 }
 
-}  // namespace
-
-std::string report_html(const ReportContent& content, std::size_t bytes) {
+/// The smallest page, or the first that is smaller than `bytes`.
+std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
   const std::string scores = "{\"scores\":" + scores_json(content) +
                              ",\"comparisons\":" + json(content.comparisons, -1) + ",\"traces\":";
@@ -108,11 +107,25 @@ std::string report_html(const ReportContent& content, std::size_t bytes) {
     if (html.size() <= bytes) return html;
     const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));
     const double room = static_cast<double>(bytes - std::min(bytes, taken));
-    if (reduce(thinning, room / std::max(1.0, traces))) continue;
-    throw InputError(fmt::format("{}: the report needs at least {:.2f} MB, --size is {:.2f}",
-                                 content.store.string(),
-                                 std::ceil(1e-4 * static_cast<double>(html.size())) / 100.0,
-                                 1e-6 * static_cast<double>(bytes)));
+    if (!reduce(thinning, room / std::max(1.0, traces))) return html;
+  }
+}
+
+}  // namespace
+
+std::string report_html(ReportContent content, std::size_t bytes) {
+  for (;;) {
+    std::string html = thinned_html(content, bytes);
+    if (html.size() <= bytes) return html;
+    if (content.shown < 2) {
+      throw InputError(fmt::format("{}: the report needs at least {:.2f} MB, --size is {:.2f}",
+                                   content.store.string(),
+                                   std::ceil(1e-4 * static_cast<double>(html.size())) / 100.0,
+                                   1e-6 * static_cast<double>(bytes)));
+    }
+    const double share = static_cast<double>(bytes) / static_cast<double>(html.size());
+    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(content.shown));
+    content.show(std::clamp<std::size_t>(wanted, 1, content.shown - 1));
   }
 }
 

@@ -8,8 +8,9 @@
 namespace loopbench::harness {
 
 /// Tables and verdicts are plain HTML; figures are drawn from embedded data by the page's scripts
-/// (d3, embedded). Trajectories are thinned until the file is smaller than `bytes`, later repeats
-/// first. Throws InputError naming the minimum size if that is not possible.
-std::string report_html(const ReportContent& content, std::size_t bytes = 9'000'000);
+/// (d3, embedded). Until the file is smaller than `bytes`, trajectories are thinned, later repeats
+/// first; then later sequences are left out of tables and figures, which the summary says. Throws
+/// InputError naming the minimum size if one sequence is too large.
+std::string report_html(ReportContent content, std::size_t bytes = kReportBytes);
 
 }  // namespace loopbench::harness

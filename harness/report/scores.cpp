@@ -55,12 +55,12 @@ std::string scores_json(const ReportContent& content) {
   }
   std::map<std::string, std::size_t> sequence;
   std::map<std::string, std::size_t> method;
-  for (const std::string& name : content.sequences) sequence.emplace(name, sequence.size());
+  for (const std::string& name : content.shown_sequences()) sequence.emplace(name, sequence.size());
   for (const std::string& name : content.methods) method.emplace(name, method.size());
   std::vector<bool> oracle(content.methods.size(), false);
 
   std::string cells;
-  for (const CellRecord& cell : content.cells) {
+  for (const CellRecord& cell : content.shown_cells) {
     const std::size_t m = method.at(cell.method);
     if (cell.oracle) oracle[m] = true;
     std::string values;
@@ -94,7 +94,7 @@ std::string scores_json(const ReportContent& content) {
       "\"statistics\":[\"rmse\",\"mean\",\"median\",\"max\"],\"kinds\":{},\"cells\":[{}]}}",
       json_text(content.methods),
       json_text(oracle),
-      json_text(content.sequences),
+      json_text(content.shown_sequences()),
       json_text(baseline == content.run.end() ? "" : baseline->second),
       json_text(kinds),
       cells);

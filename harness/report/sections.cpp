@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "harness/profile/profile.hpp"
@@ -86,6 +87,14 @@ std::string summary_html(const ReportContent& content) {
     out += fact(number, plural(number, "cell") + " " + status, is_bad ? "bad" : "");
   }
   out += "</div>\n";
+  if (content.shown < content.sequences.size()) {
+    out += fmt::format(
+        "<p class=\"warning\">Tables by sequence and figures show the first {} of {} sequences, "
+        "because the size of the report is limited (--size). Verdicts, costs and failures cover "
+        "all.</p>\n",
+        content.shown,
+        content.sequences.size());
+  }
   const Comparison* headline = content.headline();
   if (headline == nullptr) {
     return out +
@@ -130,10 +139,12 @@ std::string comparison_html(const ReportContent& content) {
 
 std::string scores_html(const ReportContent& content) {
   std::string out;
+  std::map<SharedText, std::vector<Record>> by_sequence;
+  for (const Record& r : content.records) by_sequence[r.sequence].push_back(r);
   const auto part = [&](const std::string& sequence, const std::string& times) {
     std::vector<Record> records;
-    for (const Record& r : content.records) {
-      if (r.sequence == sequence && (r.times == times || r.metric.empty())) records.push_back(r);
+    for (const Record& r : by_sequence[sequence]) {
+      if (r.times == times || r.metric.empty()) records.push_back(r);
     }
     if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
     for (const Table& table : pivot(records, TableSpec{})) {
@@ -142,7 +153,7 @@ std::string scores_html(const ReportContent& content) {
                      "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
     }
   };
-  for (const std::string& sequence : content.sequences) {
+  for (const std::string& sequence : content.shown_sequences()) {
     part(sequence, "keyframes");
     part(sequence, "dense");
   }
@@ -154,7 +165,7 @@ std::string costs_html(const ReportContent& content) {
   for (const TextTable& listing : {costs(content.cells),
                                    reported(content.cells),
                                    scaling(content.cells),
-                                   pareto(content.cells, content.records, Accuracy{})}) {
+                                   content.accuracy_and_time}) {
     if (!listing.rows.empty()) out += html_table(listing);
   }
   return out;

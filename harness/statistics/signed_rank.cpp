@@ -1,11 +1,13 @@
 #include "harness/statistics/signed_rank.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "harness/statistics/normal.hpp"
-#include "harness/statistics/ranks.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -17,19 +19,28 @@ struct Tails {
 
 /// Exact distribution of the sum of ranks with random signs. Midranks are doubled to be integers.
 Tails exact_tails(const std::vector<double>& ranks, double t) {
+  const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
+  const double scale = is_whole ? 1.0 : 2.0;
+  const auto scaled = [&](double rank) {
+    return static_cast<std::size_t>(std::lround(scale * rank));
+  };
   std::size_t total = 0;
-  for (const double rank : ranks) total += static_cast<std::size_t>(std::lround(2.0 * rank));
+  for (const double rank : ranks) total += scaled(rank);
   std::vector<double> chance(total + 1, 0.0);
+  std::vector<double> next(total + 1, 0.0);
   chance[0] = 1.0;
   std::size_t reached = 0;
   for (const double rank : ranks) {
-    const auto step = static_cast<std::size_t>(std::lround(2.0 * rank));
+    const std::size_t step = scaled(rank);
     reached += step;
-    for (std::size_t sum = reached + 1; sum-- > 0;) {
-      chance[sum] = 0.5 * (chance[sum] + (sum >= step ? chance[sum - step] : 0.0));
-    }
+    for (std::size_t sum = 0; sum < step; ++sum) next[sum] = 0.5 * chance[sum];
+    const double* const without = chance.data() + step;
+    const double* const with = chance.data();
+    double* const both = next.data() + step;
+    for (std::size_t i = 0; i <= reached - step; ++i) both[i] = 0.5 * (without[i] + with[i]);
+    std::swap(chance, next);
   }
-  const auto at = static_cast<std::size_t>(std::lround(2.0 * t));
+  const std::size_t at = scaled(t);
   Tails tails{0.0, 0.0};
   for (std::size_t sum = 0; sum <= total; ++sum) {
     if (sum <= at) tails.lower += chance[sum];
@@ -60,21 +71,27 @@ double chosen(const Tails& tails, Alternative alternative) {
 }  // namespace
 
 SignedRank signed_rank(std::span<const double> differences, const SignedRankOptions& options) {
-  std::vector<double> magnitudes;
-  std::vector<bool> signs;
   SignedRank out;
+  // The bits of magnitudes are ordered as the magnitudes are, and leave room for the sign.
+  std::vector<std::uint64_t> ordered;
+  ordered.reserve(differences.size());
   for (const double difference : differences) {
     if (difference == 0.0) ++out.zeros;
     if (difference == 0.0 && options.zeros == Zeros::wilcoxon) continue;
-    magnitudes.push_back(std::abs(difference));
-    signs.push_back(difference > 0.0);
+    const auto magnitude = std::bit_cast<std::uint64_t>(std::abs(difference));
+    ordered.push_back(magnitude << 1 | (difference > 0.0 ? 1 : 0));
   }
-  const std::vector<double> all = midranks(magnitudes);
-  std::vector<double> ranks;  // of non-zero differences
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (magnitudes[i] == 0.0) continue;
-    ranks.push_back(all[i]);
-    (signs[i] ? out.positive : out.negative) += all[i];
+  std::ranges::sort(ordered);
+  std::vector<double> ranks;  // of non-zero differences; ties get the mean of their ranks
+  for (std::size_t begin = 0, end = 0; begin < ordered.size(); begin = end) {
+    const std::uint64_t magnitude = ordered[begin] >> 1;
+    while (end < ordered.size() && ordered[end] >> 1 == magnitude) ++end;
+    if (magnitude == 0) continue;
+    const double shared = 0.5 * static_cast<double>(begin + 1 + end);
+    for (std::size_t i = begin; i < end; ++i) {
+      ranks.push_back(shared);
+      ((ordered[i] & 1) != 0 ? out.positive : out.negative) += shared;
+    }
   }
   out.count = ranks.size();
   if (ranks.empty()) return out;

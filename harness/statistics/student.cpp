@@ -23,13 +23,22 @@ double student_p(double t, std::size_t freedom) {
 }
 
 double student_quantile(double p, std::size_t freedom) {
+  struct Last {
+    double p = 0.0;
+    std::size_t freedom = 0;
+    double quantile = 0.0;
+  };
+  static thread_local Last last;  // intervals of one comparison have the same size
+  if (last.p == p && last.freedom == freedom) return last.quantile;
   double low = 0.0;
   double high = 1.0;
   while (student_p(high, freedom) > p && std::isfinite(high)) high *= 2.0;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
     (student_p(middle, freedom) > p ? low : high) = middle;
   }
+  last = {p, freedom, high};
   return high;
 }
 

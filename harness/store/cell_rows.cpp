@@ -4,6 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/store/digest.hpp"
+#include "harness/store/row_bytes.hpp"
 #include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
@@ -21,41 +22,43 @@ std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
 /// A text of a column; neighbouring cells mostly have the same.
 class SharedColumn {
  public:
-  const std::string* read(Statement& row, CellRows& out) {
+  const SharedText& read(RowBytes& row) {
     const std::string_view text = row.view();
-    if (last_ != nullptr && *last_ == text) return last_;
-    auto found = out.texts.find(text);
-    if (found == out.texts.end()) found = out.texts.emplace(text).first;
-    return last_ = &*found;
+    if (last_.text() != text) last_ = text;
+    return last_;
   }
 
  private:
-  const std::string* last_ = nullptr;
+  SharedText last_;
 };
 
 /// All columns that tables need; `row` is at its first column.
 CellRecord record_of(Statement& row, WithRecords with) {
   CellRecord c;
-  const auto text = [&] {
-    if (with == WithRecords::yes) return row.text();
+  const auto text = [&]() -> SharedText {
+    if (with == WithRecords::yes) return row.view();
     row.skip();
-    return std::string();
+    return {};
   };
   row.skip();  // id
   c.position = row.integer();
-  c.key = text();
+  if (with == WithRecords::yes) {
+    c.key = row.text();
+  } else {
+    row.skip();
+  }
   c.build = text();
   row.skip();  // sequence_key
   row.skip();  // made
-  c.sequence = row.text();
+  c.sequence = row.view();
   c.repeat = row.integer();
-  c.method = row.text();
+  c.method = row.view();
   c.dataset_options = text();
   c.method_options = text();
-  c.closures = row.text();
+  c.closures = row.view();
   c.oracle_closures = row.integer() != 0;
   c.oracle = row.integer() != 0;
-  c.worker = row.text();
+  c.worker = row.view();
   c.runs = row.integer();
   c.seconds = row.real();
   c.seconds_min = row.real();
@@ -64,7 +67,7 @@ CellRecord record_of(Statement& row, WithRecords with) {
   c.peak_memory = maybe(row, &Statement::integer);
   c.added_memory = maybe(row, &Statement::integer);
   c.allocations = maybe(row, &Statement::integer);
-  c.status = row.text();
+  c.status = row.view();
   c.signal = text();
   c.why = text();
   return c;
@@ -74,34 +77,38 @@ class RowReader {
  public:
   explicit RowReader(CellRows& out) : out_(out) {}
 
-  void add(Statement& row) {
+  void add(Statement& statement) {
+    RowBytes row(statement.bytes_of_columns(0, statement.columns()));
     CellRow& cell = out_.cells.emplace_back();
+    const char* const begin = row.rest().data();
     cell.id = row.integer();
     cell.placed = !row.is_null();
     cell.position = row.integer();
     cell.key = hash_of(row.view());
     row.skip();  // build
-    cell.sequence_key = sequence_key_.read(row, out_);
+    cell.sequence_key = sequence_key_.read(row);
     row.skip();  // made
-    cell.sequence = sequence_.read(row, out_);
+    cell.sequence = sequence_.read(row);
     cell.repeat = row.integer();
-    cell.method = method_.read(row, out_);
+    cell.method = method_.read(row);
     row.skip();  // dataset_options
     row.skip();  // method_options
-    cell.closures = closures_.read(row, out_);
+    cell.closures = closures_.read(row);
     cell.oracle_closures = row.integer() != 0;
     cell.oracle = row.integer() != 0;
     row.skip();  // worker
     row.skip();  // runs
     cell.seconds = row.real();
     for (int i = 0; i < 6; ++i) row.skip();  // seconds_min to allocations
-    cell.status = status_.read(row, out_);
+    cell.status = status_.read(row);
     row.skip();  // signal
-    cell.why = why_.read(row, out_);
+    cell.why = why_.read(row);
     cell.failed_scores = row.integer();
     for (Hash& digest : cell.details) digest = parsed_digest(row.view());
+    RowsDigest all;
+    all.add({begin, static_cast<std::size_t>(row.rest().data() - begin)});
     cell.digest = parsed_digest(row.view());
-    cell.intact = digest_of_row(row, 0, row.columns() - 1) == cell.digest;
+    cell.intact = all.value() == cell.digest;
   }
 
  private:
@@ -175,7 +182,8 @@ void read_details(Database& database,
 
 void check_scores(Database& database, const ScoreLists& lists, CellRows& rows) {
   read_details(database, "scores", rows, [&](std::size_t cell, Statement& row) {
-    if (!is_complete(lists, row)) rows.cells[cell].intact = false;
+    const std::string_view key = row.view();
+    if (list_of(lists, key, row.view()) == nullptr) rows.cells[cell].intact = false;
   });
 }
 
@@ -200,7 +208,7 @@ std::string label_of(const CellRecord& cell) {
 }
 
 std::string label_of(const CellRow& cell) {
-  return cell_label(*cell.sequence, cell.repeat, *cell.method);
+  return cell_label(cell.sequence, cell.repeat, cell.method);
 }
 
 std::vector<std::size_t> in_order(const CellRows& rows) {

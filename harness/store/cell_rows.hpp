@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,19 +15,18 @@
 
 namespace loopbench::harness {
 
-/// About 250 bytes: a store can have millions. Texts that cells share are pointers into
-/// CellRows::texts.
+/// About 250 bytes: a store can have millions.
 struct CellRow {
   std::int64_t id = 0;
   std::int64_t position = 0;  ///< in the sweep, if placed
   std::int64_t repeat = 0;
   std::int64_t failed_scores = 0;
-  const std::string* sequence_key = nullptr;
-  const std::string* sequence = nullptr;
-  const std::string* method = nullptr;
-  const std::string* status = nullptr;
-  const std::string* closures = nullptr;
-  const std::string* why = nullptr;
+  SharedText sequence_key;
+  SharedText sequence;
+  SharedText method;
+  SharedText status;
+  SharedText closures;
+  SharedText why;
   double seconds = 0.0;         ///< CellRecord::seconds
   Hash key;                     ///< of the text of CellRecord::key
   std::array<Hash, 6> details;  ///< digests of its rows by detail_number(); zero: none
@@ -42,14 +40,7 @@ struct CellRow {
 struct CellRows {
   std::vector<CellRow> cells;       ///< by id
   std::vector<CellRecord> records;  ///< parallel to cells, if requested; see read_cell_rows()
-  std::set<std::string, std::less<>> texts = {};
-  bool complete = false;  ///< no row is missing: the digests match the stored sum
-
-  CellRows() = default;
-  CellRows(CellRows&&) = default;  // keeps the texts where they are
-  CellRows& operator=(CellRows&&) = default;
-  CellRows(const CellRows&) = delete;
-  CellRows& operator=(const CellRows&) = delete;
+  bool complete = false;            ///< no row is missing: the digests match the stored sum
 };
 
 /// Contents of CellRows::records: none; without key, build, options, signal and reason; or all.

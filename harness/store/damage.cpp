@@ -79,13 +79,13 @@ CheckedStore check_rows(Database& database, bool traces) {
   }
   const bool lost = !out.sequences.complete || !all_intact(out.sequences);
   for (CellRow& cell : out.cells.cells) {
-    const auto sequence = out.sequences.by_key.find(*cell.sequence_key);
+    const auto sequence = out.sequences.by_key.find(cell.sequence_key);
     if (sequence != out.sequences.by_key.end()) {
       if (!sequence->second.intact) cell.intact = false;
       continue;
     }
     // Only a failed cell can have none, because its sequence could not be loaded.
-    const auto status = from_text<Status>(*cell.status);
+    const auto status = from_text<Status>(cell.status);
     if (lost && !(status && is_failure(*status))) cell.intact = false;
   }
   return out;

@@ -13,11 +13,11 @@ using CellIdentity =
     std::tuple<std::uint64_t, std::uint64_t, std::string, std::int64_t, std::string>;
 
 CellIdentity identity_of(const CellRow& cell) {
-  return {cell.key.low, cell.key.high, *cell.sequence, cell.repeat, *cell.method};
+  return {cell.key.low, cell.key.high, cell.sequence, cell.repeat, cell.method};
 }
 
 std::string differing_part(const CellRow& a, const CellRow& b) {
-  if (*a.status != *b.status) return "status";
+  if (a.status != b.status) return "status";
   for (const char* part : {"scores", "count", "note", "section", "trace"}) {
     const Hash& own = a.details[detail_number(part)];
     const Hash& other = b.details[detail_number(part)];

@@ -1,14 +1,25 @@
 #include "harness/store/digest.hpp"
 
+#include <array>
+#include <cstdint>
 #include <cstring>
 
 namespace loopbench::harness {
 namespace {
 
-int hexadecimal(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+constexpr std::uint8_t kNoDigit = 255;
+
+constexpr std::array<std::uint8_t, 256> hexadecimal_digits() {
+  std::array<std::uint8_t, 256> out{};
+  out.fill(kNoDigit);
+  for (std::uint8_t i = 0; i < 10; ++i) out[static_cast<std::size_t>('0' + i)] = i;
+  for (std::uint8_t i = 0; i < 6; ++i) {
+    out[static_cast<std::size_t>('a' + i)] = static_cast<std::uint8_t>(10 + i);
+  }
+  return out;
 }
+
+constexpr std::array<std::uint8_t, 256> kDigits = hexadecimal_digits();
 
 }  // namespace
 
@@ -16,9 +27,9 @@ Hash parsed_digest(std::string_view digest) {
   if (digest.size() != 32) return {};
   std::uint64_t parts[2] = {0, 0};
   for (std::size_t i = 0; i < digest.size(); ++i) {
-    const int digit = hexadecimal(digest[i]);
-    if (digit < 0) return {};
-    parts[i / 16] = parts[i / 16] << 4 | static_cast<std::uint64_t>(digit);
+    const std::uint8_t digit = kDigits[static_cast<unsigned char>(digest[i])];
+    if (digit == kNoDigit) return {};
+    parts[i / 16] = parts[i / 16] << 4 | digit;
   }
   return {parts[0], parts[1]};
 }

@@ -20,7 +20,7 @@ std::vector<Record> read_records(const std::filesystem::path& file);
 /// One row per cell, in sweep order.
 std::vector<CellRecord> read_cells(const std::filesystem::path& file);
 
-/// The same without key, build, options, signal, reason and notes: about 800 bytes of memory per
+/// The same without key, build, options, signal, reason and notes: about 350 bytes of memory per
 /// cell.
 std::vector<CellRecord> read_costs(const std::filesystem::path& file);
 

@@ -1,31 +1,36 @@
 #include "harness/store/record_reader.hpp"
 
 #include <algorithm>
+#include <future>
 #include <set>
 #include <unordered_map>
 
 #include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/row_bytes.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kScoresOfCell = "SELECT * FROM scores WHERE cell = ?";
+constexpr const char* kScoresFromCell = "SELECT * FROM scores WHERE cell >= ? ORDER BY cell";
+constexpr int kFewRows = 8;  ///< rows that are passed over faster than a search
+const std::size_t kScores = detail_number("scores");
+const SharedText kOk = "ok";
 
-/// The common fields of all records of a cell.
-Record common_fields(const CellRow& cell) {
-  Record r;
+constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
+
+/// Sets the common fields of all records of a cell.
+void set_cell(Record& r, const CellRow& cell) {
   r.cell = cell.position;
-  r.sequence = *cell.sequence;
+  r.sequence = cell.sequence;
   r.repeat = cell.repeat;
-  r.method = *cell.method;
-  r.closures = *cell.closures;
+  r.method = cell.method;
+  r.closures = cell.closures;
   r.oracle_closures = cell.oracle_closures;
   r.oracle = cell.oracle;
   r.milliseconds = cell.seconds * 1000;
-  r.status = *cell.status;
-  r.why = *cell.why;
-  return r;
+  r.status = cell.status;
+  r.why = cell.why;
 }
 
 void set_definition(Record& r, const ScoreDefinition& d) {
@@ -48,12 +53,12 @@ bool can_be_failed_metric(const ScoreDefinition& d) {
 
 /// For each position in `order`, whether every sequence that began up to there has ended.
 std::vector<bool> ends_of_chunks(const CellRows& rows, const std::vector<std::size_t>& order) {
-  std::unordered_map<const std::string*, std::size_t> last;
-  for (std::size_t i = 0; i < order.size(); ++i) last[rows.cells[order[i]].sequence] = i;
+  std::unordered_map<const void*, std::size_t> last;
+  for (std::size_t i = 0; i < order.size(); ++i) last[rows.cells[order[i]].sequence.id()] = i;
   std::vector<bool> out(order.size(), false);
   std::size_t end = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    end = std::max(end, last.at(rows.cells[order[i]].sequence));
+    end = std::max(end, last.at(rows.cells[order[i]].sequence.id()));
     out[i] = i == end;
   }
   return out;
@@ -100,11 +105,19 @@ void RecordReader::find_scores() {
   }
 }
 
-bool RecordReader::has_several_protocols() const {
-  std::set<std::string> protocols;
+void RecordReader::for_each_definition(const std::function<void(const Record&)>& visit) const {
   for (const auto& [key, list] : lists_.all()) {
-    for (const ScoreDefinition& definition : list) protocols.insert(definition.protocol);
+    for (const ScoreDefinition& definition : list) {
+      Record record;
+      set_definition(record, definition);
+      visit(record);
+    }
   }
+}
+
+bool RecordReader::has_several_protocols() const {
+  std::set<SharedText> protocols;
+  for_each_definition([&](const Record& definition) { protocols.insert(definition.protocol); });
   return protocols.size() > 1;
 }
 
@@ -114,57 +127,118 @@ void RecordReader::fail(const CellRow& cell) {
   throw_damaged(file_, label_of(cell) + " is");
 }
 
-void RecordReader::add_cell(std::size_t index, Statement& scores, std::vector<Record>& out) {
-  const CellRow& cell = rows_.cells[index];
-  Record common = common_fields(cell);
-  const auto sequence = sequences_.by_key.find(*cell.sequence_key);
-  if (sequence != sequences_.by_key.end()) {
-    common.content = sequence->second.content;
-    common.group = sequence->second.group;
+void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept) {
+  is_kept_ = is_kept;
+  kept_scores_.clear();
+}
+
+const RecordReader::KeptScores& RecordReader::kept_scores(const ScoreList& list) {
+  const auto [place, is_new] = kept_scores_.try_emplace(&list);
+  KeptScores& out = place->second;
+  for (std::size_t i = 0; is_new && i < list.size(); ++i) {
+    Record definition;
+    set_definition(definition, list[i]);
+    if (is_kept_ && !is_kept_(definition)) continue;
+    out.index.push_back(i);
+    out.records.push_back(std::move(definition));
   }
-  scores.bind(cell.id);
-  const bool has_scores = scores.step();
-  const Hash digest = has_scores ? digest_of_row(scores, 1, scores.columns()) : Hash{};
-  if (digest != cell.details[detail_number("scores")]) fail(cell);
-  if (!has_scores) {  // a declined or failed cell has none
-    scores.reset();
-    out.push_back(std::move(common));
+  return out;
+}
+
+void RecordReader::set_run(const SharedText& sequence_key) {
+  if (run_ == sequence_key) return;
+  run_ = sequence_key;
+  const auto found = sequences_.by_key.find(sequence_key);
+  content_ = found == sequences_.by_key.end() ? "" : found->second.content;
+  group_ = found == sequences_.by_key.end() ? "" : found->second.group;
+}
+
+std::string_view RecordReader::scores_of(const CellRow& cell) {
+  // Cells are mostly in the order in which they were written.
+  for (int i = 0; has_row_ && row_cell_ < cell.id && i < kFewRows; ++i) step_scores();
+  if (!has_row_ || row_cell_ != cell.id) {
+    scores_->reset();
+    scores_->bind(cell.id);
+    step_scores();
+  }
+  if (!has_row_ || row_cell_ != cell.id) return {};
+  return scores_->bytes_of_columns(1, scores_->columns());
+}
+
+void RecordReader::step_scores() {
+  has_row_ = scores_->step();
+  row_cell_ = has_row_ ? scores_->integer() : 0;
+}
+
+void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
+  const CellRow& cell = rows_.cells[index];
+  set_run(cell.sequence_key);
+  const std::string_view bytes = scores_of(cell);
+  RowsDigest digest;
+  if (!bytes.empty()) digest.add(bytes);
+  if (digest.value() != cell.details[kScores]) fail(cell);
+  const auto add = [&](const Record& definition) -> Record& {
+    Record& r = out.emplace_back(definition);
+    set_cell(r, cell);
+    r.content = content_;
+    r.group = group_;
+    return r;
+  };
+  if (bytes.empty()) {  // a declined or failed cell has none
+    add({});
     return;
   }
-  scores.skip();  // cell
-  if (!is_complete(lists_, scores)) fail(cell);
-  scores.rewind();
-  scores.skip();
-  const ScoreList& list = *lists_.find(scores.view());
-  const std::string_view numbers = scores.view();
-  const std::string_view statuses = scores.view();
-  const std::vector<std::string> own = split_statuses(statuses, list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    Record& r = out.emplace_back(common);
-    set_definition(r, list[i]);
-    const ScoreNumbers values = unpacked(numbers, i);
+  RowBytes row(bytes);
+  const std::string_view key = row.view();
+  const std::string_view numbers = row.view();
+  const std::string_view statuses = row.view();
+  const ScoreList* const list = list_of(lists_, key, numbers);
+  if (list == nullptr) fail(cell);
+  std::vector<std::string> own;  // empty: all are ok
+  if (!statuses.empty()) own = split_statuses(statuses, list->size());
+  // An incomplete cell can be complete at other times, so its scores have their own status.
+  const bool is_incomplete = cell.status == "incomplete";
+  const bool has_status = cell.status == "ok" || is_incomplete;
+  const bool has_reason = cell.why.empty() || is_incomplete;
+  const KeptScores& kept = kept_scores(*list);
+  for (std::size_t i = 0; i < kept.index.size(); ++i) {
+    Record& r = add(kept.records[i]);
+    const std::size_t number = kept.index[i];
+    const ScoreNumbers values = unpacked(numbers, number);
     r.statistics = values.statistics;
     r.pairs = values.pairs;
     r.possible = values.possible;
-    // An incomplete cell can be complete at other times, so its scores have their own status.
-    const bool is_incomplete = common.status == "incomplete";
-    if (common.status == "ok" || is_incomplete) r.status = own[2 * i];
-    if (common.why.empty() || is_incomplete) r.why = own[2 * i + 1];
+    if (has_status) r.status = own.empty() ? kOk : SharedText(own[2 * number]);
+    if (has_reason) r.why = own.empty() ? SharedText() : SharedText(own[2 * number + 1]);
   }
-  scores.reset();
 }
 
 void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)>& visit) {
-  Statement scores = database_.prepare(kScoresOfCell);
+  scores_.emplace(database_.prepare(kScoresFromCell));
+  has_row_ = false;
   const std::vector<bool> is_end = ends_of_chunks(rows_, order_);
-  std::vector<Record> records;
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    add_cell(order_[i], scores, records);
-    if (!is_end[i]) continue;
-    failed_metrics_.expand(records);
-    if (!visit(records)) return;
-    records.clear();
+  std::size_t next = 0;
+  std::size_t size = 0;  // of the last chunk
+  const auto read = [&] {
+    std::vector<Record> out;
+    out.reserve(size);
+    while (next < order_.size()) {
+      add_cell(order_[next], out);
+      if (is_end[next++] && out.size() >= kLeastRecords) break;
+    }
+    size = out.size();
+    failed_metrics_.expand(out);
+    return out;
+  };
+  // One chunk is read while the previous one is visited.
+  std::future<std::vector<Record>> coming = std::async(std::launch::deferred, read);
+  for (bool goes_on = next < order_.size(); goes_on;) {
+    std::vector<Record> records = coming.get();
+    goes_on = next < order_.size();
+    if (goes_on) coming = std::async(std::launch::async, read);
+    if (!visit(records)) return;  // waits for `coming`
   }
+  scores_.reset();
 }
 
 }  // namespace loopbench::harness

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "harness/model/record.hpp"
@@ -24,16 +26,34 @@ class RecordReader {
   explicit RecordReader(const std::filesystem::path& file);
 
   /// Visits all records in sweep order, in chunks: every sequence is complete within one chunk, and
-  /// a chunk is one sequence unless their cells are mixed. Metrics are expanded as described at
-  /// read_records(). Ends early if `visit` returns false. Throws InputError at the first damaged
-  /// cell. O(scores).
+  /// a chunk is one sequence, or several if they are small or their cells are mixed. The next chunk
+  /// is read on another thread during a visit. Metrics are expanded as described at read_records().
+  /// Ends early if `visit` returns false. Throws InputError at the first damaged cell. O(scores).
   void for_each_chunk(const std::function<bool(std::vector<Record>& records)>& visit);
+
+  /// Restricts for_each_chunk() to the scores whose definition (protocol, times, metric, label,
+  /// relation, axis, unit) passes, and to cells without any score.
+  void keep_scores(const std::function<bool(const Record& definition)>& is_kept);
+
+  /// Visits the definitions of all scores of the store, each at least once.
+  void for_each_definition(const std::function<void(const Record& definition)>& visit) const;
 
   /// Whether the scores have more than one protocol.
   bool has_several_protocols() const;
 
  private:
-  void add_cell(std::size_t cell, Statement& scores, std::vector<Record>& out);
+  /// The kept scores of a list, with the fields of their definitions.
+  struct KeptScores {
+    std::vector<std::size_t> index;  ///< in the list
+    std::vector<Record> records;
+  };
+
+  void add_cell(std::size_t cell, std::vector<Record>& out);
+  /// The serialised row of a cell without its number; empty if it has none.
+  std::string_view scores_of(const CellRow& cell);
+  void step_scores();
+  void set_run(const SharedText& sequence_key);
+  const KeptScores& kept_scores(const ScoreList& list);
   [[noreturn]] void fail(const CellRow& cell);
   void find_scores();
 
@@ -44,6 +64,14 @@ class RecordReader {
   ScoreLists lists_;
   std::vector<std::size_t> order_;  ///< in_order(rows_)
   FailedMetrics failed_metrics_;
+  std::optional<Statement> scores_;  ///< at the row of cell row_cell_
+  bool has_row_ = false;
+  std::int64_t row_cell_ = 0;
+  std::function<bool(const Record&)> is_kept_;
+  std::unordered_map<const ScoreList*, KeptScores> kept_scores_;
+  SharedText run_;  ///< key of the sequence of the last cell, its content and group
+  SharedText content_;
+  SharedText group_;
 };
 
 }  // namespace loopbench::harness

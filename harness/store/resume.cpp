@@ -47,12 +47,12 @@ std::vector<Hash> keys_now(const SequenceRows& sequences,
 }
 
 bool same_labels(const CellRow& row, const Cell& cell, const Sweep& sweep) {
-  return *row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
-         *row.method == sweep.methods[cell.method].label;
+  return row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
+         row.method == sweep.methods[cell.method].label;
 }
 
 bool has_failed(const CellRow& row) {
-  return is_failure(from_text<Status>(*row.status).value_or(Status::failed)) ||
+  return is_failure(from_text<Status>(row.status).value_or(Status::failed)) ||
          row.failed_scores > 0;
 }
 
@@ -144,7 +144,7 @@ Resumed match(Database& database,
     }
     ++out.there;
     if (has_failed(*row)) ++out.failed;
-    if (*row->status == to_text(Status::incomplete)) ++out.incomplete;
+    if (row->status == to_text(Status::incomplete)) ++out.incomplete;
   }
   return out;
 }

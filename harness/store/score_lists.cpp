@@ -1,6 +1,7 @@
 #include "harness/store/score_lists.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -30,6 +31,20 @@ double unpacked_number(const char* raw) {
   return std::bit_cast<double>(__builtin_bswap64(big));
 }
 
+/// All texts of a definition, in the order of the columns.
+template <class Definition>
+auto texts_of(Definition& d) {
+  return std::array{&d.protocol,
+                    &d.protocol_version,
+                    &d.times,
+                    &d.metric,
+                    &d.label,
+                    &d.relation,
+                    &d.axis,
+                    &d.unit,
+                    &d.better};
+}
+
 /// The lists of one table whose key matches; clears `intact` at any other.
 ScoreListMap intact_lists(Database& database, const std::string& table, bool& intact) {
   ScoreListMap out;
@@ -41,16 +56,8 @@ ScoreListMap intact_lists(Database& database, const std::string& table, bool& in
     const std::int64_t number = row.integer();
     if (number != static_cast<std::int64_t>(list.size())) intact = false;
     ScoreDefinition& d = list.emplace_back();
-    for (std::string* text : {&d.protocol,
-                              &d.protocol_version,
-                              &d.times,
-                              &d.metric,
-                              &d.label,
-                              &d.relation,
-                              &d.axis,
-                              &d.unit,
-                              &d.better}) {
-      *text = row.text();
+    for (SharedText* text : texts_of(d)) {
+      *text = row.view();
     }
     d.target = row.real();
   }
@@ -65,8 +72,7 @@ ScoreListMap intact_lists(Database& database, const std::string& table, bool& in
 std::string key_of(const ScoreList& list) {
   Fields fields;
   for (const ScoreDefinition& d : list) {
-    fields.add(d.protocol).add(d.protocol_version).add(d.times).add(d.metric).add(d.label);
-    fields.add(d.relation).add(d.axis).add(d.unit).add(d.better);
+    for (const SharedText* text : texts_of(d)) fields.add(text->text());
     fields.add(std::to_string(std::bit_cast<std::uint64_t>(d.target + 0.0)));
   }
   return fields.hashed();
@@ -91,16 +97,8 @@ void write_list(Database& database, const std::string& key, const ScoreList& lis
     std::int64_t number = 0;
     for (const ScoreDefinition& d : list) {
       insert.bind(key).bind(number++);
-      for (const std::string* text : {&d.protocol,
-                                      &d.protocol_version,
-                                      &d.times,
-                                      &d.metric,
-                                      &d.label,
-                                      &d.relation,
-                                      &d.axis,
-                                      &d.unit,
-                                      &d.better}) {
-        insert.bind(*text);
+      for (const SharedText* text : texts_of(d)) {
+        insert.bind(text->text());
       }
       insert.bind(d.target).run();
     }
@@ -148,9 +146,9 @@ ScoreNumbers unpacked(std::string_view bytes, std::size_t index) {
   return out;
 }
 
-bool is_complete(const ScoreLists& lists, Statement& row) {
-  const ScoreList* list = lists.find(row.view());
-  return list != nullptr && row.view().size() == kPackedScore * list->size();
+const ScoreList* list_of(const ScoreLists& lists, std::string_view key, std::string_view numbers) {
+  const ScoreList* list = lists.find(key);
+  return list != nullptr && numbers.size() == kPackedScore * list->size() ? list : nullptr;
 }
 
 std::string joined_statuses(const std::vector<std::string>& statuses_and_reasons) {

@@ -10,21 +10,22 @@
 #include <vector>
 
 #include "harness/store/sqlite.hpp"
+#include "harness/text/shared_text.hpp"
 #include "metrics/numerics/statistics.hpp"
 
 namespace loopbench::harness {
 
 /// The texts of one score.
 struct ScoreDefinition {
-  std::string protocol;
-  std::string protocol_version;
-  std::string times;
-  std::string metric;
-  std::string label;
-  std::string relation;
-  std::string axis;
-  std::string unit;
-  std::string better;
+  SharedText protocol;
+  SharedText protocol_version;
+  SharedText times;
+  SharedText metric;
+  SharedText label;
+  SharedText relation;
+  SharedText axis;
+  SharedText unit;
+  SharedText better;
   double target = 0.0;
 
   bool operator==(const ScoreDefinition&) const = default;
@@ -81,8 +82,8 @@ void pack(const ScoreNumbers& numbers, std::string& bytes);
 /// The numbers of score `index`; `bytes` holds more than `index` scores.
 ScoreNumbers unpacked(std::string_view bytes, std::size_t index);
 
-/// Whether the list of a row of table scores is there and fits; `row` is at column `list`.
-bool is_complete(const ScoreLists& lists, Statement& row);
+/// The list of a row of table scores; nullptr if it is missing or does not fit the numbers.
+const ScoreList* list_of(const ScoreLists& lists, std::string_view key, std::string_view numbers);
 
 /// The column `statuses`: empty if all statuses are ok without a reason; otherwise status and
 /// reason of each score, separated by kStatusSeparator.

@@ -70,13 +70,13 @@ std::vector<methods::Section> Traces::sections(std::int64_t position) {
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   const CellRow* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  const auto sequence = sequences_.by_key.find(*cell->sequence_key);
+  const auto sequence = sequences_.by_key.find(cell->sequence_key);
   if (sequence == sequences_.by_key.end()) return std::nullopt;
   if (sequence->second.trace_digest.empty()) return std::nullopt;
   Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?");
-  if (!found.bind(*cell->sequence_key).step() ||
+  if (!found.bind(cell->sequence_key).step() ||
       digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
-    throw_damaged(file_, "the trace of sequence " + *cell->sequence + " is");
+    throw_damaged(file_, "the trace of sequence " + cell->sequence + " is");
   }
   SequenceTrace out;
   found.text();  // sequence_key

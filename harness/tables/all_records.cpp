@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/name_order.hpp"
@@ -31,6 +33,15 @@ class FilteredRecords {
   void for_each(bool derived, const std::function<bool(const Record&)>& visit) {
     for_each_record(
         reader_, baseline_, derived, [&](const Record& r) { return !is_kept_(r) || visit(r); });
+  }
+
+  /// Restricts for_each(false, ...) to metrics of which a score has this text in the field.
+  void keep_metrics(const std::string& metric, std::size_t own) {
+    std::set<std::pair<SharedText, SharedText>> kept;  // metric and label
+    reader_.for_each_definition([&](const Record& r) {
+      if (field(r, kMetricFields[own]) == metric) kept.emplace(r.metric, r.label);
+    });
+    reader_.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
   }
 
   /// The first of kMetricFields in which a record has this text; kNoField if there is none.
@@ -81,6 +92,7 @@ void add_derived(std::vector<Record>& records, const std::string& baseline) {
   std::vector<Record> gain = gains(records, baseline);
   std::vector<Record> pairs = pair_counts(records);
   std::vector<Record> time = run_times(records);
+  records.reserve(records.size() + gain.size() + pairs.size() + time.size());
   for (std::vector<Record>* more : {&gain, &pairs, &time}) {
     records.insert(
         records.end(), std::move_iterator(more->begin()), std::move_iterator(more->end()));
@@ -122,6 +134,7 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   if (options.baseline.empty()) {
     throw InputError(store.string() + ": the sweep has no baseline; set --baseline METHOD");
   }
+  if (!derived) all.keep_metrics(metric, own);
   const RecordSource wanted = [&](const auto& visit) {
     all.for_each(derived, [&](const Record& r) {
       if (r.metric.empty() || field(r, kMetricFields[own]) == metric) visit(r);

@@ -5,10 +5,6 @@
 namespace loopbench::harness {
 namespace {
 
-bool intersect(const std::set<std::string>& a, const std::set<std::string>& b) {
-  return std::ranges::any_of(a, [&](const std::string& run) { return b.contains(run); });
-}
-
 std::string runs_text(const std::set<std::size_t>& runs) {
   std::string out;
   for (const std::size_t count : runs) {
@@ -19,22 +15,21 @@ std::string runs_text(const std::set<std::size_t>& runs) {
 
 }  // namespace
 
-std::vector<std::set<std::string>> common_runs(const std::vector<EntryRuns>& entries) {
-  std::vector<std::set<std::string>> out(entries.size());
+std::vector<RunSet> common_runs(const std::vector<EntryRuns>& entries) {
+  std::vector<RunSet> out(entries.size());
   std::vector<bool> is_done(entries.size());
   for (std::size_t first = 0; first < entries.size(); ++first) {
     if (is_done[first] || entries[first].finished.empty()) continue;
     std::vector<std::size_t> compared{first};
     is_done[first] = true;
-    std::set<std::string> common = entries[first].finished;
+    RunSet common = entries[first].finished;
     for (std::size_t i = 0; i < compared.size(); ++i) {
       for (std::size_t other = 0; other < entries.size(); ++other) {
         if (is_done[other] || entries[other].finished.empty()) continue;
-        if (!intersect(entries[compared[i]].tried, entries[other].tried)) continue;
+        if (!entries[compared[i]].tried.intersects(entries[other].tried)) continue;
         compared.push_back(other);
         is_done[other] = true;
-        std::erase_if(common,
-                      [&](const auto& run) { return !entries[other].finished.contains(run); });
+        common.keep(entries[other].finished);
       }
     }
     for (const std::size_t i : compared) out[i] = common;

@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "harness/tables/by_run.hpp"
+
 namespace loopbench::harness {
 
-/// One entry of a column (or a row) of a table, by names of runs.
+/// One entry of a column (or a row) of a table.
 struct EntryRuns {
-  std::set<std::string> tried;     ///< runs with any outcome
-  std::set<std::string> finished;  ///< runs with a number; subset of `tried`
+  RunSet tried;     ///< runs with any outcome
+  RunSet finished;  ///< runs with a number; subset of `tried`
 };
 
 /// Returns for each entry the runs that all entries compared with it have finished. Two entries are
 /// compared if both finished at least one run and tried a common run, directly or through other
 /// entries. A method that fails everywhere and entries of other sequences therefore do not restrict
 /// the runs. O(entries^2 * runs).
-std::vector<std::set<std::string>> common_runs(const std::vector<EntryRuns>& entries);
+std::vector<RunSet> common_runs(const std::vector<EntryRuns>& entries);
 
 /// Note below a table with means over common runs.
 class CommonRunsNote {

@@ -15,7 +15,7 @@ std::string title(const Comparison& c) {
   std::string out;
   const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
   const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
-  for (const std::string& word : {metric_label(c.kind), relation, axis, c.options.value}) {
+  for (const std::string& word : {metric_label(c.kind).text(), relation, axis, c.options.value}) {
     if (!word.empty()) out += (out.empty() ? "" : " ") + word;
   }
   return out + ", " + c.kind.times + ", " + c.kind.protocol;
@@ -93,12 +93,12 @@ std::string csv(const std::vector<Comparison>& comparisons) {
       };
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
                          quoted(c.kind.protocol),
-                         c.kind.times,
+                         c.kind.times.text(),
                          quoted(c.kind.metric),
                          quoted(metric_label(c.kind)),
-                         c.kind.relation,
-                         c.kind.axis,
-                         c.kind.unit,
+                         c.kind.relation.text(),
+                         c.kind.axis.text(),
+                         c.kind.unit.text(),
                          c.options.value,
                          quoted(c.options.baseline),
                          over_name(c.options.over),

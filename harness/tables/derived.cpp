@@ -15,7 +15,7 @@ auto comparison_key(const Record& r) {
   return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
 }
 using RowPlace =
-    std::tuple<std::string, std::int64_t, std::string, std::string, std::string, std::string>;
+    std::tuple<SharedText, std::int64_t, SharedText, SharedText, SharedText, SharedText>;
 
 bool is_gain_source(const Record& r) {
   return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
@@ -30,20 +30,24 @@ double gain(double value, double baseline) {
 /// A score of a single number: every statistic has this value.
 template <class Number>
 std::vector<Record> one_per_cell(const std::vector<Record>& records,
-                                 const std::string& metric,
-                                 const std::string& unit,
+                                 const SharedText& metric,
+                                 const SharedText& unit,
                                  metrics::Better better,
                                  Number number) {
   std::vector<Record> out;
-  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
+  std::set<std::tuple<std::int64_t, SharedText, SharedText>> seen;
+  const Record* last = nullptr;
   for (const Record& r : records) {
     if (r.status != "ok" || r.metric.empty()) continue;
-    if (!seen.emplace(r.cell, r.protocol, r.times).second) continue;
+    const bool is_like_last = last != nullptr && last->cell == r.cell &&
+                              last->protocol == r.protocol && last->times == r.times;
+    last = &r;
+    if (is_like_last || !seen.emplace(r.cell, r.protocol, r.times).second) continue;
     Record one = r;
     one.metric = metric;
     one.label.clear();
     one.better = better;
-    one.relation = one.axis = "";
+    one.relation = one.axis = {};
     one.unit = unit;
     const double x = number(r);
     one.statistics = {1, x, x, x, 0.0, x, x, x * x};
@@ -59,16 +63,18 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
   for (const Record& r : records) {
     if (is_gain_source(r) && r.method == baseline) base.emplace(comparison_key(r), &r.statistics);
   }
+  const SharedText metric = "gain";
+  const SharedText unit = "%";
   std::vector<Record> out;
   for (const Record& r : records) {
     const auto found = is_gain_source(r) ? base.find(comparison_key(r)) : base.end();
     if (found == base.end()) continue;
     const metrics::Statistics& b = *found->second;
     Record g = r;
-    g.metric = "gain";
+    g.metric = metric;
     g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
     g.better = metrics::Better::higher;
-    g.unit = "%";
+    g.unit = unit;
     for (double metrics::Statistics::*number : {&metrics::Statistics::rmse,
                                                 &metrics::Statistics::mean,
                                                 &metrics::Statistics::median,

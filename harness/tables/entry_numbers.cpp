@@ -10,32 +10,54 @@
 
 namespace loopbench::harness {
 
-std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content; }
+std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content.text(); }
 
-void EntryNumbers::add(const Record& record, double value) {
-  values_.push_back({run_key(record), group_name(record), record.method, value});
-  ++added_;
+void EntryNumbers::add(const Record& record, std::size_t run, std::size_t group, double value) {
+  values_.push_back({run, group, record.method, value});
   method_ = record.method;
   is_gain_ = record.metric == "gain";
+  is_oracle_ = record.oracle;
   if (record.oracle) return;
-  runs_[run_key(record)] = value;
   better_ = record.better;
   target_ = record.target;
 }
 
-std::set<std::string> EntryNumbers::finished() const {
-  std::set<std::string> out;
-  for (const Value& one : values_) out.insert(one.run);
+std::size_t EntryNumbers::averaged() const {
+  return static_cast<std::size_t>(std::ranges::count(values_, true, &Value::is_kept));
+}
+
+RunSet EntryNumbers::finished() const {
+  RunSet out;
+  for (const Value& one : values_) {
+    if (one.is_kept) out.insert(one.run);
+  }
   return out;
 }
 
-void EntryNumbers::keep(const std::set<std::string>& runs) {
-  std::erase_if(values_, [&](const Value& one) { return !runs.contains(one.run); });
+ByRun EntryNumbers::runs() const {
+  ByRun out;
+  if (is_oracle_) return out;
+  for (const Value& one : values_) out.set(one.run, one.value);
+  return out;
+}
+
+void EntryNumbers::keep(const RunSet& runs) {
+  for (Value& one : values_) one.is_kept = one.is_kept && runs.contains(one.run);
+}
+
+std::vector<double> EntryNumbers::kept() const {
+  std::vector<double> out;
+  for (const Value& one : values_) {
+    if (one.is_kept) out.push_back(one.value);
+  }
+  return out;
 }
 
 double EntryNumbers::gain() const {
-  std::map<std::string, std::map<std::pair<std::string, std::string>, double>> by_group;
-  for (const Value& one : values_) by_group[one.group][{one.method, one.run}] = one.value;
+  std::map<std::size_t, std::map<std::pair<SharedText, std::size_t>, double>> by_group;
+  for (const Value& one : values_) {
+    if (one.is_kept) by_group[one.group][{one.method, one.run}] = one.value;
+  }
   std::vector<double> groups;
   for (const auto& [group, gains] : by_group) {
     std::vector<double> logarithms;
@@ -46,24 +68,19 @@ double EntryNumbers::gain() const {
 }
 
 std::optional<double> EntryNumbers::average() const {
+  const std::vector<double> all = kept();
   // One zero error would make the geometric mean zero.
-  const auto zeros = std::ranges::count(values_, 100.0, &Value::value);
-  const bool has_no_mean = is_gain_ && zeros > 0 && zeros < std::ssize(values_);
-  if (values_.empty() || has_no_mean) return std::nullopt;
-  std::vector<double> all;
-  for (const Value& one : values_) all.push_back(one.value);
+  const auto zeros = std::ranges::count(all, 100.0);
+  const bool has_no_mean = is_gain_ && zeros > 0 && zeros < std::ssize(all);
+  if (all.empty() || has_no_mean) return std::nullopt;
   const double out = is_gain_ ? gain() : mean(all);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
 std::optional<double> EntryNumbers::deviation() const {
-  if (values_.size() < 2) return std::nullopt;
-  std::vector<double> all;
-  for (const Value& one : values_) all.push_back(one.value);
-  const double centre = mean(all);
-  double squares = 0.0;
-  for (const double value : all) squares += (value - centre) * (value - centre);
-  const double out = std::sqrt(squares / static_cast<double>(all.size() - 1));
+  const std::vector<double> all = kept();
+  if (all.size() < 2) return std::nullopt;
+  const double out = sample_deviation(all);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 

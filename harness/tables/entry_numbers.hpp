@@ -2,12 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/tables/mark_best.hpp"
+#include "harness/tables/by_run.hpp"
 
 namespace loopbench::harness {
 
@@ -16,16 +15,17 @@ std::string run_key(const Record& record);
 
 class EntryNumbers {
  public:
-  void add(const Record& record, double value);
+  /// `run` and `group`: numbers of run_key() and group_name().
+  void add(const Record& record, std::size_t run, std::size_t group, double value);
 
   /// Number of added records.
-  std::size_t size() const { return added_; }
+  std::size_t size() const { return values_.size(); }
   /// Number of averaged records: added and kept.
-  std::size_t averaged() const { return values_.size(); }
-  /// Names of the runs with a value.
-  std::set<std::string> finished() const;
+  std::size_t averaged() const;
+  /// The runs of the averaged records.
+  RunSet finished() const;
   /// Restricts the average to the records of these runs.
-  void keep(const std::set<std::string>& runs);
+  void keep(const RunSet& runs);
 
   /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
   /// is not a number.
@@ -33,29 +33,30 @@ class EntryNumbers {
   /// Sample standard deviation of the averaged values; nullopt for fewer than two.
   std::optional<double> deviation() const;
 
-  const ByRun& runs() const { return runs_; }  ///< without oracles
-  const std::string& method() const { return method_; }
+  ByRun runs() const;  ///< added values; none of an oracle
+  const SharedText& method() const { return method_; }
   metrics::Better better() const { return better_; }
   double target() const { return target_; }
   bool is_gain() const { return is_gain_; }
 
  private:
   struct Value {
-    std::string run;
-    std::string group;
-    std::string method;
+    std::size_t run = 0;
+    std::size_t group = 0;
+    SharedText method;
     double value = 0.0;
+    bool is_kept = true;
   };
 
   double gain() const;
+  std::vector<double> kept() const;
 
   std::vector<Value> values_;
-  std::size_t added_ = 0;
-  ByRun runs_;
-  std::string method_;
+  SharedText method_;
   metrics::Better better_ = metrics::Better::neither;
   double target_ = 0.0;
   bool is_gain_ = false;
+  bool is_oracle_ = false;
 };
 
 }  // namespace loopbench::harness

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
-
-#include "harness/compare/name_order.hpp"
+#include <optional>
+#include <utility>
 
 namespace loopbench::harness {
 namespace {
@@ -17,32 +16,62 @@ struct MarkContest {
   std::size_t groups = 0;
 };
 
+/// Numbers small numbers in order of appearance.
+class Renumbered {
+ public:
+  std::size_t index(std::size_t number) {
+    if (number >= index_.size()) index_.resize(number + 1, kNone);
+    if (index_[number] == kNone) index_[number] = size_++;
+    return index_[number];
+  }
+  std::size_t size() const { return size_; }
+
+ private:
+  static constexpr auto kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> index_;
+  std::size_t size_ = 0;
+};
+
+/// Runs of any of the entries.
+std::size_t count_runs(const MarkInput& input, const std::vector<std::size_t>& entries) {
+  std::vector<bool> is_there(input.group.size(), false);
+  for (const std::size_t i : entries) {
+    for (const RunValue& one : input.competitors[i]) is_there[one.run] = true;
+  }
+  return static_cast<std::size_t>(std::ranges::count(is_there, true));
+}
+
 MarkContest mark_contest(const MarkInput& input) {
   MarkContest out;
-  std::set<std::string> runs;
   for (std::size_t i = 0; i < input.competitors.size(); ++i) {
     const ByRun& own = input.competitors[i];
-    if (std::ranges::none_of(own, [](const auto& run) { return run.second.has_value(); })) continue;
-    out.entries.push_back(i);
-    for (const auto& [run, value] : own) runs.insert(run);
+    if (std::ranges::any_of(own, [](const RunValue& one) { return one.value.has_value(); })) {
+      out.entries.push_back(i);
+    }
   }
-  NameOrder groups;
-  out.values.values.resize(out.entries.size());
+  const std::size_t runs = count_runs(input, out.entries);
+  RunSet common;
+  for (const std::size_t i : out.entries) {
+    RunSet own;
+    for (const RunValue& one : input.competitors[i]) own.insert(one.run);
+    out.is_complete.push_back(own.size() == runs);
+    if (i == out.entries.front()) {
+      common = std::move(own);
+    } else {
+      common.keep(own);
+    }
+  }
+  Renumbered groups;
+  for (const std::size_t run : common) out.values.group.push_back(groups.index(input.group[run]));
+  for (const std::size_t i : out.entries) {
+    std::vector<std::optional<double>>& values = out.values.values.emplace_back();
+    for (const RunValue& one : input.competitors[i]) {
+      if (common.contains(one.run)) values.push_back(one.value);
+    }
+  }
   out.values.better = input.better;
   out.values.target = input.target;
-  for (const std::size_t i : out.entries) {
-    out.is_complete.push_back(input.competitors[i].size() == runs.size());
-  }
-  for (const std::string& run : runs) {
-    const auto has_run = [&](std::size_t i) { return input.competitors[i].contains(run); };
-    if (!std::ranges::all_of(out.entries, has_run)) continue;
-    for (std::size_t e = 0; e < out.entries.size(); ++e) {
-      out.values.values[e].push_back(input.competitors[out.entries[e]].at(run));
-    }
-    const auto group = input.group.find(run);
-    out.values.group.push_back(groups.index(group == input.group.end() ? run : group->second));
-  }
-  out.groups = groups.names().size();
+  out.groups = groups.size();
   return out;
 }
 

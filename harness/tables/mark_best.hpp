@@ -1,12 +1,11 @@
 /// Selection of the best and second-best values in a table's column (or row).
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/compare/ranking.hpp"
+#include "harness/tables/by_run.hpp"
 
 namespace loopbench::harness {
 
@@ -15,13 +14,10 @@ enum class Mark { none, second, best };
 /// "best", "second" or "".
 const char* mark_name(Mark mark);
 
-/// The values of one entry by run; nullopt if the method failed.
-using ByRun = std::map<std::string, std::optional<double>>;
-
 /// Input of the comparison for marks.
 struct MarkInput {
   std::vector<ByRun> competitors;
-  std::map<std::string, std::string> group;  ///< group of each run; without entry, the run itself
+  std::vector<std::size_t> group;  ///< of each run
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;
 };

@@ -10,64 +10,57 @@
 namespace loopbench::harness {
 namespace {
 
-std::string fields_joined(const Record& record,
-                          const std::vector<std::string>& names,
-                          const char* glue) {
-  std::string out;
-  for (const std::string& name : names) {
-    const std::string text = field(record, name);
-    if (!text.empty()) out += (out.empty() ? "" : glue) + text;
-  }
-  return out;
-}
-
-/// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
-std::string kind(const Record& r) {
-  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
-         "]";
-}
-
 void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
-  std::string name = fields_joined(record, spec.rows, ", ");
-  if (record.oracle) {
-    name += " (oracle)";
-    table.note("oracle: the method uses the reference");
-  }
-  const std::size_t row = table.rows.index(name);
+  const std::size_t row = table.rows.index(record);
+  if (record.oracle) table.note("oracle: the method uses the reference");
   if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
-  table.groups[run_key(record)] = group_name(record);
-  if (record.status != "ok") {
+  const std::size_t run = table.runs.index(record);
+  if (run >= table.group_of_run.size()) table.group_of_run.resize(run + 1);
+  const std::size_t group = table.group_of_run[run] = table.groups.index(record);
+  const bool is_ok = record.status == "ok";
+  if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
     const bool is_complete_cell = record.metric.empty() || record.status == "incomplete";
     const std::string what =
         is_complete_cell ? "" : fields_joined(record, {"label", "relation"}, " ");
-    table.missing.push_back({name, what, record.status, record.why});
+    table.missing.push_back({table.rows.texts()[row], what, record.status, record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
-    table.note(name + ": " + record.why);
+    table.note(table.rows.texts()[row] + ": " + record.why.text());
   }
   if (record.metric.empty()) {
-    if (record.status == "ok") return;
+    if (is_ok) return;
     table.row_status[row] = record.status;
-    table.lost_by_row[row].insert(run_key(record));
-    table.lost_by_method[record.method].insert(run_key(record));
+    table.lost_by_row[row].insert(run);
+    table.lost_by_method[record.method].insert(run);
     return;
   }
-  const std::string unit = record.unit.empty() ? "" : " [" + record.unit + "]";
-  const std::size_t column = table.columns.index(fields_joined(record, spec.columns, " ") + unit);
-  const std::string own = kind(record);
-  if (const std::string& other = table.kinds.emplace(std::pair{row, column}, own).first->second;
-      other != own) {
-    throw InputError("an entry of this table would average '" + other + "' with '" + own +
+  const std::size_t column = table.columns.index(record);
+  const std::size_t kind = table.kinds.index(record);
+  const auto [place, is_new] = table.entries.try_emplace({row, column});
+  EntryContents& entry = place->second;
+  if (is_new) entry.kind = kind;
+  if (entry.kind != kind) {
+    throw InputError("an entry of this table would average '" + table.kinds.texts()[entry.kind] +
+                     "' with '" + table.kinds.texts()[kind] +
                      "'; add the column in which they differ");
   }
-  table.tried[{row, column}].insert(run_key(record));
-  if (record.status != "ok") {
-    table.status[{row, column}] = record.status;
-    if (is_loss(record)) table.lost[{row, column}].insert(run_key(record));
+  entry.tried.insert(run);
+  if (!is_ok) {
+    entry.status = record.status;
+    if (is_loss(record)) entry.lost.insert(run);
     return;
   }
   table.counts.add(column, record);
-  table.numbers[{row, column}].add(record, value(record, spec.value));
+  entry.numbers.add(record, run, group, value(record, spec.value));
+}
+
+/// Number of runs of all competitors together: an upper limit of possible().
+std::size_t runs_of_any(const MarkInput& input) {
+  std::vector<bool> is_there(input.group.size(), false);
+  for (const ByRun& own : input.competitors) {
+    for (const RunValue& one : own) is_there[one.run] = true;
+  }
+  return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }
 
 /// Marks the best along every column (or every row) of the finished table.
@@ -81,7 +74,7 @@ void mark(Table& out,
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
     const MarkInput all = mark_input(table, entries, along_columns);
-    const std::size_t runs = number_of_runs(all);
+    const std::size_t runs = runs_of_any(all);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
@@ -91,7 +84,7 @@ void mark(Table& out,
       entry.mark = marks.marks[i];
       is_marked = is_marked || entry.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
-          all.competitors[i], [](const auto& run) { return run.second.has_value(); }));
+          all.competitors[i], [](const RunValue& one) { return one.value.has_value(); }));
       if (entry.records == 0 || values >= runs) continue;
       const std::size_t most = possible(all, i);
       if (values < most) entry.possible = entry.records + most - values;
@@ -111,9 +104,9 @@ void mark(Table& out,
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const auto& [entry_index, numbers] : table.numbers) {
-    most = std::max(most, numbers.averaged());
-    has_gain = has_gain || numbers.is_gain();
+  for (const auto& [position, entry] : table.entries) {
+    most = std::max(most, entry.numbers.averaged());
+    has_gain = has_gain || entry.numbers.is_gain();
   }
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
@@ -129,7 +122,7 @@ Table finish(TableNumbers& table,
   // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
-  Table out{title, "", table.columns.names(), table.rows.names(), {}, table.notes};
+  Table out{title, "", table.columns.texts(), table.rows.texts(), {}, table.notes};
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
   if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
@@ -155,15 +148,14 @@ Table finish(TableNumbers& table,
       if (const auto row = table.row_status.find(r); row != table.row_status.end()) {
         line[c].status = row->second;
       }
-      if (const auto own = table.status.find({r, c}); own != table.status.end()) {
-        line[c].status = own->second;
-      }
-      const auto found = table.numbers.find({r, c});
-      if (found == table.numbers.end()) continue;
-      line[c].value = found->second.average();
-      if (spec.plus_minus) line[c].deviation = found->second.deviation();
-      line[c].records = found->second.size();
-      line[c].averaged = found->second.averaged();
+      const EntryContents* entry = table.find({r, c});
+      if (entry == nullptr) continue;
+      if (!entry->status.empty()) line[c].status = entry->status;
+      if (entry->numbers.size() == 0) continue;
+      line[c].value = entry->numbers.average();
+      if (spec.plus_minus) line[c].deviation = entry->numbers.deviation();
+      line[c].records = entry->numbers.size();
+      line[c].averaged = entry->numbers.averaged();
       if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";
     }
     out.entries.push_back(std::move(line));
@@ -176,7 +168,7 @@ Table finish(TableNumbers& table,
 /// Splits the tables by protocol if there are several, unless the spec already separates them.
 TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& records) {
   if (separates(spec, {"protocol"})) return spec;
-  const std::string* first = nullptr;
+  const SharedText* first = nullptr;
   for (const Record& record : records) {
     if (record.metric.empty()) continue;
     if (first == nullptr) first = &record.protocol;
@@ -200,13 +192,13 @@ std::vector<Table> pivot(const std::vector<Record>& records,
 PivotedTables pivot_parts(const std::vector<Record>& records,
                           const TableSpec& spec,
                           const RankingOptions& options) {
-  NameOrder titles;
+  TextIndex titles(spec.split, [&](const Record& r) { return fields_joined(r, spec.split, ", "); });
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table
   const auto builder = [&](const Record& record) -> TableNumbers& {
-    const std::size_t index = titles.index(fields_joined(record, spec.split, ", "));
+    const std::size_t index = titles.index(record);
     if (index == builders.size()) {
-      builders.emplace_back();
+      builders.emplace_back(spec);
       first.push_back(&record);
     }
     return builders[index];
@@ -238,7 +230,7 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
     if (!placed) add(builder(record), record, spec);
   }
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.tables.push_back(finish(builders[t], titles.names()[t], spec, options));
+    out.tables.push_back(finish(builders[t], titles.texts()[t], spec, options));
   }
   return out;
 }

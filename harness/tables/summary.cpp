@@ -178,7 +178,7 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   out.title = fmt::format("{}{}, {}, {}{}",
                           field(*lead, "score"),
                           unit,
-                          lead->times,
+                          lead->times.text(),
                           options.value,
                           has_sequences ? " by sequence" : "");
 

@@ -1,40 +1,73 @@
 #include "harness/tables/table_numbers.hpp"
 
-#include <string_view>
-
+#include "harness/compare/observations.hpp"
 #include "harness/tables/common_runs.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+std::vector<std::string> with(std::vector<std::string> fields, const char* more) {
+  fields.emplace_back(more);
+  return fields;
+}
+
+/// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
+std::string kind_of(const Record& r) {
+  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
+         "]";
+}
+
 /// Runs that the entries of a column (or a row) tried and finished.
 std::vector<EntryRuns> entry_runs(const TableNumbers& table,
-                                  const std::vector<TablePosition>& entry_indices,
+                                  const std::vector<TablePosition>& positions,
                                   bool along_columns) {
   std::vector<EntryRuns> out;
-  for (const TablePosition& entry_index : entry_indices) {
+  for (const TablePosition& position : positions) {
     EntryRuns& own = out.emplace_back();
-    const auto found = table.numbers.find(entry_index);
-    if (found == table.numbers.end()) continue;
-    own.finished = found->second.finished();
-    own.tried = table.tried.at(entry_index);
+    const EntryContents* entry = table.find(position);
+    if (entry == nullptr || entry->numbers.size() == 0) continue;
+    own.finished = entry->numbers.finished();
+    own.tried = entry->tried;
     const auto add = [&](const auto& losses, const auto& key) {
-      if (const auto lost = losses.find(key); lost != losses.end()) {
-        own.tried.insert(lost->second.begin(), lost->second.end());
-      }
+      if (const auto lost = losses.find(key); lost != losses.end()) own.tried.insert(lost->second);
     };
-    if (along_columns) add(table.lost_by_row, entry_index.first);
-    if (!along_columns) add(table.lost_by_method, found->second.method());
+    if (along_columns) add(table.lost_by_row, position.first);
+    if (!along_columns) add(table.lost_by_method, entry->numbers.method());
   }
   return out;
 }
 
 }  // namespace
 
+TableNumbers::TableNumbers(const TableSpec& spec)
+    : rows(with(spec.rows, "oracle"),
+           [names = spec.rows](const Record& r) {
+             return fields_joined(r, names, ", ") + (r.oracle ? " (oracle)" : "");
+           }),
+      columns(with(spec.columns, "unit"),
+              [names = spec.columns](const Record& r) {
+                const std::string unit = r.unit.empty() ? "" : " [" + r.unit + "]";
+                return fields_joined(r, names, " ") + unit;
+              }),
+      kinds({"times", "label", "relation", "axis", "unit"}, kind_of),
+      runs({"content", "sequence", "repeat"}, run_key),
+      groups({"group", "sequence", "repeat"}, group_name) {}
+
+std::string fields_joined(const Record& record,
+                          const std::vector<std::string>& names,
+                          const char* glue) {
+  std::string out;
+  for (const std::string& name : names) {
+    const std::string text = field(record, name);
+    if (!text.empty()) out += (out.empty() ? "" : glue) + text;
+  }
+  return out;
+}
+
 std::vector<TablePosition> entry_indices(const TableNumbers& table,
                                          std::size_t index,
                                          bool along_columns) {
-  const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
+  const std::size_t entries = (along_columns ? table.rows : table.columns).texts().size();
   std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
     out.push_back(along_columns ? TablePosition{i, index} : TablePosition{index, i});
@@ -43,69 +76,63 @@ std::vector<TablePosition> entry_indices(const TableNumbers& table,
 }
 
 MarkInput mark_input(const TableNumbers& table,
-                     const std::vector<TablePosition>& entries,
+                     const std::vector<TablePosition>& positions,
                      bool along_columns) {
-  MarkInput out{{}, table.groups, metrics::Better::neither, 0.0};
-  std::set<std::string> runs;
-  for (const TablePosition& entry_index : entries) {
+  MarkInput out{{}, table.group_of_run, metrics::Better::neither, 0.0};
+  std::vector<bool> is_tried(table.group_of_run.size(), false);
+  for (const TablePosition& position : positions) {
     ByRun& own = out.competitors.emplace_back();
-    const auto found = table.numbers.find(entry_index);
-    if (found == table.numbers.end() || found->second.runs().empty()) continue;
-    own = found->second.runs();
-    out.better = found->second.better();
-    out.target = found->second.target();
-    for (const auto& [run, value] : own) runs.insert(run);
+    const EntryContents* entry = table.find(position);
+    if (entry != nullptr) own = entry->numbers.runs();
+    if (own.empty()) continue;
+    out.better = entry->numbers.better();
+    out.target = entry->numbers.target();
+    for (const RunValue& one : own) is_tried[one.run] = true;
   }
-  const auto lose = [&](ByRun& own, const auto& losses, const auto& key) {
-    const auto found = losses.find(key);
-    if (own.empty() || found == losses.end()) return;
-    for (const std::string& run : found->second) {
-      if (runs.contains(run)) own.emplace(run, std::nullopt);
+  const auto lose = [&](ByRun& own, const RunSet& lost) {
+    for (const std::size_t run : lost) {
+      if (is_tried[run]) own.add_failure(run);
     }
   };
-  for (std::size_t i = 0; i < entries.size(); ++i) {
+  const auto lose_any = [&](ByRun& own, const auto& losses, const auto& key) {
+    if (const auto found = losses.find(key); found != losses.end()) lose(own, found->second);
+  };
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     ByRun& own = out.competitors[i];
     if (own.empty()) continue;
-    lose(own, table.lost, entries[i]);
-    if (along_columns) lose(own, table.lost_by_row, entries[i].first);
-    if (!along_columns) lose(own, table.lost_by_method, table.numbers.at(entries[i]).method());
+    const EntryContents& entry = *table.find(positions[i]);
+    lose(own, entry.lost);
+    if (along_columns) lose_any(own, table.lost_by_row, positions[i].first);
+    if (!along_columns) lose_any(own, table.lost_by_method, entry.numbers.method());
   }
   return out;
 }
 
 std::string keep_common_runs(TableNumbers& table, bool along_columns) {
-  const std::vector<std::string> names = (along_columns ? table.columns : table.rows).names();
+  const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).texts();
   CommonRunsNote note;
   for (std::size_t l = 0; l < names.size(); ++l) {
-    const std::vector<TablePosition> lane_places = entry_indices(table, l, along_columns);
-    const std::vector<EntryRuns> entries = entry_runs(table, lane_places, along_columns);
-    const auto common = common_runs(entries);
+    const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);
+    const std::vector<EntryRuns> entries = entry_runs(table, positions, along_columns);
+    const std::vector<RunSet> common = common_runs(entries);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].finished == common[i]) continue;
       note.add(names[l], common[i].size());
-      table.numbers.at(lane_places[i]).keep(common[i]);
+      table.entries.at(positions[i]).numbers.keep(common[i]);
     }
   }
   return note.text();
 }
 
 std::size_t possible(const MarkInput& input, std::size_t i) {
-  std::set<std::string> out;
+  std::vector<bool> is_there(input.group.size(), false);
   for (const ByRun& other : input.competitors) {
     const bool shares = std::ranges::any_of(
-        other, [&](const auto& run) { return input.competitors[i].contains(run.first); });
+        other, [&](const RunValue& one) { return input.competitors[i].contains(one.run); });
     if (!shares) continue;
-    for (const auto& [run, value] : other) out.insert(run);
+    for (const RunValue& one : other) is_there[one.run] = true;
   }
-  return out.size();
-}
-
-std::size_t number_of_runs(const MarkInput& input) {
-  std::set<std::string_view> out;
-  for (const ByRun& own : input.competitors) {
-    for (const auto& [run, value] : own) out.insert(run);
-  }
-  return out.size();
+  return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }
 
 }  // namespace loopbench::harness

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "harness/compare/name_order.hpp"
+#include "harness/model/sweep.hpp"
+#include "harness/model/text_index.hpp"
+#include "harness/tables/by_run.hpp"
 #include "harness/tables/entry_numbers.hpp"
 #include "harness/tables/error_counts.hpp"
 #include "harness/tables/mark_best.hpp"
@@ -18,28 +22,55 @@ namespace loopbench::harness {
 
 using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
+struct TablePositionHash {
+  std::size_t operator()(const TablePosition& position) const {
+    return position.first * 0x9e3779b97f4a7c15 + position.second;
+  }
+};
+
+/// Contents of one entry under construction.
+struct EntryContents {
+  EntryNumbers numbers = {};
+  std::string status = {};  ///< of a record that has no value
+  std::size_t kind = 0;     ///< number of its texts in TableNumbers::kinds
+  RunSet tried = {};        ///< runs with a score of any status
+  RunSet lost = {};         ///< runs on which a score failed
+};
+
 /// Contents of a table under construction.
 struct TableNumbers {
-  NameOrder rows;
-  NameOrder columns;
-  std::map<TablePosition, EntryNumbers> numbers;
-  std::map<TablePosition, std::string> status;  // of entries with a record that has no value
-  std::map<TablePosition, std::string> kinds;
-  std::map<TablePosition, std::set<std::string>> tried;      // runs with a score of any status
-  std::map<TablePosition, std::set<std::string>> lost;       // runs on which a score failed
-  std::map<std::size_t, std::set<std::string>> lost_by_row;  // runs without any score
-  std::map<std::string, std::set<std::string>> lost_by_method;
-  std::map<std::string, std::string> groups;  // of runs
+  explicit TableNumbers(const TableSpec& spec);
+
+  /// nullptr if it has no record.
+  const EntryContents* find(const TablePosition& position) const {
+    const auto found = entries.find(position);
+    return found == entries.end() ? nullptr : &found->second;
+  }
+
+  void note(const std::string& text) {
+    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  }
+
+  TextIndex rows;
+  TextIndex columns;
+  TextIndex kinds;
+  TextIndex runs;
+  TextIndex groups;
+  std::vector<std::size_t> group_of_run;
+  std::unordered_map<TablePosition, EntryContents, TablePositionHash> entries;
+  std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
+  std::map<SharedText, RunSet> lost_by_method;
   ErrorCounts counts;
   std::map<std::size_t, std::string> row_status;  // status of runs without any score
   std::set<std::string> oracle_sequences;  // closures measured in or selected by the reference
   std::vector<Missing> missing;
   std::vector<std::string> notes;
-
-  void note(const std::string& text) {
-    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
-  }
 };
+
+/// The texts of the fields that are not empty.
+std::string fields_joined(const Record& record,
+                          const std::vector<std::string>& names,
+                          const char* glue);
 
 /// The entries of one column (or row).
 std::vector<TablePosition> entry_indices(const TableNumbers& table,
@@ -58,8 +89,5 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns);
 /// Maximum number of runs for the mean of competitor `i`: those of all competitors that have a run
 /// in common with it.
 std::size_t possible(const MarkInput& input, std::size_t i);
-
-/// Number of runs of all competitors together: an upper limit of possible().
-std::size_t number_of_runs(const MarkInput& input);
 
 }  // namespace loopbench::harness

@@ -11,7 +11,8 @@ namespace {
 std::string keep_one_time(std::vector<Record>& records) {
   std::vector<std::string> times;
   for (const Record& r : records) {
-    if (!r.metric.empty() && std::ranges::count(times, r.times) == 0) times.push_back(r.times);
+    if (!r.metric.empty() && std::ranges::count(times, r.times.text()) == 0)
+      times.push_back(r.times);
   }
   if (times.size() < 2) return "";
   const std::string kept = std::ranges::count(times, "dense") > 0 ? "dense" : times.front();

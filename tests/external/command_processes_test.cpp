@@ -58,7 +58,7 @@ TEST_F(CommandProcesses, ProcessesOfAServerThatEndsAreKilled) {
       cells("  - {method: command, serve: '" LOOPBENCH_SERVING " forks'}\n", "repeats: 4\n");
   ASSERT_EQ(done.size(), 8u);
   EXPECT_TRUE(std::ranges::any_of(done, [](const CellRecord& cell) {
-    return cell.why.find("exited with code 3") != std::string::npos;
+    return cell.why.text().find("exited with code 3") != std::string::npos;
   }));
   EXPECT_FALSE(is_running("sleep 8761"));
 }

@@ -136,8 +136,8 @@ TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
   ASSERT_EQ(done.size(), all.size() + 2) << ran_.err;
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(done[i + 1].status, all[i][2]) << all[i][0] << ": " << done[i + 1].why;
-    EXPECT_THAT(done[i + 1].why, HasSubstr(all[i][3])) << all[i][0];
-    EXPECT_LT(done[i + 1].why.size(), 2200u) << "output is cut off";
+    EXPECT_THAT(done[i + 1].why.text(), HasSubstr(all[i][3])) << all[i][0];
+    EXPECT_LT(done[i + 1].why.text().size(), 2200u) << "output is cut off";
   }
   EXPECT_EQ(done.back().status, "ok");
 }

@@ -147,7 +147,7 @@ TEST(Groups, AreTheObservations) {
 TEST(Groups, WeighTheSameWhateverTheirRuns) {
   std::vector<Record> records = routes(6, 6);
   std::erase_if(records,
-                [](const Record& r) { return r.sequence[0] == '0' && r.sequence != "0 0"; });
+                [](const Record& r) { return r.sequence.text()[0] == '0' && r.sequence != "0 0"; });
   double expected = 0.0;
   for (int route = 0; route < 6; ++route) {
     double of_route = 0.0;

@@ -59,15 +59,15 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   const std::vector<Record> records = run(1);
   // 3 datasets x 3 repeats x (2 methods x 2 metrics + failed + declined)
   EXPECT_EQ(records.size(), 3u * 3u * 6u);
-  const auto count = [&](const std::string& status) {
+  const auto count = [&](const SharedText& status) {
     return std::ranges::count(records, status, &Record::status);
   };
   EXPECT_EQ(count("ok"), 18);
   EXPECT_EQ(count("failed"), 9 + 18);  // the method, and the undefined metric of the others
   EXPECT_EQ(count("declined"), 9);
-  const auto fails = std::ranges::find(records, std::string("fails"), &Record::method);
+  const auto fails = std::ranges::find(records, SharedText("fails"), &Record::method);
   EXPECT_EQ(fails->why, "set to fail");
-  const auto undefined = std::ranges::find(records, std::string("undefined"), &Record::label);
+  const auto undefined = std::ranges::find(records, SharedText("undefined"), &Record::label);
   EXPECT_EQ(undefined->why, "set to be undefined");
 }
 
@@ -99,7 +99,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   const std::vector<Record> records = run(1);
   int incomplete = 0;
   for (const Record& r : records) {
-    const bool is_short = r.sequence.find("0.3") != std::string::npos;
+    const bool is_short = r.sequence.text().find("0.3") != std::string::npos;
     if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, is_short ? "incomplete" : "ok") << r.sequence;
     EXPECT_GT(r.statistics.rmse, 0.0);  // stored nevertheless

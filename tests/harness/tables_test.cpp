@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "datasets/core/error.hpp"
 #include "harness/model/where.hpp"
@@ -70,17 +71,24 @@ TEST(Where, RefusesByName) {
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
 }
 
-/// The error of each run is its number times the factor.
-ByRun runs(double factor, int count = 8) {
+/// The error of each run is its number, from 1, times the factor.
+ByRun runs(double factor, std::size_t count = 8) {
   ByRun out;
-  for (int i = 1; i <= count; ++i) out[std::to_string(i)] = factor * i;
+  for (std::size_t i = 0; i < count; ++i) out.set(i, factor * static_cast<double>(i + 1));
+  return out;
+}
+
+/// Every run is a group of its own.
+std::vector<std::size_t> own_groups(std::size_t count = 20) {
+  std::vector<std::size_t> out(count);
+  std::iota(out.begin(), out.end(), std::size_t{0});
   return out;
 }
 
 Marks marks(const std::vector<ByRun>& competitors,
             Better better = Better::lower,
             double alpha = 0.05) {
-  return mark_best({competitors, {}, better, 0.0}, {.alpha = alpha});
+  return mark_best({competitors, own_groups(), better, 0.0}, {.alpha = alpha});
 }
 
 TEST(MarkBest, MarksOnlyWhatIsProven) {
@@ -92,7 +100,7 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
   EXPECT_EQ(marks(three, Better::lower, 0.02).marks, (std::vector<Mark>(3, Mark::none)));
   // The two best do not differ significantly: no mark.
   ByRun alike = runs(1.0);
-  alike["1"] = 1.01;
+  alike.set(0, 1.01);
   EXPECT_EQ(marks({runs(1.0), alike, runs(3.0)}).marks, (std::vector<Mark>(3, Mark::none)));
 }
 
@@ -104,29 +112,30 @@ TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
 
 TEST(MarkBest, NeverMarksACompetitorThatLacksARun) {
   ByRun lucky = runs(0.5);
-  lucky.erase("8");
+  lucky.erase(7);
   EXPECT_EQ(marks({lucky, runs(1.0), runs(2.0)}).marks[0], Mark::none);
 }
 
 TEST(MarkBest, CountsFailuresAsLosses) {
   ByRun failing = runs(0.5, 10);
-  for (int i = 1; i <= 6; ++i) failing[std::to_string(i)] = std::nullopt;
+  for (std::size_t i = 0; i < 6; ++i) failing.set(i, std::nullopt);
   EXPECT_EQ(marks({failing, runs(1.0, 10)}).marks, (std::vector<Mark>{Mark::none, Mark::none}));
   ByRun better = runs(0.5, 20);
-  better["1"] = std::nullopt;  // one loss against nineteen wins
+  better.set(0, std::nullopt);  // one loss against nineteen wins
   EXPECT_EQ(marks({better, runs(1.0, 20)}).marks[0], Mark::best);
 }
 
 TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
   ByRun loser;  // slightly worse on nineteen runs; the one that it wins makes its mean the lowest
-  for (int i = 1; i <= 20; ++i) loser[std::to_string(i)] = i == 20 ? 0.01 : 1.01 * i;
+  for (std::size_t i = 0; i < 19; ++i) loser.set(i, 1.01 * static_cast<double>(i + 1));
+  loser.set(19, 0.01);
   EXPECT_NE(marks({loser, runs(1.0, 20)}).marks[0], Mark::best);
 }
 
 TEST(MarkBest, TakesRunsOfAGroupAsOne) {
-  MarkInput input{{runs(1.0), runs(2.0)}, {}, Better::lower, 0.0};
+  MarkInput input{{runs(1.0), runs(2.0)}, own_groups(), Better::lower, 0.0};
   EXPECT_EQ(mark_best(input, {}).marks[0], Mark::best);
-  for (int i = 1; i <= 8; ++i) input.group[std::to_string(i)] = i < 5 ? "a" : "b";
+  for (std::size_t i = 0; i < 8; ++i) input.group[i] = i < 4 ? 0 : 1;
   EXPECT_EQ(mark_best(input, {}).marks[0], Mark::none);
   EXPECT_NE(mark_best(input, {}).why_none, "");
 }

@@ -157,7 +157,7 @@ class Zoo : public testing::Test {
   std::map<std::string, std::vector<double>> honest_scores(const std::string& out) const {
     std::map<std::string, std::vector<double>> scores;
     for (const Record& record : read_records(folder_.path() / out)) {
-      if (record.method != kHonest && !record.method.starts_with("honest")) continue;
+      if (record.method != kHonest && !record.method.text().starts_with("honest")) continue;
       EXPECT_EQ(record.status, "ok") << record.method << ": " << record.why;
       for (const double value : {record.statistics.rmse, record.statistics.max}) {
         scores[record.method].push_back(value);
@@ -223,10 +223,10 @@ TEST_F(Zoo, EachBeastCostsItsOwnCellForTheRightReason) {
     for (const Fate& fate : kFates) {
       const CellRecord& cell = cells[fate.method];
       EXPECT_FALSE(cell.status.empty()) << fate.method << " has no cell";
-      EXPECT_NE(std::string(fate.status).find(cell.status), std::string::npos)
-          << cell.status << " " << fate.method << ": " << cell.why.substr(0, 200);
-      EXPECT_NE(cell.why.find(fate.why), std::string::npos)
-          << fate.method << ": " << cell.why.substr(0, 200);
+      EXPECT_NE(std::string(fate.status).find(cell.status.text()), std::string::npos)
+          << cell.status << " " << fate.method << ": " << cell.why.text().substr(0, 200);
+      EXPECT_NE(cell.why.text().find(fate.why), std::string::npos)
+          << fate.method << ": " << cell.why.text().substr(0, 200);
     }
     for (const auto& [label, scores] : honest_scores("zoo")) EXPECT_EQ(scores, wanted) << label;
     EXPECT_EQ(honest_scores("zoo").size(), (std::size(kFates) + kBetween - 1) / kBetween);

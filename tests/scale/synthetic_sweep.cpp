@@ -68,8 +68,7 @@ CellResult result_of(const Cell& cell) {
                            (1.0 + 0.01 * static_cast<double>(cell.method)) * (0.8 + 0.4 * noise);
       ScoreResult& score = out.scores.emplace_back();
       score.times = times;
-      score.metric = "ate";
-      score.label = kMetrics[i];
+      score.metric = kMetrics[i];
       score.score = {
           "translation", "3d", "m", {300, error, error, error, error, 0.0, error, error}};
       score.coverage.pairs = score.coverage.possible = 300;

@@ -70,7 +70,7 @@ TEST_F(QueryPlan, NoTableIsScannedForOneKey) {
     if (sql.find("= ?") != std::string::npos) of_a_key.insert(sql);
   }
   EXPECT_GT(of_a_key.size(), 25u);
-  EXPECT_TRUE(of_a_key.contains("SELECT * FROM scores WHERE cell = ?"));
+  EXPECT_TRUE(of_a_key.contains("SELECT * FROM scores WHERE cell >= ? ORDER BY cell"));
 
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);

@@ -100,7 +100,7 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
       if (uniform(bits) >= truth.copies) continue;
       for (std::size_t m = 0; m < methods; ++m) {
         Record copy = out[begin + m];
-        copy.sequence += " again";
+        copy.sequence = copy.sequence + " again";
         out.push_back(std::move(copy));
       }
     }
