@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/profile/profile.hpp"
@@ -23,15 +26,72 @@ void visit_scores(RecordReader& reader, const std::function<void(const Record&)>
   });
 }
 
+using MetricLabel = std::pair<SharedText, SharedText>;  // name and label
+
+/// The metrics that can be compared, in order of appearance, with their numbers of scores.
+class ComparedMetrics {
+ public:
+  void add(const Record& r) {
+    if (r.metric.empty() || r.better == metrics::Better::neither) return;
+    const MetricLabel own{r.metric, r.label};
+    const auto [found, is_new] = index_.emplace(own, metrics_.size());
+    if (is_new) metrics_.push_back({own, 0});
+    ++metrics_[found->second].second;
+    ++total_;
+  }
+
+  /// Parts of about kMostValues scores.
+  std::vector<std::set<MetricLabel>> parts() const {
+    std::vector<std::set<MetricLabel>> out;
+    std::size_t scores = kMostValues;
+    for (const auto& [metric, own] : metrics_) {
+      if (scores + own > kMostValues) {
+        out.emplace_back();
+        scores = 0;
+      }
+      scores += own;
+      out.back().insert(metric);
+    }
+    return out;
+  }
+
+  bool is_small() const { return total_ <= kMostValues; }
+
+ private:
+  static constexpr std::size_t kMostValues = 6'000'000;  ///< about 200 MB
+
+  std::map<MetricLabel, std::size_t> index_;
+  std::vector<std::pair<MetricLabel, std::size_t>> metrics_;
+  std::size_t total_ = 0;
+};
+
+/// The comparisons of all scores, a few metrics at a time if there are many scores.
+std::vector<Comparison> compare_all(RecordReader& reader,
+                                    const ComparedMetrics& metrics,
+                                    const std::string& baseline) {
+  CompareOptions options;
+  options.baseline = baseline;
+  const RecordSource source = [&](const auto& visit) { visit_scores(reader, visit); };
+  if (metrics.is_small()) return compare(source, options);
+  std::vector<Comparison> out;
+  for (const std::set<MetricLabel>& part : metrics.parts()) {
+    reader.keep_scores([&](const Record& r) { return part.contains({r.metric, r.label}); });
+    std::ranges::move(compare(source, options), std::back_inserter(out));
+  }
+  return out;
+}
+
 /// Sets the comparisons, the scores without a value, and the records of the first sequences: those
 /// that could fit into `bytes`, at least one.
 void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& out) {
   constexpr std::size_t kLeastBytesOfAScore = 10;
   RecordReader reader(out.store);
   bool has_score = false;
+  ComparedMetrics metrics;
   std::set<SharedText> taken;
   const auto take = [&](const Record& r) {
     has_score = has_score || !r.metric.empty();
+    metrics.add(r);
     const bool has_value = r.status == "ok" || r.status == "incomplete";
     if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
@@ -39,10 +99,7 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
     if (taken.contains(r.sequence)) out.records.push_back(r);
   };
   visit_scores(reader, take);
-  if (baseline.empty() || !has_score) return;
-  CompareOptions options;
-  options.baseline = baseline;
-  out.comparisons = compare([&](const auto& visit) { visit_scores(reader, visit); }, options);
+  if (!baseline.empty() && has_score) out.comparisons = compare_all(reader, metrics, baseline);
 }
 
 }  // namespace

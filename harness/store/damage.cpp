@@ -78,8 +78,13 @@ CheckedStore check_rows(Database& database, bool traces) {
     check_sequence_traces(database, out.sequences);
   }
   const bool lost = !out.sequences.complete || !all_intact(out.sequences);
+  auto sequence = out.sequences.by_key.end();
+  SharedText last;  // cells of one sequence mostly follow each other
   for (CellRow& cell : out.cells.cells) {
-    const auto sequence = out.sequences.by_key.find(cell.sequence_key);
+    if (cell.sequence_key != last || last.empty()) {
+      last = cell.sequence_key;
+      sequence = out.sequences.by_key.find(last);
+    }
     if (sequence != out.sequences.by_key.end()) {
       if (!sequence->second.intact) cell.intact = false;
       continue;

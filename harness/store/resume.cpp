@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <unordered_map>
 
 #include "harness/store/open.hpp"
 #include "harness/store/write_digests.hpp"
@@ -60,10 +59,15 @@ bool has_failed(const CellRow& row) {
 std::vector<const CellRow*> claim(const CheckedStore& stored,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
-  const auto key_of = [](const CellRow* row) { return std::pair(row->key.low, row->key.high); };
-  std::vector<const CellRow*> rows;
+  struct KeyedRow {
+    Hash key;
+    const CellRow* row = nullptr;
+  };
+  const auto parts = [](const Hash& key) { return std::pair(key.low, key.high); };
+  const auto key_of = [&](const KeyedRow& one) { return parts(one.key); };
+  std::vector<KeyedRow> rows;
   for (const CellRow& row : stored.cells.cells) {
-    if (row.intact) rows.push_back(&row);
+    if (row.intact) rows.push_back({row.key, &row});
   }
   std::ranges::stable_sort(rows, {}, key_of);
   const std::vector<Hash> wanted = keys_now(stored.sequences, keys, all);
@@ -72,13 +76,13 @@ std::vector<const CellRow*> claim(const CheckedStore& stored,
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (out[i] != nullptr) continue;
-      const std::pair key(wanted[i].low, wanted[i].high);
-      auto row = std::ranges::lower_bound(rows, key, {}, key_of);
-      for (; row != rows.end() && key_of(*row) == key; ++row) {
-        const auto number = static_cast<std::size_t>(row - rows.begin());
-        if (is_claimed[number] || (exact && !same_labels(**row, all[i], keys.sweep()))) continue;
+      auto found = std::ranges::lower_bound(rows, parts(wanted[i]), {}, key_of);
+      for (; found != rows.end() && found->key == wanted[i]; ++found) {
+        const auto number = static_cast<std::size_t>(found - rows.begin());
+        const CellRow& row = *found->row;
+        if (is_claimed[number] || (exact && !same_labels(row, all[i], keys.sweep()))) continue;
         is_claimed[number] = true;
-        out[i] = *row;
+        out[i] = &row;
         break;
       }
     }
@@ -113,14 +117,15 @@ Resumed match(Database& database,
   }
   Statement entry = database.prepare(
       "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
-  std::unordered_map<std::size_t, const CellRow*> by_position;
+  std::vector<const CellRow*> by_position;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (claimed[i] == nullptr) {
       out.unchanged = false;
       continue;
     }
     const CellRow& row = *claimed[i];
-    by_position.emplace(all[i].index, &row);
+    if (all[i].index >= by_position.size()) by_position.resize(all[i].index + 1, nullptr);
+    by_position[all[i].index] = &row;
     const auto position = static_cast<std::int64_t>(all[i].index);
     if (row.placed && row.position == position && same_labels(row, all[i], sweep)) continue;
     out.unchanged = false;
@@ -134,8 +139,7 @@ Resumed match(Database& database,
   }
   if (!out.unchanged) update_sum(database, "cell");
   for (const Cell& cell : planned) {
-    const auto found = by_position.find(cell.index);
-    const CellRow* row = found == by_position.end() ? nullptr : found->second;
+    const CellRow* row = cell.index < by_position.size() ? by_position[cell.index] : nullptr;
     const bool again =
         row != nullptr && (retry == Retry::all || (retry == Retry::failed && has_failed(*row)));
     if (row == nullptr || again) {
