@@ -8,22 +8,22 @@ source "$here/cmake/setup.sh"
 export LOOPBENCH_NAME=$0  # for the commands that the program prints
 (($#)) || set -- run "$here/configs/quickstart.yaml"
 
-configure() { (cd "$here" && cmake --preset release -DLOOPBENCH_BUILD_TESTS=OFF >&2); }
+configure() { (cd "$here" && quietly cmake --preset release -DLOOPBENCH_BUILD_TESTS=OFF); }
 
 build_program() {
   if [[ ! -x $build/loopbench ]]; then
-    echo "loopbench: building; the first time takes a few minutes" >&2
+    echo "loopbench: building; the first time takes about 8 minutes on two cores" >&2
     cmake --build "$build" --target loopbench >&2
   else
-    # Prints nothing unless the build fails.
-    log=$(cmake --build "$build" --target loopbench 2>&1) || { echo "$log" >&2; exit 3; }
+    quietly cmake --build "$build" --target loopbench || exit 3
   fi
 }
 
 install_missing "${packages[@]}" "${compression_packages[@]}"
-case $1 in
-  plot | reproduce) install_missing "${plot_packages[@]}" ;;
-  get) install_missing "${get_packages[@]}" ;;
+case "$* " in
+  plot\ * | reproduce\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
+    install_missing "${plot_packages[@]}" ;;
+  get\ *) install_missing "${get_packages[@]}" ;;
 esac
 [[ -f $build/build.ninja ]] || configure
 build_program

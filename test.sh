@@ -61,6 +61,7 @@ for preset in "$@"; do
     $loopbench run configs/quickstart.yaml --out $checked >/dev/null
     $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
     tests/documented_outputs.sh $loopbench . $checked
+    tests/documented_runs.sh $loopbench . $checked
   fi
 done
 [[ $* == "tsan debug release" || $* == "lint tsan debug release" ]] && counts+=("slurm: skipped, run ./test.sh slurm")

@@ -20,9 +20,10 @@ install(FILES ${pages}/loopbench.fish COMPONENT program
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench COMPONENT program)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench)
-# The READMEs of the parts and of the results, in their folders, so that links between them work.
+# All that the README and the pages of the parts and the results link to, in its folders, so that the links work.
 file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-  */README.md results/*/*.md results/paper/*/*.svg)
+  CONTRIBUTING.md */README.md methods/*.md harness/python/*.md results/*/*.md results/paper/*.svg
+  results/paper/*/*.svg results/quickstart/report.*)
 foreach(document IN LISTS documents)
   get_filename_component(folder ${document} DIRECTORY)
   install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench/${folder}

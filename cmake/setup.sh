@@ -23,6 +23,14 @@ test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbench
 # Programs that configs/external compares with; no script installs them.
 external_packages=(mrpt-apps)
 
+# Runs a command; prints its output, to standard error, only if it fails.
+quietly() {
+  local log code=0
+  log=$("$@" 2>&1) || code=$?
+  ((code == 0)) || printf '%s\n' "$log" >&2
+  return "$code"
+}
+
 install_missing() {
   local package status missing=()
   for package in "$@"; do
@@ -35,9 +43,13 @@ install_missing() {
     exit 2
   fi
   local as_root=()
-  ((EUID == 0)) || as_root=(sudo)
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      { echo "loopbench: please run this as root: apt-get install ${missing[*]}" >&2; exit 2; }
+    as_root=(sudo)
+  fi
   echo "loopbench: installing ${missing[*]}" >&2
-  "${as_root[@]}" apt-get -qq update >&2
-  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" \
-    apt-get -qq install -y --no-install-recommends "${missing[@]}" >&2
+  quietly "${as_root[@]}" apt-get -qq update
+  quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -qq install -y --no-install-recommends "${missing[@]}"
 }

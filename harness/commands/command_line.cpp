@@ -21,6 +21,31 @@ std::string with_hyphens(std::string text) {
   return text;
 }
 
+/// The word that names no subcommand or option of `command`, with a suggestion; empty if `error`
+/// has another cause. `name`: of the command, empty for the program.
+std::string unknown_word(const CLI::App& command,
+                         const std::string& name,
+                         const CLI::ParseError& error) {
+  const std::vector<std::string> words = command.remaining();
+  if (words.empty()) return "";
+  const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool lacks_subcommand =
+      command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
+  if (!is_unexpected && !lacks_subcommand) return "";
+
+  const std::string word = words.front().substr(0, words.front().find('='));
+  const bool is_option = word.starts_with('-');
+  if (!is_option && !lacks_subcommand) return "";
+  std::vector<std::string> known = is_option ? long_options(command) : std::vector<std::string>{};
+  if (!is_option) {
+    for (const CLI::App* each : command.get_subcommands({})) {
+      if (!each->get_group().empty()) known.push_back(each->get_name());  // not hidden
+    }
+  }
+  const std::string kind = is_option ? "option" : "subcommand";
+  return unknown_name(name.empty() ? kind : kind + " of " + name, word, known);
+}
+
 }  // namespace
 
 std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std::string> words) {
@@ -41,29 +66,17 @@ std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std
   return words;
 }
 
-std::string unknown_word(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<CLI::App*> given = app.get_subcommands();
-  const CLI::App& command = given.empty() ? app : *given.front();
-  const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  if (!given.empty() && !is_unexpected) return "";
-  std::vector<std::string> words = app.remaining();
-  const bool is_top = !words.empty();
-  if (!is_top) words = command.remaining();
-  if (words.empty()) return "";
-
-  const std::string word = words.front().substr(0, words.front().find('='));
-  const bool is_option = word.starts_with('-');
-  if (!is_option && !given.empty()) return "";
-  std::vector<std::string> known = long_options(is_top ? app : command);
-  if (!is_option) {
-    for (const CLI::App* each : app.get_subcommands({})) {
-      if (!each->get_group().empty()) known.push_back(each->get_name());  // not hidden
-    }
+std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error) {
+  // The first command with words left over, or the innermost one.
+  const CLI::App* command = &app;
+  std::string name;
+  while (command->remaining().empty() && !command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += (name.empty() ? "" : " ") + command->get_name();
   }
-  const std::string kind = !is_option ? "subcommand"
-                           : is_top   ? "option"
-                                      : "option of " + command.get_name();
-  return "loopbench: " + unknown_name(kind, word, known) +
+  const std::string unknown = unknown_word(*command, name, error);
+  const std::string why = (name.empty() ? "" : name + ": ") + error.what();
+  return "loopbench: " + (unknown.empty() ? why : unknown) +
          "\nRun with --help for more information.\n";
 }
 

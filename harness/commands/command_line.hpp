@@ -15,8 +15,8 @@ namespace loopbench::harness {
 /// declared spelling: --all-pairs and --all_pairs are equivalent. O(words * options).
 std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std::string> words);
 
-/// The word of the command line that names no subcommand or option, with a suggestion; empty if
-/// `error` has another cause.
-std::string unknown_word(const CLI::App& app, const CLI::ParseError& error);
+/// What is wrong with the command line: the word that names no subcommand or option, with a
+/// suggestion, or the command and the message of CLI11.
+std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace loopbench::harness

@@ -61,9 +61,8 @@ CommandOption option_text_of(const CLI::Option& option) {
   return out;
 }
 
-CommandText command_text_of(const CLI::App& command, bool is_program) {
-  CommandText out{
-      is_program ? "" : command.get_name(), command.get_description(), {}, command.get_footer()};
+CommandText command_text_of(const CLI::App& command, const std::string& name) {
+  CommandText out{name, command.get_description(), {}, command.get_footer()};
   for (const CLI::Option* option : command.get_options()) {
     out.options.push_back(option_text_of(*option));
   }

@@ -12,7 +12,7 @@ namespace loopbench::harness {
 
 CommandOption option_text_of(const CLI::Option& option);
 
-/// `is_program`: the command is the program itself and has no name.
-CommandText command_text_of(const CLI::App& command, bool is_program);
+/// `name`: of the command with its parent's, "traj crop"; empty for the program.
+CommandText command_text_of(const CLI::App& command, const std::string& name);
 
 }  // namespace loopbench::harness

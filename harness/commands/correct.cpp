@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/correct.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -54,8 +56,13 @@ void add_correct(CLI::App& app, int& exit_code) {
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] {
     const Correction done = correct(a->correct, catalogue(a->plugins));
-    fmt::print("{}", a->json ? json(done) : printable(text(done)));
     exit_code = kExitOk;
+    if (a->json) {
+      fmt::print("{}", json(done));
+      return;
+    }
+    std::istringstream lines(printable(text(done)));
+    for (std::string line; std::getline(lines, line);) fmt::print("{}\n", fitted(line));
   });
 }
 

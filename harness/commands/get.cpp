@@ -70,7 +70,8 @@ void add_get(CLI::App& app, int& exit_code) {
   command->add_option("--catalogue", arguments->catalogue, "YAML file with another catalogue")
       ->type_name("FILE");
   command->footer(
-      "Interrupted downloads continue, and content with another hash is rejected. An entry of your\n"
+      "Interrupted downloads continue, and content with another hash is rejected. An entry of "
+      "your\n"
       "catalogue without sha256 is pinned: the hash of the first download is written to\n"
       "FILE.sha256 and expected from then on.");
   command->callback([arguments, &exit_code] { exit_code = get(*arguments); });

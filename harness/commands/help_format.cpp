@@ -45,6 +45,16 @@ std::string paragraphs(const std::string& text) {
   return out;
 }
 
+/// `text` with the name under which the program was called, so that commands can be copied.
+std::string with_program_name(std::string text) {
+  const std::string name = program_name();
+  constexpr std::string_view kName = "loopbench ";
+  for (std::size_t at = 0; (at = text.find(kName, at)) != std::string::npos; at += name.size()) {
+    text.replace(at, kName.size() - 1, name);
+  }
+  return text;
+}
+
 std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
@@ -80,8 +90,11 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_description(const CLI::App* command) const override {
     return paragraphs(command->get_description());
   }
+  std::string make_usage(const CLI::App* command, std::string name) const override {
+    return with_program_name(CLI::Formatter::make_usage(command, std::move(name)));
+  }
   std::string make_footer(const CLI::App* command) const override {
-    return paragraphs(command->get_footer());
+    return paragraphs(with_program_name(command->get_footer()));
   }
 };
 

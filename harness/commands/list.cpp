@@ -72,19 +72,23 @@ Json to_json(const Item& item, bool is_protocol) {
   return out;
 }
 
-/// Kind and summary in one line; on a terminal, cut to its width.
-void print_line(const Item& item) {
+/// Name, kind and summary.
+std::string summary_line(const Item& item) {
   const std::string kind =
       item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : "");
-  const std::string line = fmt::format("{:<21} {}{}", item.name, kind, item.summary);
+  return fmt::format("{:<22} {}{}", item.name, kind, item.summary);
+}
+
+/// On a terminal, cut to its width.
+void print_line(const std::string& line) {
   const std::size_t columns = standard_output_style().width;
   fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
 }
 
 void print_options(const Item& item) {
   for (const OptionInfo& o : item.options) {
-    const std::string rule = o.rule.empty() ? "" : fmt::format("  ({})", o.rule);
-    const std::string line = fmt::format("{} = {}{}  {}", o.name, to_text(o.value), rule, o.help);
+    const std::string rule = o.rule.empty() ? "" : fmt::format(" ({})", o.rule);
+    const std::string line = fmt::format("{} = {}{}: {}", o.name, to_text(o.value), rule, o.help);
     const std::size_t columns = standard_output_style().width;
     const std::vector<std::string> lines = wrapped(line, columns == 0 ? 0 : columns - 8);
     for (std::size_t l = 0; l < lines.size(); ++l) {
@@ -93,12 +97,16 @@ void print_options(const Item& item) {
   }
 }
 
-/// One line for each entry, followed by its options if `with_options`. Protocols share theirs.
+/// One line for each entry; if `with_options`, all of its text and options. Protocols share theirs.
 void print(const std::string& subject, const std::vector<Item>& all, bool with_options) {
   const bool is_shared = subject == "protocols";
   for (const Item& item : all) {
-    print_line(item);
-    if (with_options && !is_shared) print_options(item);
+    if (with_options) {
+      fmt::print("{}\n", fitted(summary_line(item)));
+      if (!is_shared) print_options(item);
+    } else {
+      print_line(summary_line(item));
+    }
   }
   if (!with_options || !is_shared) return;
   fmt::print("settings with the defaults of {} (usage: protocol: {{base: NAME, SETTING: VALUE}})\n",

@@ -14,9 +14,13 @@ void add_pages(CLI::App& app, int& exit_code) {
   command->group("");  // only for the build
   command->add_option("folder", *folder, "Output folder")->required();
   command->callback([&app, folder, &exit_code] {
-    CommandTexts all{command_text_of(app, true)};
-    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
-      if (!each->get_group().empty()) all.push_back(command_text_of(*each, false));
+    const auto is_visible = [](const CLI::App* each) { return !each->get_group().empty(); };
+    CommandTexts all{command_text_of(app, "")};
+    for (const CLI::App* each : std::as_const(app).get_subcommands(is_visible)) {
+      all.push_back(command_text_of(*each, each->get_name()));
+      for (const CLI::App* verb : each->get_subcommands(is_visible)) {
+        all.push_back(command_text_of(*verb, each->get_name() + " " + verb->get_name()));
+      }
     }
     for (const auto& [name, text] : command_pages(all, kVersion)) {
       write_file(std::filesystem::path(*folder) / name, text);

@@ -34,7 +34,7 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
 void declare_output(CLI::App& verb, TrajArguments& a) {
   verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
       ->type_name("PATH");
-  verb.add_option("--to", a.to, "Output format: tum, kitti, euroc, g2o or csv")->type_name("WORD");
+  verb.add_option("--to", a.to, "Output format")->type_name("WORD:tum|kitti|euroc|g2o|csv");
   verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
       ->type_name("FILE");
 }

@@ -33,10 +33,11 @@ void located(const std::string& file,
     const bool is_explained = std::ranges::count(known, error.option()) > 0 ||
                               !replacement(error.option(), known).empty();
     const std::string guess = is_explained ? "" : closest(error.option(), known);
-    throw input_error(
-        file,
-        line,
-        name + ": " + error.what() + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    std::string why = error.what();  // the guess precedes the list of all options
+    if (!guess.empty()) {
+      why.insert(std::min(why.find(" (has: "), why.size()), "; did you mean '" + guess + "'?");
+    }
+    throw input_error(file, line, name + ": " + why);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "harness/correct/correct.hpp"
@@ -20,6 +21,12 @@ constexpr const char* kTitles[] = {"closure residual, rms [m]",
                                    "closure residual, max [deg]",
                                    "chi2 of odometry",
                                    "chi2 of closures"};
+
+/// Five digits; rounding errors are 0.
+std::string residual_text(double value) {
+  constexpr double kRounding = 1e-12;
+  return fmt::format("{:>14.5g}", std::abs(value) < kRounding ? 0.0 : value);
+}
 
 nlohmann::json residuals_json(const std::optional<Residuals>& residuals) {
   if (!residuals) return nullptr;
@@ -43,8 +50,10 @@ std::string text(const Correction& c) {
     out += fmt::format("{:<28}{:>14}{:>14}\n", "", "before", "after");
     for (std::size_t i = 0; i < std::size(kRows); ++i) {
       const auto member = kRows[i].second;
-      out += fmt::format(
-          "{:<28}{:>14.6g}{:>14.6g}\n", kTitles[i], (*c.before).*member, (*c.after).*member);
+      out += fmt::format("{:<28}{}{}\n",
+                         kTitles[i],
+                         residual_text((*c.before).*member),
+                         residual_text((*c.after).*member));
     }
   } else {
     out += "no residuals: an edge changes the scale\n";

@@ -170,10 +170,13 @@ std::string run_report(const std::vector<Record>& records,
     if (protocol.empty()) protocol = r.protocol;
     if (r.metric.empty() || is_run_score(r, metric, protocol)) scores.push_back(r);
   }
+  const bool has_others = std::ranges::any_of(
+      records, [&](const Record& r) { return !r.protocol.empty() && r.protocol != protocol; });
+  const std::string subject = metric + (has_others ? " (" + protocol + ")" : "");
   CompareOptions options;
   options.baseline = records.front().method;
   for (const Comparison& comparison : compare(scores, options)) {
-    out += "\n" + lines_of("verdict on " + metric + ": " + verdict(comparison), style);
+    out += "\n" + lines_of("verdict on " + subject + ": " + verdict(comparison), style);
     const std::vector<std::string> limits = conditions(comparison);
     const bool uses_all = comparison.runs == comparison.possible;
     for (std::size_t i = uses_all ? 1 : 0; i < limits.size(); ++i) {  // the verdict has the first

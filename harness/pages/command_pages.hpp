@@ -18,13 +18,13 @@ struct CommandOption {
 };
 
 struct CommandText {
-  std::string name;  ///< empty: the program
+  std::string name;  ///< empty: the program; "traj crop": a subcommand of another command
   std::string summary;
   std::vector<CommandOption> options;
   std::string footer;  ///< examples and further notes
 };
 
-/// The program first, then its commands.
+/// The program first, then its commands, each followed by its subcommands.
 using CommandTexts = std::vector<CommandText>;
 
 /// roff text of loopbench.1 or loopbench-COMMAND.1. `version` appears in the footer.
@@ -37,8 +37,8 @@ std::string bash_completion(const CommandTexts& all);
 std::string zsh_completion(const CommandTexts& all);
 std::string fish_completion(const CommandTexts& all);
 
-/// All of the above by file name: loopbench.1, loopbench-run.1, loopbench.bash, _loopbench,
-/// loopbench.fish.
+/// All of the above by file name: loopbench.1, loopbench-run.1, loopbench-traj-crop.1,
+/// loopbench.bash, _loopbench, loopbench.fish.
 std::map<std::string, std::string> command_pages(const CommandTexts& all,
                                                  const std::string& version);
 

@@ -1,4 +1,5 @@
-#include <sstream>
+#include <algorithm>
+#include <string>
 
 #include "harness/pages/command_pages.hpp"
 
@@ -20,6 +21,13 @@ std::string roff(const std::string& text) {
       out += c;
     }
   }
+  return out;
+}
+
+/// loopbench-traj-crop
+std::string manual_name(const CommandText& one) {
+  std::string out = one.name.empty() ? "loopbench" : "loopbench-" + one.name;
+  std::ranges::replace(out, ' ', '-');
   return out;
 }
 
@@ -55,7 +63,7 @@ std::string option_text(const CommandOption& option) {
 std::string manual_page(const CommandTexts& all,
                         const CommandText& one,
                         const std::string& version) {
-  const std::string title = one.name.empty() ? "loopbench" : "loopbench-" + one.name;
+  const std::string title = manual_name(one);
   std::string out =
       ".TH " + roff(title) + " 1 \"\" \"loopbench " + version + "\" \"User Commands\"\n";
   out += ".SH NAME\n" + roff(title) + " \\- " + roff(one.summary) + "\n";
@@ -64,7 +72,7 @@ std::string manual_page(const CommandTexts& all,
     out += ".SH COMMANDS\n";
     for (const CommandText& each : all) {
       if (each.name.empty()) continue;
-      out += ".TP\n\\fBloopbench\\-" + roff(each.name) + "\\fR(1)\n" + roff(each.summary) + "\n";
+      out += ".TP\n\\fB" + roff(manual_name(each)) + "\\fR(1)\n" + roff(each.summary) + "\n";
     }
   }
   out += ".SH OPTIONS\n";
@@ -81,8 +89,7 @@ std::map<std::string, std::string> command_pages(const CommandTexts& all,
                                          {"_loopbench", zsh_completion(all)},
                                          {"loopbench.fish", fish_completion(all)}};
   for (const CommandText& one : all) {
-    out[(one.name.empty() ? "loopbench" : "loopbench-" + one.name) + ".1"] =
-        manual_page(all, one, version);
+    out[manual_name(one) + ".1"] = manual_page(all, one, version);
   }
   return out;
 }

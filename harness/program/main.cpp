@@ -80,8 +80,7 @@ int run(CLI::App& app,
       if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_errno = errno;
       return kExitOk;
     }
-    const std::string unknown = unknown_word(app, error);
-    print_error("{}", printable(unknown.empty() ? parser_output.str() : unknown));
+    print_error("{}", printable(parse_error_text(app, error)));
     return kExitBadInput;
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);

@@ -89,6 +89,7 @@ TEST_F(Correct, ItsFileHasTheScoreOfTheSweepsCell) {
         "correct --method '" + method + "' est.txt --loops loops.txt -o out.txt", folder_);
     ASSERT_EQ(done.exit_code, 0) << done.err;
     EXPECT_THAT(done.out, HasSubstr("closure residual, rms [m]"));
+    EXPECT_THAT(done.out, HasSubstr("chi2 of odometry                         0 "));
     EXPECT_THAT(done.out, HasSubstr("40 poses in out.txt"));
     EXPECT_EQ(evaluated("gt.txt", "out.txt"), in_sweep(method, "keyframes", files)) << method;
     loopbench_command(

@@ -61,6 +61,8 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
   const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
   EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
   EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot prove a difference"));
+  EXPECT_THAT(run("eval gt.txt a.txt b.txt --protocol evo,tum", 80).out,
+              HasSubstr("\nverdict on ate (evo): "));
 }
 
 TEST_F(EvalOnATerminal, StoresEndWithATableThatFits) {

@@ -185,11 +185,16 @@ TEST_F(Output, AnUnknownWordIsNamed) {
   EXPECT_EQ(said("eva a b"), "loopbench: no subcommand is named 'eva'; did you mean 'eval'?");
   EXPECT_EQ(said("hepl"), "loopbench: no subcommand is named 'hepl'; did you mean 'help'?");
   EXPECT_EQ(said("--foo"), "loopbench: no option is named '--foo' (known: --help, --version)");
+  EXPECT_EQ(said("traj inf a.txt"),
+            "loopbench: no subcommand of traj is named 'inf'; did you mean 'info'?");
+  EXPECT_EQ(said("traj crop a.txt --strt 1"),
+            "loopbench: no option of traj crop is named '--strt'; did you mean '--start'?");
+  EXPECT_EQ(said("compare"), "loopbench: compare: store is required");
   EXPECT_EQ(said("eval a.txt a.txt --jsn"),
             "loopbench: no option of eval is named '--jsn'; did you mean '--json'?");
-  EXPECT_EQ(
-      said("table x --format foo"),
-      "--format: no format is named 'foo' (known: csv, json, latex, markdown, rows, terminal)");
+  EXPECT_EQ(said("table x --format foo"),
+            "loopbench: table: --format: no format is named 'foo' (known: csv, json, latex, "
+            "markdown, rows, terminal)");
   EXPECT_EQ(said("'e\x1b[31m'").find("loopbench: no subcommand is named 'e\\x1b[31m'"), 0u);
 }
 

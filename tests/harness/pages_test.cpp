@@ -36,6 +36,10 @@ TEST_F(Pages, ManualsContainTheTextsOfHelp) {
   const std::string program = page("loopbench.1");
   EXPECT_NE(program.find("\\fBloopbench\\-eval\\fR(1)"), std::string::npos) << program;
   EXPECT_EQ(program.find("pages"), std::string::npos) << "hidden";
+  EXPECT_NE(program.find("\\fBloopbench\\-traj\\-crop\\fR(1)"), std::string::npos) << program;
+  const std::string crop = page("loopbench-traj-crop.1");
+  EXPECT_NE(crop.find(".SH SYNOPSIS\n.B loopbench traj crop\n"), std::string::npos) << crop;
+  EXPECT_NE(crop.find("\\fB\\-\\-relative\\fR"), std::string::npos) << crop;
 }
 
 TEST_F(Pages, ManualsAreValidRoff) {
@@ -57,6 +61,9 @@ TEST_F(Pages, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("table x --format la"), "latex\n");
   EXPECT_EQ(completed("run c --retry f"), "failed\n");
   EXPECT_EQ(completed("help ru"), "run\n");
+  EXPECT_EQ(completed("traj cr"), "crop\n");
+  EXPECT_EQ(completed("traj crop x --rel"), "--relative\n");
+  EXPECT_EQ(completed("traj convert x --to eu"), "euroc\n");
   EXPECT_EQ(completed("run som"), "\n");  // files, by bash itself
 }
 
@@ -69,6 +76,10 @@ TEST_F(Pages, OtherShellsAcceptTheirs) {
   EXPECT_NE(page("loopbench.fish").find("__fish_seen_subcommand_from run' -s j -l jobs -r"),
             std::string::npos)
       << page("loopbench.fish");
+  EXPECT_NE(page("loopbench.fish")
+                .find("'__fish_seen_subcommand_from traj; and __fish_seen_subcommand_from plot' -"),
+            std::string::npos);
+  EXPECT_NE(page("_loopbench").find("_loopbench_traj() {\n"), std::string::npos);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
   EXPECT_EQ(why(config("- dataset: line\n    bias: 2")),
             "c.yaml:3: line: bias = 2.0: expected 0 <= bias <= 1");
   EXPECT_EQ(why(config("- dataset: line\n    bais: 0.5")),
-            "c.yaml:3: line: bais: unknown option (has: bias, seed); did you mean 'bias'?");
+            "c.yaml:3: line: bais: unknown option; did you mean 'bias'? (has: bias, seed)");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, by: 1}")),
             "c.yaml:4: by: both stages have this option; use shift.by or straight.by");
   EXPECT_EQ(why(config("- line", "- {method: shift + straight, fial: true}")),

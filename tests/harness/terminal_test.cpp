@@ -169,6 +169,9 @@ TEST_F(OnATerminal, ListsHaveOneLineForEachName) {
   EXPECT_NE(piped("list methods unifrom").err.find("did you mean 'uniform'?"), std::string::npos);
   EXPECT_EQ(piped("list methods 'zz*'").err, "loopbench: list: no name matches 'zz*'\n");
   EXPECT_EQ(piped("list zz raw").exit_code, 2);
+  const std::string one = run("list motion_drift").out;  // its summary is longer than a line
+  EXPECT_NE(one.find("over noise\n  models drawn from their posterior\n"), std::string::npos)
+      << one;
 }
 
 TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
@@ -195,6 +198,10 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
   EXPECT_NE(piped("help traj crop").out.find("Examples:\n  loopbench traj crop "),
             std::string::npos);
   EXPECT_EQ(piped("help traj crop").out, piped("traj crop --help").out);
+  const std::string named = run("run --help", 80, "LOOPBENCH_NAME=./run.sh").out;
+  EXPECT_NE(named.find("Usage: ./run.sh run [OPTIONS]"), std::string::npos) << named;
+  EXPECT_NE(named.find("\n  ./run.sh run mine.yaml --dry-run\n"), std::string::npos) << named;
+  EXPECT_EQ(named.find("  loopbench"), std::string::npos) << named;
   EXPECT_EQ(piped("help tabel").err,
             "loopbench: no command is named 'tabel'; did you mean 'table'?\n");
 }

@@ -47,8 +47,10 @@
     svg.append("path").attr("class", "band").attr("d", along(reference));
     methods.forEach((m, i) => svg.append("path").attr("class", "curve").attr("d", along(traces[i]))
       .style("stroke", R.color(m.place)).attr("stroke-dasharray", R.dash(m.place)).append("title").text(m.label));
+    // The picture is scaled to its column, its text is not.
+    const shrunk = Math.max(1, kWidth / (svg.node().clientWidth || kWidth));
     for (const [p, q, name] of ends) {
-      svg.append("text").attr("class", "halo").attr("x", q[0]).attr("y", q[1] + (q[1] > p[1] ? 14 : -6))
+      svg.append("text").attr("class", "halo").style("font-size", `${12 * shrunk}px`).attr("x", q[0]).attr("y", q[1] + (q[1] > p[1] ? 14 : -6))
         .attr("text-anchor", q[0] > 0.8 * kWidth ? "end" : q[0] < 0.2 * kWidth ? "start" : "middle").text(name);
     }
   };

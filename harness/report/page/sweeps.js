@@ -65,7 +65,9 @@
         const dots = group.selectAll(null).data(points).join("g").attr("transform", (p) => `translate(${x(p.x)},${y(p.y)})`);
         dots.append("circle").attr("r", 4.5).style("fill", "var(--accent)").append("title").text((p) => `${option} ${p.x}: ${R.number(p.y)}`);
         if (points.length <= 10) {
-          dots.append("text").attr("class", "halo strong").attr("y", -9).attr("text-anchor", "middle").text((p) => R.number(p.y));
+          // The outer texts stay inside narrow charts.
+          const anchor = (p, i) => (points.length > 1 && i === 0 ? "start" : points.length > 1 && i === points.length - 1 ? "end" : "middle");
+          dots.append("text").attr("class", "halo strong").attr("y", -9).attr("text-anchor", anchor).text((p) => R.number(p.y));
         }
       },
     });
