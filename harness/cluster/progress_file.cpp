@@ -40,4 +40,11 @@ CellCounts read_progress(const std::filesystem::path& out) {
   return all;
 }
 
+void remove_progress(const std::filesystem::path& out) {
+  std::error_code error;
+  for (const auto& shard : std::filesystem::directory_iterator(out / "shards", error)) {
+    std::filesystem::remove(shard.path() / "progress", error);
+  }
+}
+
 }  // namespace loopbench::harness

@@ -31,4 +31,7 @@ class ProgressFile {
 /// Sum over the files OUT/shards/*/progress. O(shards).
 CellCounts read_progress(const std::filesystem::path& out);
 
+/// Removes these files, which can be of another number of shards. O(shards).
+void remove_progress(const std::filesystem::path& out);
+
 }  // namespace loopbench::harness

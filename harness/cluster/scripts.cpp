@@ -7,8 +7,9 @@
 namespace loopbench::harness {
 namespace {
 
-/// For shellcheck: labels in single quotes can look like expressions.
-constexpr const char* kLiteral = "# shellcheck disable=SC2016\n";
+/// For shellcheck: texts in single quotes can look like expressions, a path with a line feed like a
+/// mistake, and functions that only traps call like unreachable ones.
+constexpr const char* kChecked = "# shellcheck disable=SC2016,SC2289,SC2317\n";
 
 /// "#SBATCH --NAME=VALUE" for a value that is set. sbatch reads the rest of the line, so values
 /// contain no white space, see with_settings().
@@ -60,7 +61,7 @@ std::string slurm_shard_script(const SubmittedSweep& sweep, const ClusterSetting
                      settings.array) +
          "#SBATCH --output=logs/%A_%a.txt\n#SBATCH --open-mode=append\n#SBATCH --requeue\n"
          "#SBATCH --nodes=1\n#SBATCH --ntasks=1\n" +
-         fmt::format("#SBATCH --cpus-per-task={}\n#SBATCH --signal=B:TERM@{}\n",
+         fmt::format("#SBATCH --cpus-per-task={}\n#SBATCH --signal=B:USR1@{}\n",
                      settings.cores,
                      settings.signal) +
          sbatch_line("time", settings.time) +
@@ -69,26 +70,39 @@ std::string slurm_shard_script(const SubmittedSweep& sweep, const ClusterSetting
          sbatch_lines(settings) +
          fmt::format("# Written by loopbench submit: task I runs shard I of {}.\n",
                      settings.array) +
-         kLiteral +
+         kChecked +
          "set -u\n"
-         "stopped=0 code=0 shard=''\n"
-         "# Before the time limit: running cells are finished, the others run after the requeue.\n"
-         "trap 'stopped=1; [[ -z $shard ]] || kill -TERM \"$shard\" 2>/dev/null' TERM\n" +
+         "limit=0 ended=0 waited=-1 code=0 shard='' late=''\n"
+         "stop_shard() { [[ -z $shard ]] || kill -TERM \"$shard\" 2>/dev/null; }\n" +
+         fmt::format(
+             "abandon_cells() {{\n"
+             "  sleep {} & nap=$!\n"
+             "  trap 'kill \"$nap\"; exit' TERM\n"
+             "  wait \"$nap\"\n"
+             "  kill -INT \"$shard\"\n"
+             "}}\n",
+             settings.signal - settings.signal / 4) +
+         "# Cancelled or requeued: running cells are finished. Before the time limit: also, and "
+         "all\n"
+         "# others run after the requeue, as those that would exceed the limit.\n"
+         "trap 'ended=1; stop_shard' TERM\n"
+         "trap 'limit=1; stop_shard' USR1\n" +
          run_words(sweep) +
          fmt::format(
              " --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs \"${{SLURM_CPUS_PER_TASK:-{}}}\" &\n",
              settings.array,
              settings.cores) +
          "shard=$!\n"
-         "((stopped)) && kill -TERM \"$shard\" 2>/dev/null  # it came before the number was known\n"
-         "wait \"$shard\" || code=$?\n"
-         "if ((stopped)); then\n"
-         "  code=0\n"
-         "  wait \"$shard\" || code=$?  # the signal ended the first one\n"
-         "fi\n"
+         "((limit + ended)) && stop_shard  # the signal came before the number was known\n"
+         "until ((limit + ended == waited)); do  # a signal ends the wait\n"
+         "  waited=$((limit + ended)) code=0\n"
+         "  ((limit)) && [[ -z $late ]] && { abandon_cells 2>/dev/null & late=$!; }\n"
+         "  wait \"$shard\" || code=$?\n"
+         "done\n"
+         "[[ -z $late ]] || kill \"$late\" 2>/dev/null\n"
          "# 130: interrupted; 143: before it could be. Not forever, if a shard makes no progress.\n"
-         "if ((stopped && (code == 130 || code == 143) && ${SLURM_RESTART_COUNT:-0} < 1000)); "
-         "then\n"
+         "if ((limit && !ended && (code == 130 || code == 143) && ${SLURM_RESTART_COUNT:-0} < "
+         "1000)); then\n"
          "  exec scontrol requeue \"${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}\"\n"
          "fi\n"
          "((code == 1)) && exit 0  # failed cells are results, too\n"
@@ -100,7 +114,7 @@ std::string slurm_merge_script(const SubmittedSweep& sweep, const ClusterSetting
          "#SBATCH --output=logs/%j-merge.txt\n#SBATCH --open-mode=append\n#SBATCH --requeue\n"
          "#SBATCH --nodes=1\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n" +
          sbatch_line("time", settings.time) + sbatch_lines(settings) +
-         "# Written by loopbench submit: merges the stores of all shards.\n" + kLiteral +
+         "# Written by loopbench submit: merges the stores of all shards.\n" + kChecked +
          "set -eu\n" + merge_lines(sweep);
 }
 
@@ -109,7 +123,7 @@ std::string local_script(const SubmittedSweep& sweep, const ClusterSettings& set
              "#!/bin/bash\n"
              "# Written by loopbench submit: runs all shards at once, then merges their "
              "stores.\n") +
-         kLiteral +
+         kChecked +
          "set -u\n"
          "mkdir -p logs\n"
          "shards=() stopped=0\n"

@@ -1,6 +1,7 @@
 #include "harness/cluster/submission.hpp"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -83,13 +84,20 @@ bool is_running(const Submission& submission) {
          start_of_process(submission.process) == submission.started;
 }
 
-std::string queued_tasks(const Submission& submission) {
+std::optional<std::string> queued_tasks(const Submission& submission) {
+  // All jobs of the user: squeue also fails when it is asked for jobs that have ended.
   const ProgramResult listed = run_program(
-      {"squeue", "--noheader", "--array", "--format=%T", "--jobs=" + jobs_of(submission)},
+      {"squeue", "--noheader", "--array", "--format=%F %T", "--user=" + std::to_string(getuid())},
       ".",
       true);
   if (listed.exit_code == 127) throw InputError("squeue: cannot be started; is Slurm installed?");
-  return counted_states(listed.out);  // it also fails when the jobs have ended
+  if (listed.exit_code != 0) return std::nullopt;
+  std::istringstream in(listed.out);
+  std::string states;
+  for (std::string job, state; in >> job >> state;) {
+    if (job == submission.job || job == submission.merge_job) states += state + "\n";
+  }
+  return counted_states(states);
 }
 
 std::string ended_tasks(const Submission& submission) {

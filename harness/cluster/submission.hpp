@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "harness/cluster/settings.hpp"
@@ -31,8 +32,9 @@ Submission read_submission(const std::filesystem::path& out);
 bool is_running(const Submission& submission);
 
 /// "4 running, 2 pending": the array tasks and the merge as squeue lists them; empty if no job is
-/// left. Throws InputError if squeue fails.
-std::string queued_tasks(const Submission& submission);
+/// left; nullopt if squeue fails, for example while the controller restarts. Throws InputError if
+/// it cannot be started.
+std::optional<std::string> queued_tasks(const Submission& submission);
 
 /// "6 completed, 1 failed": ended jobs as sacct lists them; empty without accounting.
 std::string ended_tasks(const Submission& submission);

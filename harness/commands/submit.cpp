@@ -8,13 +8,16 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/cluster/progress_file.hpp"
 #include "harness/cluster/run_program.hpp"
 #include "harness/cluster/scripts.hpp"
 #include "harness/cluster/submission.hpp"
 #include "harness/commands/cluster.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
+#include "harness/commands/run_part.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/text/printable.hpp"
@@ -107,18 +110,50 @@ std::string submitted(std::vector<std::string> words, const std::filesystem::pat
   return number;
 }
 
-int submit(const SubmitArguments& arguments) {
+/// Number of cells that the jobs run. Throws InputError if `--missing` has no store to complete.
+std::size_t submitted_cells(const SubmitArguments& arguments,
+                            const Sweep& sweep,
+                            const Catalogue& known,
+                            const std::filesystem::path& out,
+                            const Source& source) {
+  const std::vector<bool> with_seed = seeded(sweep, known);
+  const std::vector<Cell> selected = cells(sweep, with_seed, arguments.only);
+  if (selected.empty()) throw InputError(arguments.config + ": no cells to run");
+  if (!arguments.missing) return selected.size();
+  const DataRoot root = data_root(sweep, arguments.data);
+  CellKeys keys(sweep, known, root, build_id(source.code));
+  PartArguments part;
+  part.missing = part.dry_run = true;
+  return select_part(part, keys, cells(sweep, with_seed, ""), selected, known, root, out)
+      .planned.size();
+}
+
+/// Throws InputError while jobs of an earlier submission can write to its stores.
+void require_no_jobs(const std::filesystem::path& out, Engine engine) {
+  if (!std::filesystem::exists(out / "submission.txt")) return;
+  const Submission earlier = read_submission(out);
+  if (earlier.engine != engine) return;
+  const bool has_jobs = engine == Engine::slurm ? queued_tasks(earlier) != "" : is_running(earlier);
+  if (!has_jobs) return;
+  throw InputError(
+      fmt::format("{}: jobs of an earlier submission have not ended; wait for them (`{} watch`) or "
+                  "end them (`{} cancel`)",
+                  out.string(),
+                  program_name(),
+                  program_name()));
+}
+
+int submit(const SubmitArguments& arguments, const Source& source) {
   const std::string config = absolute(config_path(arguments.config));
   const std::vector<std::filesystem::path> plugins(arguments.plugins.begin(),
                                                    arguments.plugins.end());
   const Catalogue known = catalogue(with_config_plugins(plugins, config));
   const Sweep sweep = read_sweep(config, known, arguments.data);
-  const std::size_t count = cells(sweep, seeded(sweep, known), arguments.only).size();
-  if (count == 0) throw InputError(arguments.config + ": no cells to run");
   const ClusterSettings settings = settings_of(arguments, config);
   check_limits(sweep, settings);
   const std::filesystem::path out =
       absolute(arguments.out.empty() ? "results/" + sweep.name : arguments.out);
+  const std::size_t count = submitted_cells(arguments, sweep, known, out, source);
   std::error_code error;
   const SubmittedSweep job{sweep.name,
                            std::filesystem::read_symlink("/proc/self/exe", error),
@@ -133,7 +168,13 @@ int submit(const SubmitArguments& arguments) {
     fmt::print("{}{}{}", script, is_slurm ? "\n" : "", merge);
     return kExitOk;
   }
+  if (count == 0) {
+    fmt::print("no cells are missing\n");
+    return kExitOk;
+  }
+  require_no_jobs(out, settings.engine);
   std::filesystem::create_directories(out / "logs");
+  remove_progress(out);
   write_result(out / "shards.sh", script);
   if (is_slurm) write_result(out / "merge.sh", merge);
   Submission record{
@@ -161,7 +202,7 @@ int submit(const SubmitArguments& arguments) {
 
 }  // namespace
 
-void add_submit(CLI::App& app, int& exit_code) {
+void add_submit(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command = app.add_subcommand(
       "submit", "Run the shards of a sweep as jobs of a cluster, or as processes");
@@ -197,7 +238,7 @@ void add_submit(CLI::App& app, int& exit_code) {
   command->footer(
       "Settings are read from ~/.config/loopbench/cluster.yaml, then from `cluster:` of the "
       "config, then from the options.");
-  command->callback([arguments, &exit_code] { exit_code = submit(*arguments); });
+  command->callback([arguments, source, &exit_code] { exit_code = submit(*arguments, source); });
 }
 
 }  // namespace loopbench::harness

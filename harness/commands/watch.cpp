@@ -31,7 +31,7 @@ class Watch {
   /// Prints one line; whether jobs are left.
   bool step() {
     const bool is_slurm = submission_.engine == Engine::slurm;
-    const std::string queued = is_slurm                  ? queued_tasks(submission_)
+    const std::string queued = is_slurm ? queued_tasks(submission_).value_or("squeue fails")
                                : is_running(submission_) ? "running"
                                                          : "";
     const CellCounts now = read_progress(out_);

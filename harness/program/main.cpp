@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
   add_correct(app, exit_code);
   add_export(app, exit_code);
   add_merge(app, exit_code);
-  add_submit(app, exit_code);
+  add_submit(app, exit_code, source);
   add_watch(app, exit_code);
   add_cancel(app, exit_code);
   add_salvage(app, exit_code);

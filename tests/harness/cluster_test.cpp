@@ -23,6 +23,7 @@ class ClusterScripts : public testing::Test {
  protected:
   ClusterScripts() {
     std::filesystem::create_directories(folder_.path() / "logs");
+    std::filesystem::create_directory_symlink(folder_.path(), hostile_);
     // Writes its words, one per line, into a file named after the shard.
     write("program",
           "#!/bin/bash\nout=words\nfor word; do [[ $last == --shard ]] && out=${word%/*}\n"
@@ -46,13 +47,14 @@ class ClusterScripts : public testing::Test {
 
   SubmittedSweep sweep() {
     return {kHostile,
-            folder_.path() / "program",
+            hostile_ / "program",
             "/configs/" + kHostile + ".yaml",
-            folder_.path() / "out",
-            {"--only=" + kHostile}};
+            hostile_ / "out",
+            {"--only=" + kHostile, "--data", hostile_ / "data"}};
   }
 
   TemporaryFolder folder_;
+  std::filesystem::path hostile_ = folder_.path() / kHostile;  ///< another name of the folder
 };
 
 TEST_F(ClusterScripts, NoTextBecomesACommand) {
@@ -62,32 +64,59 @@ TEST_F(ClusterScripts, NoTextBecomesACommand) {
   bash(local_script(sweep(), settings));
   for (const std::string shard : {"1", "2", "3"}) {
     EXPECT_EQ(read("words-" + shard),
-              "run\n/configs/" + kHostile + ".yaml\n--out\n" + (folder_.path() / "out").string() +
-                  "\n--only=" + kHostile + "\n--shard\n" + shard + "/3\n--jobs\n2\n");
+              "run\n/configs/" + kHostile + ".yaml\n--out\n" + (hostile_ / "out").string() +
+                  "\n--only=" + kHostile + "\n--data\n" + (hostile_ / "data").string() +
+                  "\n--shard\n" + shard + "/3\n--jobs\n2\n");
   }
   EXPECT_EQ(bash(slurm_shard_script(sweep(), settings), "SLURM_ARRAY_TASK_ID=2"), 0);
   std::filesystem::create_directories(folder_.path() / "out" / "shards" / "1-of-3");
   write("out/shards/1-of-3/results.sqlite", "");
   EXPECT_EQ(bash(slurm_merge_script(sweep(), settings)), 0) << read("out.txt");
-  const std::string out = (folder_.path() / "out").string();
+  const std::string out = (hostile_ / "out").string();
   EXPECT_EQ(read("words-words"),
             "merge\n--add\n" + out + "/shards/1-of-3/results.sqlite\n-o\n" + out + "\n");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "pwned"));
   EXPECT_EQ(job_name("a b;c\n"), "a_b_c_");
 }
 
-TEST_F(ClusterScripts, TheSignalBeforeTheLimitRequeuesAnInterruptedShard) {
-  write("program",
-        "#!/bin/bash\ntrap 'sleep 0.1; exit 130' TERM\nkill -TERM \"$PPID\"\n"
-        "for ((i = 0; i < 300; ++i)); do sleep 0.1; done\nexit 7\n");
+TEST_F(ClusterScripts, OnlyTheSignalBeforeTheLimitRequeuesAShard) {
   write("scontrol", "#!/bin/bash\nprintf '%s\\n' \"$@\" >requeued\n");
   const std::string script = slurm_shard_script(sweep(), {});
-  EXPECT_EQ(bash(script, "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=55"), 0);
+  const auto run = [&] { return bash(script, "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=55"); };
+  const auto signalled = [](const std::string& signals) {
+    return "#!/bin/bash\ntrap 'sleep 0.1; exit 130' TERM\n" + signals +
+           "for ((i = 0; i < 300; ++i)); do sleep 0.1; done\nexit 7\n";
+  };
+  // `scancel`, `scontrol requeue` and preemption end a task with SIGTERM.
+  write("program", signalled("kill -TERM \"$PPID\"\n"));
+  EXPECT_EQ(run(), 130);
+  // The trap waits for the end of a program, so both signals are sent.
+  write("program", signalled("bash -c \"kill -USR1 $PPID; kill -TERM $PPID\"\n"));
+  EXPECT_EQ(run(), 130);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "requeued"));
+  write("program", signalled("kill -USR1 \"$PPID\"\n"));
+  EXPECT_EQ(run(), 0);
   EXPECT_EQ(read("requeued"), "requeue\n55_2\n");
   for (const auto& [code, expected] : {std::pair{0, 0}, {1, 0}, {2, 2}, {3, 3}}) {
     write("program", "#!/bin/bash\nexit " + std::to_string(code) + "\n");
-    EXPECT_EQ(bash(script, "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=55"), expected);
+    EXPECT_EQ(run(), expected);
   }
+}
+
+TEST_F(ClusterScripts, ACellThatWouldExceedTheLimitIsAbandoned) {
+  write("scontrol", "#!/bin/bash\nprintf '%s\\n' \"$@\" >requeued\n");
+  // As `run`, whose running cells end at SIGINT only, which bash cannot catch in the background.
+  write("run.py",
+        "import os, signal, sys, time\nsignal.signal(signal.SIGTERM, lambda *_: None)\n"
+        "signal.signal(signal.SIGINT, lambda *_: os._exit(130))\nos.kill(os.getppid(), "
+        "signal.SIGUSR1)\ntime.sleep(30)\ntime.sleep(30)\n");
+  write("program", "#!/bin/bash\nexec /usr/bin/python3 \"${0%/*}/run.py\"\n");
+  ClusterSettings settings;
+  settings.signal = 1;
+  EXPECT_EQ(
+      bash(slurm_shard_script(sweep(), settings), "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=55"),
+      0);
+  EXPECT_EQ(read("requeued"), "requeue\n55_2\n");
 }
 
 TEST_F(ClusterScripts, PassShellcheck) {
@@ -96,6 +125,7 @@ TEST_F(ClusterScripts, PassShellcheck) {
   settings.time = "2:00:00";
   settings.memory = "4GiB";
   settings.partition = "long";
+  settings.account = "lab";
   for (const std::string& script : {slurm_shard_script(sweep(), settings),
                                     slurm_merge_script(sweep(), settings),
                                     local_script(sweep(), settings)}) {
@@ -119,7 +149,7 @@ TEST_F(ClusterScripts, ResourcesAreRequested) {
                            "#SBATCH --time=2:00:00\n",
                            "#SBATCH --mem=1536M\n",
                            "#SBATCH --account=lab\n",
-                           "#SBATCH --signal=B:TERM@120\n",
+                           "#SBATCH --signal=B:USR1@120\n",
                            "#SBATCH --requeue\n"}) {
     EXPECT_NE(script.find(line), std::string::npos) << line;
   }

@@ -1,7 +1,10 @@
 /// Worker processes: a crash affects only its own cell.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <map>
 
 #include "harness/catalogue/load_sequence.hpp"
@@ -89,6 +92,46 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
   }
   EXPECT_NE(results[3].why.find("exit code 7"), std::string::npos) << results[3].why;
   EXPECT_NE(results[4].why.find("limit of 5 s"), std::string::npos) << results[4].why;
+}
+
+std::atomic<int>* shared_counter = nullptr;  // of all processes
+
+/// Ends its process by a signal once.
+struct KilledOnce final : Corrector {
+  struct Options {};
+  explicit KilledOnce(const Options&) {}
+  Trajectory correct(const Problem& problem, Report&) const override {
+    if ((*shared_counter)++ == 0) raise(SIGTERM);
+    return problem.keyframes;
+  }
+};
+template <class Visit>
+void fields(KilledOnce::Options&, Visit) {}
+
+TEST_F(Isolated, ACellEndedByASignalFromOutsideRunsAgain) {
+  // As a scheduler does that ends all processes of a job in any order, the sweep last.
+  void* memory = mmap(
+      nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  shared_counter = new (memory) std::atomic<int>(0);
+  known_.methods.push_back(method<KilledOnce>("killed_once", ""));
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "killed_line", "", [](const tiny::LineOptions& options, const DataRoot& root) {
+        if ((*shared_counter)++ == 0) raise(SIGKILL);
+        return tiny::load_line(options, root);
+      }));
+  const char* const text = "metrics: [ate]\nmethods: [killed_once, straight]\n";
+  for (const std::string dataset : {"line", "killed_line"}) {
+    *shared_counter = 0;
+    sandbox_.enabled = false;  // a worker in a PID namespace of its own cannot kill itself
+    const std::vector<CellResult> results = run("datasets: [" + dataset + "]\n" + text, 1);
+    ASSERT_EQ(results.size(), 2u);
+    for (const CellResult& result : results) {
+      EXPECT_EQ(result.status, Status::ok) << dataset << ": " << result.why;
+    }
+    EXPECT_GE(*shared_counter, 2) << dataset;
+  }
+  munmap(memory, sizeof(std::atomic<int>));
 }
 
 TEST_F(Isolated, TimedCellsRunAloneOnOneCore) {

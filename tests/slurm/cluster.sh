@@ -24,6 +24,7 @@ start_daemon() {
   shift
   setsid "$@" >>"$log" 2>&1 &
   cluster_processes+=("$!")
+  disown "$!"  # no message when a test kills it
 }
 
 start_node() { start_daemon "$cluster_folder/$1.out" slurmd -D -N "$1" -f "$SLURM_CONF"; }

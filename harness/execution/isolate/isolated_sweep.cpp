@@ -10,7 +10,7 @@
 
 #include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/signal_name.hpp"
+#include "harness/execution/isolate/killed_cells.hpp"
 #include "harness/execution/isolate/subreaper.hpp"
 #include "harness/execution/isolate/unpack_answer.hpp"
 #include "harness/execution/isolate/worker_slot.hpp"
@@ -168,7 +168,11 @@ class IsolatedSweep {
         result.why = "its result is damaged: it wrote over its memory";
         set_conditions(result, header.cell);
       }
-      finish(result, header.cell);
+      if (result.status == Status::crashed && killed_.runs_again(header.cell, result.signal)) {
+        queue_.requeue(header.cell);
+      } else {
+        finish(result, header.cell);
+      }
     }
     slot.jobs.pop_front();
     return true;
@@ -200,6 +204,7 @@ class IsolatedSweep {
     result.cell = context_.cells[cell];
     result.metadata = metadata_[group];
     flag_trained_on_evaluated(result, context_.sweep);
+    if (stop_ > 0) KilledCells::set_interrupted(result);
     if (queue_.finish(cell)) metadata_[group].reset();  // no longer needed
     finished_(result);
   }
@@ -220,13 +225,8 @@ class IsolatedSweep {
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
     if (idle && result) return;
     if (!result) {
-      result.emplace();
-      result->status = Status::crashed;
-      if (end.signal != 0) result->signal = signal_name(end.signal);
-      result->why = end.signal != 0 ? "ended by " + result->signal
-                                    : fmt::format("exited, exit code {}", end.exit_code);
-      if (end.signal == 9) result->why += ", not by this program (system out of memory?)";
-      result->why += loading ? ", while loading its sequence" : " (its worker process)";
+      result = crash_of_worker(end, loading);
+      if (killed_.runs_again(first.cell, result->signal)) return requeue(first);
     }
     set_conditions(*result, first.cell);
     if (loading) load_failures_[queue_.group_of(first.cell)] = result;
@@ -269,6 +269,7 @@ class IsolatedSweep {
   const StopRequests& stop_;
   const std::function<void(const CellResult&)>& finished_;
   CellQueue queue_;
+  KilledCells killed_;
   std::deque<Job> loads_;
   bool loads_done_ = false;
   std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;  ///< by group

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
+
 #include "harness/execution/isolate/process_tree.hpp"
+#include "harness/execution/isolate/signal_name.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -34,6 +37,17 @@ void apply_limits(WorkerSlot& slot, const Limits& limits) {
     slot.verdict = verdict;
   }
   if (slot.verdict) slot.process->kill();
+}
+
+CellResult crash_of_worker(const WorkerProcess::End& end, bool loading) {
+  CellResult out;
+  out.status = Status::crashed;
+  if (end.signal != 0) out.signal = signal_name(end.signal);
+  out.why = end.signal != 0 ? "ended by " + out.signal
+                            : fmt::format("exited, exit code {}", end.exit_code);
+  if (end.signal == SIGKILL) out.why += ", not by this program (system out of memory?)";
+  out.why += loading ? ", while loading its sequence" : " (its worker process)";
+  return out;
 }
 
 }  // namespace loopbench::harness

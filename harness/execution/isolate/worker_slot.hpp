@@ -37,4 +37,7 @@ struct WorkerSlot {
 /// the verdict.
 void apply_limits(WorkerSlot& slot, const Limits& limits);
 
+/// Result of the cell or sequence of a worker that ended by itself or was killed.
+CellResult crash_of_worker(const WorkerProcess::End& end, bool loading);
+
 }  // namespace loopbench::harness
