@@ -94,6 +94,14 @@ restart_controller() {
   for ((i = 0; i < 100; ++i)); do scontrol ping 2>/dev/null | grep -q 'is UP' && break; sleep 0.1; done
 }
 
+# What an administrator does: a restarted controller otherwise asks its nodes minutes later which jobs they lost, and
+# drains them if it has given the number of a forgotten job to another one.
+repair_cluster() {
+  local i
+  scontrol reconfigure || true
+  for i in 1 2 3 4; do scontrol update NodeName="n$i" State=RESUME 2>/dev/null || true; done
+}
+
 # Makes one failure of the submission in a folder and describes it in `what`. False: there was nothing to fail, for
 # example because no task is running.
 one_failure() {
@@ -180,8 +188,7 @@ while ((count < failures)); do
     "$loopbench" submit "$folder/sweep.yaml" --out "$out" >/dev/null
     submissions=$((submissions + 1)) jobs=$(jobs_of "$out") began=$SECONDS asked=$SECONDS
     while has_jobs "$jobs"; do
-      # A restarted controller otherwise asks its nodes minutes later which jobs they lost.
-      ((SECONDS - asked < 30)) || { scontrol reconfigure || true; asked=$SECONDS; }
+      ((SECONDS - asked < 30)) || { repair_cluster; asked=$SECONDS; }
       ((SECONDS - began < 300)) || { squeue; echo "round $round: the jobs do not end"; exit 1; }
       sleep "0.$((RANDOM % 10))"
       if ((count < last)) && one_failure "$out"; then
