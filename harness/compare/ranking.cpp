@@ -5,7 +5,6 @@
 #include <functional>
 #include <future>
 #include <numeric>
-#include <ranges>
 #include <thread>
 
 #include "harness/statistics/holm.hpp"
@@ -85,7 +84,7 @@ void for_all(std::size_t count, std::size_t groups, Each each) {
     others.push_back(
         std::async(t + 1 < threads ? std::launch::async : std::launch::deferred, part));
   }
-  for (std::future<void>& other : others | std::views::reverse) other.get();
+  for (auto other = others.rbegin(); other != others.rend(); ++other) other->get();
 }
 
 std::vector<Test> tests(const Levels& levels, Ranking& out) {

@@ -140,7 +140,7 @@ const RecordReader::KeptScores& RecordReader::kept_scores(const ScoreList& list)
     set_definition(definition, list[i]);
     if (is_kept_ && !is_kept_(definition)) continue;
     out.index.push_back(i);
-    out.records.push_back(std::move(definition));
+    out.records.push_back(definition);
   }
   return out;
 }

@@ -51,7 +51,7 @@ std::vector<Record> one_per_cell(const std::vector<Record>& records,
     one.unit = unit;
     const double x = number(r);
     one.statistics = {1, x, x, x, 0.0, x, x, x * x};
-    out.push_back(std::move(one));
+    out.push_back(one);
   }
   return out;
 }
@@ -88,7 +88,7 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
       g.status = "declined";
       g.why = "the error of the baseline " + baseline + " is zero";
     }
-    out.push_back(std::move(g));
+    out.push_back(g);
   }
   return out;
 }
