@@ -129,7 +129,8 @@ TEST_F(Damage, NamesTheCellAndWhatToDo) {
   run(kUsual);
   const std::string expected = store_text(file_);
   change(
-      "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell WHERE "
+      "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell "
+      "WHERE "
       "position = 3)");
   const std::string said = refusal(file_);
   EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is corrupted"), std::string::npos)
