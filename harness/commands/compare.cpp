@@ -39,6 +39,7 @@ std::string text(const std::vector<Comparison>& comparisons,
 }
 
 int print_comparison(const CompareArguments& arguments) {
+  std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
   const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
@@ -46,8 +47,12 @@ int print_comparison(const CompareArguments& arguments) {
   const ExportFormat format =
       arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
-  write_output(
-      text(comparisons, format, style), format, "comparisons", arguments.store, arguments.out);
+  write_output(text(comparisons, format, style),
+               format,
+               "comparisons",
+               std::move(provenance),
+               arguments.store,
+               arguments.out);
   return kExitOk;
 }
 

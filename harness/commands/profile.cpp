@@ -25,6 +25,7 @@ struct ProfileArguments {
 };
 
 int print_profile(const ProfileArguments& arguments) {
+  std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const Pattern selected = Pattern::of_option("--only", arguments.only);
   std::vector<CellRecord> cells = read_costs(arguments.store);
   std::erase_if(cells, [&](const CellRecord& cell) {
@@ -38,12 +39,7 @@ int print_profile(const ProfileArguments& arguments) {
       arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
   RecordReader reader(arguments.store);
-  const RecordSource records = [&](const auto& visit) {
-    reader.for_each_chunk([&](std::vector<Record>& chunk) {
-      std::ranges::for_each(chunk, visit);
-      return true;
-    });
-  };
+  const RecordSource records = [&](const auto& visit) { reader.for_each(visit); };
   std::string out;
   for (const TextTable& listing : {costs(cells),
                                    reported(cells),
@@ -54,7 +50,7 @@ int print_profile(const ProfileArguments& arguments) {
            : format == ExportFormat::terminal ? terminal(table_view(listing), style)
                                               : markdown(listing);
   }
-  write_output(out, format, "profile", arguments.store, arguments.out);
+  write_output(out, format, "profile", std::move(provenance), arguments.store, arguments.out);
   return kExitOk;
 }
 

@@ -42,8 +42,8 @@ void write_tables(const std::filesystem::path& store,
   std::vector<Record> records = all;
   keep_where(records, sweep.table.where);
   const std::vector<Table> tables = pivot(records, sweep.table);
-  const std::string text = markdown(tables) + "\n" + build_summary(read_provenance(store)) + "\n";
   const StoreProvenance provenance = read_store_provenance(store);
+  const std::string text = markdown(tables) + "\n" + build_summary(provenance.provenance) + "\n";
   write_result(out / "table.md", text + "\n" + provenance_comment(provenance));
   write_result(out / "provenance.json", json(provenance));
   write_result(out / "table.csv", csv(tables));

@@ -57,6 +57,7 @@ ExportFormat container_format(TableFormat format) {
 }
 
 int print_table(TableArguments arguments) {
+  std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
   const bool has_terminal = is_printed && prints_to_terminal();
@@ -81,7 +82,12 @@ int print_table(TableArguments arguments) {
                  format,
                  style);
   }
-  write_output(shown, container_format(format), "tables", arguments.store, arguments.out);
+  write_output(shown,
+               container_format(format),
+               "tables",
+               std::move(provenance),
+               arguments.store,
+               arguments.out);
   return kExitOk;
 }
 

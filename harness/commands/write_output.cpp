@@ -12,15 +12,20 @@
 
 namespace loopbench::harness {
 
+std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store) {
+  return std::async(std::launch::async, read_store_provenance, store);
+}
+
 void write_output(const std::string& text,
                   ExportFormat format,
                   const std::string& key,
+                  std::future<StoreProvenance> begun,
                   const std::filesystem::path& store,
                   const std::string& file) {
   const bool is_printed = file.empty() || is_dash(file);
   const bool is_read_by_a_person = is_printed && isatty(STDOUT_FILENO) == 1;
   std::string out = text;
-  const StoreProvenance provenance = read_store_provenance(store);
+  const StoreProvenance provenance = begun.get();
   if (format == ExportFormat::json) {
     out = with_provenance(provenance, key, text);
   } else if (format == ExportFormat::terminal) {

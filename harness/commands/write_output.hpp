@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 #include <string>
 
 #include "harness/tables/store_provenance.hpp"
@@ -9,6 +10,9 @@
 namespace loopbench::harness {
 
 enum class ExportFormat { markdown, terminal, latex, csv, json };
+
+/// Reads the provenance on another thread while the output is computed.
+std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);
 
 /// Writes `text` to `file`, or prints it if `file` is empty or "-". The provenance of the store is
 /// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
@@ -18,6 +22,7 @@ enum class ExportFormat { markdown, terminal, latex, csv, json };
 void write_output(const std::string& text,
                   ExportFormat format,
                   const std::string& key,
+                  std::future<StoreProvenance> provenance,
                   const std::filesystem::path& store,
                   const std::string& file);
 

@@ -9,6 +9,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
+#include "harness/store/sources.hpp"
 #include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
@@ -50,9 +51,9 @@ std::string text_of(const std::map<std::string, std::string>& run,
                    " of its config in full; `run` with the same config adds them");
 }
 
-void add_sequences(const std::filesystem::path& store, Snapshot& out) {
-  const auto inputs = read_inputs(store);
-  const auto options = read_dataset_options(store);
+void add_sequences(const std::filesystem::path& store, StoreSources& sources, Snapshot& out) {
+  const auto inputs = sources.inputs();
+  const auto options = sources.dataset_options();
   for (const CellRecord& cell : read_cells(store)) {
     GateCell named;
     named.sequence = cell.sequence;
@@ -74,7 +75,8 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
 
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
   const auto run = read_run(store);
-  const auto made = read_provenance(store);
+  StoreSources sources(store);
+  const auto made = sources.provenance();
   const auto fact = [&](const std::string& name) {
     const auto found = made.find(name);
     return found == made.end() ? "unknown" : found->second;
@@ -108,13 +110,13 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
-  add_sequences(store, out);
+  add_sequences(store, sources, out);
   return out;
 }
 
 std::map<std::string, std::string> build_summary(const std::filesystem::path& store) {
   std::map<std::string, std::string> out{{"loopbench", read_run(store).at("loopbench")}};
-  for (const auto& [key, value] : read_provenance(store)) {
+  for (const auto& [key, value] : StoreSources(store).provenance()) {
     for (const char* kept : {"commit", "source", "compiler", "flags"}) {
       if (key == kept) out[key] = value;
     }

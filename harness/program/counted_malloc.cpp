@@ -14,6 +14,7 @@
 
 #if defined(__GLIBC__) && !defined(LOOPBENCH_SANITIZED)
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
@@ -24,7 +25,7 @@ namespace {
 struct alignas(64) AllocationCount {
   std::atomic<std::int64_t> value{0};
 };
-constexpr int kAllocationCounts = 64;  // the last is shared by all further threads
+constexpr int kAllocationCounts = 4096;  // the last is shared by all further threads
 constinit AllocationCount allocation_counts[kAllocationCounts];
 constinit std::atomic<int> allocating_threads{0};
 constinit thread_local int allocation_slot = -1;
@@ -83,9 +84,10 @@ namespace loopbench::harness {
 
 AllocationCounter counted_malloc() {
   return [] {
+    const int threads = allocating_threads.load(std::memory_order_relaxed);
     std::int64_t out = 0;
-    for (const AllocationCount& count : allocation_counts) {
-      out += count.value.load(std::memory_order_relaxed);
+    for (int i = 0; i < std::min(threads, kAllocationCounts); ++i) {
+      out += allocation_counts[i].value.load(std::memory_order_relaxed);
     }
     return out;
   };

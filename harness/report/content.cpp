@@ -1,84 +1,21 @@
 #include "harness/report/content.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <iterator>
-#include <map>
 #include <set>
-#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/profile/profile.hpp"
+#include "harness/report/compare_in_parts.hpp"
+#include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/tables/all_records.hpp"
+#include "harness/store/sources.hpp"
+#include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 void add_new(std::vector<std::string>& list, const std::string& text) {
   if (std::ranges::find(list, text) == list.end()) list.push_back(text);
-}
-
-void visit_scores(RecordReader& reader, const std::function<void(const Record&)>& visit) {
-  reader.for_each_chunk([&](std::vector<Record>& records) {
-    std::ranges::for_each(records, visit);
-    return true;
-  });
-}
-
-using MetricLabel = std::pair<SharedText, SharedText>;  // name and label
-
-/// The metrics that can be compared, in order of appearance, with their numbers of scores.
-class ComparedMetrics {
- public:
-  void add(const Record& r) {
-    if (r.metric.empty() || r.better == metrics::Better::neither) return;
-    const MetricLabel own{r.metric, r.label};
-    const auto [found, is_new] = index_.emplace(own, metrics_.size());
-    if (is_new) metrics_.push_back({own, 0});
-    ++metrics_[found->second].second;
-    ++total_;
-  }
-
-  /// Parts of about kMostValues scores.
-  std::vector<std::set<MetricLabel>> parts() const {
-    std::vector<std::set<MetricLabel>> out;
-    std::size_t scores = kMostValues;
-    for (const auto& [metric, own] : metrics_) {
-      if (scores + own > kMostValues) {
-        out.emplace_back();
-        scores = 0;
-      }
-      scores += own;
-      out.back().insert(metric);
-    }
-    return out;
-  }
-
-  bool is_small() const { return total_ <= kMostValues; }
-
- private:
-  static constexpr std::size_t kMostValues = 6'000'000;  ///< about 200 MB
-
-  std::map<MetricLabel, std::size_t> index_;
-  std::vector<std::pair<MetricLabel, std::size_t>> metrics_;
-  std::size_t total_ = 0;
-};
-
-/// The comparisons of all scores, a few metrics at a time if there are many scores.
-std::vector<Comparison> compare_all(RecordReader& reader,
-                                    const ComparedMetrics& metrics,
-                                    const std::string& baseline) {
-  CompareOptions options;
-  options.baseline = baseline;
-  const RecordSource source = [&](const auto& visit) { visit_scores(reader, visit); };
-  if (metrics.is_small()) return compare(source, options);
-  std::vector<Comparison> out;
-  for (const std::set<MetricLabel>& part : metrics.parts()) {
-    reader.keep_scores([&](const Record& r) { return part.contains({r.metric, r.label}); });
-    std::ranges::move(compare(source, options), std::back_inserter(out));
-  }
-  return out;
 }
 
 /// Sets the comparisons, the scores without a value, and the records of the first sequences: those
@@ -98,8 +35,8 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
     if (taken.empty() || has_room) taken.insert(r.sequence);
     if (taken.contains(r.sequence)) out.records.push_back(r);
   };
-  visit_scores(reader, take);
-  if (!baseline.empty() && has_score) out.comparisons = compare_all(reader, metrics, baseline);
+  reader.for_each(take);
+  if (!baseline.empty() && has_score) out.comparisons = compare_in_parts(reader, metrics, baseline);
 }
 
 }  // namespace
@@ -132,8 +69,9 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   ReportContent out;
   out.store = store;
   out.run = read_run(store);
-  out.provenance = read_provenance(store);
-  out.inputs = read_inputs(store);
+  StoreSources sources(store);
+  out.provenance = sources.provenance();
+  out.inputs = sources.inputs();
   const std::string baseline = out.run["baseline"];
   read_scores(baseline, bytes, out);
   out.cells = read_cells(store);
@@ -146,7 +84,7 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
       out.cells,
       [&](const auto& visit) {
         RecordReader reader(store);
-        visit_scores(reader, visit);
+        reader.for_each(visit);
       },
       Accuracy{});
   add_derived(out.records, baseline);

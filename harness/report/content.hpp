@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/store/read.hpp"
+#include "harness/model/sequence_metadata.hpp"
 #include "harness/tables/listing.hpp"
 
 namespace loopbench::harness {

@@ -17,7 +17,9 @@ struct Tails {
   double upper;  ///< P(T >= t)
 };
 
-/// Exact distribution of the sum of ranks with random signs. Midranks are doubled to be integers.
+/// Exact distribution of the sum of ranks with random signs, which is symmetric, so that only the
+/// sums of the smaller tail are needed. Midranks are doubled to be integers. Up to 53 ranks all
+/// probabilities are multiples of 2^-53, without rounding.
 Tails exact_tails(const std::vector<double>& ranks, double t) {
   const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
   const double scale = is_whole ? 1.0 : 2.0;
@@ -26,27 +28,27 @@ Tails exact_tails(const std::vector<double>& ranks, double t) {
   };
   std::size_t total = 0;
   for (const double rank : ranks) total += scaled(rank);
-  std::vector<double> chance(total + 1, 0.0);
-  std::vector<double> next(total + 1, 0.0);
+  const std::size_t at = scaled(t);
+  const std::size_t most = std::min(at, total - at);
+  std::vector<double> chance(most + 1, 0.0);
+  std::vector<double> next(most + 1, 0.0);
   chance[0] = 1.0;
   std::size_t reached = 0;
   for (const double rank : ranks) {
     const std::size_t step = scaled(rank);
-    reached += step;
-    for (std::size_t sum = 0; sum < step; ++sum) next[sum] = 0.5 * chance[sum];
-    const double* const without = chance.data() + step;
-    const double* const with = chance.data();
-    double* const both = next.data() + step;
-    for (std::size_t i = 0; i <= reached - step; ++i) both[i] = 0.5 * (without[i] + with[i]);
+    reached = std::min(reached + step, most);
+    for (std::size_t sum = 0; sum < std::min(step, most + 1); ++sum) next[sum] = 0.5 * chance[sum];
+    const double* const before = chance.data();
+    double* const after = next.data();
+    for (std::size_t sum = step; sum <= reached; ++sum) {
+      after[sum] = 0.5 * (before[sum] + before[sum - step]);
+    }
     std::swap(chance, next);
   }
-  const std::size_t at = scaled(t);
-  Tails tails{0.0, 0.0};
-  for (std::size_t sum = 0; sum <= total; ++sum) {
-    if (sum <= at) tails.lower += chance[sum];
-    if (sum >= at) tails.upper += chance[sum];
-  }
-  return tails;
+  double smaller = 0.0;
+  for (const double one : chance) smaller += one;
+  const double larger = 1.0 - smaller + chance[most];
+  return at == most ? Tails{smaller, larger} : Tails{larger, smaller};
 }
 
 /// Variance given the observed ranks, which is correct with ties and dropped zeros.

@@ -1,125 +1,55 @@
 #include "harness/store/cell_rows.hpp"
 
 #include <algorithm>
+#include <future>
+#include <span>
 
 #include "datasets/core/error.hpp"
 #include "harness/store/digest.hpp"
 #include "harness/store/row_bytes.hpp"
-#include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr const char* kDetailTables[] = {"scores", "phase", "count", "note", "section", "trace"};
 
-template <class T>
-std::optional<T> maybe(Statement& row, T (Statement::*read)()) {
-  const bool none = row.is_null();
-  const T value = (row.*read)();
-  return none ? std::nullopt : std::optional<T>(value);
-}
-
-/// A text of a column; neighbouring cells mostly have the same.
-class SharedColumn {
- public:
-  const SharedText& read(RowBytes& row) {
-    const std::string_view text = row.view();
-    if (last_.text() != text) last_ = text;
-    return last_;
-  }
-
- private:
-  SharedText last_;
-};
-
-/// All columns that tables need; `row` is at its first column.
-CellRecord record_of(Statement& row, WithRecords with) {
-  CellRecord c;
-  const auto text = [&]() -> SharedText {
-    if (with == WithRecords::yes) return row.view();
-    row.skip();
-    return {};
+/// Whether all scores of these cells are as written, as far as can be seen by searching for them.
+bool are_some_intact(Database& database, const ScoreLists& lists, std::span<const CellRow> cells) {
+  Statement row =
+      database.prepare("SELECT * FROM scores WHERE cell >= ? AND cell <= ? ORDER BY cell");
+  row.bind(cells.front().id).bind(cells.back().id);
+  const std::size_t number = detail_number("scores");
+  const auto is_intact = [&](const CellRow& cell) {
+    if (cell.details[number] == Hash{}) return true;  // has no scores
+    if (!row.step() || row.integer() != cell.id) return false;
+    const std::string_view bytes = row.bytes_of_columns(1, row.columns());
+    RowsDigest digest;
+    digest.add(bytes);
+    RowBytes columns(bytes);
+    const std::string_view key = columns.view();
+    return digest.value() == cell.details[number] && list_of(lists, key, columns.view()) != nullptr;
   };
-  row.skip();  // id
-  c.position = row.integer();
-  if (with == WithRecords::yes) {
-    c.key = row.text();
-  } else {
-    row.skip();
-  }
-  c.build = text();
-  row.skip();  // sequence_key
-  row.skip();  // made
-  c.sequence = row.view();
-  c.repeat = row.integer();
-  c.method = row.view();
-  c.dataset_options = text();
-  c.method_options = text();
-  c.closures = row.view();
-  c.oracle_closures = row.integer() != 0;
-  c.oracle = row.integer() != 0;
-  c.worker = row.view();
-  c.runs = row.integer();
-  c.seconds = row.real();
-  c.seconds_min = row.real();
-  c.seconds_max = row.real();
-  c.cpu_seconds = maybe(row, &Statement::real);
-  c.peak_memory = maybe(row, &Statement::integer);
-  c.added_memory = maybe(row, &Statement::integer);
-  c.allocations = maybe(row, &Statement::integer);
-  c.status = row.view();
-  c.signal = text();
-  c.why = text();
-  return c;
+  return std::ranges::all_of(cells, is_intact) && !row.step();
 }
 
-class RowReader {
- public:
-  explicit RowReader(CellRows& out) : out_(out) {}
-
-  void add(Statement& statement) {
-    RowBytes row(statement.bytes_of_columns(0, statement.columns()));
-    CellRow& cell = out_.cells.emplace_back();
-    const char* const begin = row.rest().data();
-    cell.id = row.integer();
-    cell.placed = !row.is_null();
-    cell.position = row.integer();
-    cell.key = hash_of(row.view());
-    row.skip();  // build
-    cell.sequence_key = sequence_key_.read(row);
-    row.skip();  // made
-    cell.sequence = sequence_.read(row);
-    cell.repeat = row.integer();
-    cell.method = method_.read(row);
-    row.skip();  // dataset_options
-    row.skip();  // method_options
-    cell.closures = closures_.read(row);
-    cell.oracle_closures = row.integer() != 0;
-    cell.oracle = row.integer() != 0;
-    row.skip();  // worker
-    row.skip();  // runs
-    cell.seconds = row.real();
-    for (int i = 0; i < 6; ++i) row.skip();  // seconds_min to allocations
-    cell.status = status_.read(row);
-    row.skip();  // signal
-    cell.why = why_.read(row);
-    cell.failed_scores = row.integer();
-    for (Hash& digest : cell.details) digest = parsed_digest(row.view());
-    RowsDigest all;
-    all.add({begin, static_cast<std::size_t>(row.rest().data() - begin)});
-    cell.digest = parsed_digest(row.view());
-    cell.intact = all.value() == cell.digest;
-  }
-
- private:
-  CellRows& out_;
-  SharedColumn sequence_key_;
-  SharedColumn sequence_;
-  SharedColumn method_;
-  SharedColumn closures_;
-  SharedColumn status_;
-  SharedColumn why_;
-};
+/// The same for all cells of a large store, half of them through a second connection; false for
+/// small ones. That connection can see another state of the store, so false means "unknown".
+bool are_scores_intact(Database& database,
+                       const ScoreLists& lists,
+                       std::span<const CellRow> cells) {
+  if (std::ssize(cells) < kCellsWorthAThread || database.has_changed()) return false;
+  const std::size_t half = cells.size() / 2;
+  std::future<bool> upper = std::async(std::launch::async, [&] {
+    try {
+      Database other(database.file(), Database::Mode::read);
+      return are_some_intact(other, lists, cells.subspan(half));
+    } catch (const InputError&) {
+      return false;
+    }
+  });
+  const bool lower = are_some_intact(database, lists, cells.first(half));
+  return upper.get() && lower;
+}
 
 std::string cell_label(const std::string& sequence,
                        std::int64_t repeat,
@@ -136,23 +66,6 @@ std::string cell_label(const std::string& sequence,
 
 std::size_t detail_number(const std::string& table) {
   return static_cast<std::size_t>(std::ranges::find(kDetailTables, table) - kDetailTables);
-}
-
-CellRows read_cell_rows(Database& database, WithRecords with) {
-  CellRows out;
-  RowReader reader(out);
-  SumOfDigests sum;
-  Statement rows = database.prepare("SELECT * FROM cell NOT INDEXED ORDER BY id");
-  while (rows.step()) {
-    reader.add(rows);
-    if (with != WithRecords::no) {
-      rows.rewind();
-      out.records.push_back(record_of(rows, with));
-    }
-    sum.add(out.cells.back().digest);
-  }
-  out.complete = sum.text() == written_digest(database, "cell");
-  return out;
 }
 
 void read_details(Database& database,
@@ -181,6 +94,7 @@ void read_details(Database& database,
 }
 
 void check_scores(Database& database, const ScoreLists& lists, CellRows& rows) {
+  if (are_scores_intact(database, lists, rows.cells)) return;
   read_details(database, "scores", rows, [&](std::size_t cell, Statement& row) {
     const std::string_view key = row.view();
     if (list_of(lists, key, row.view()) == nullptr) rows.cells[cell].intact = false;
@@ -216,7 +130,8 @@ std::vector<std::size_t> in_order(const CellRows& rows) {
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     if (rows.cells[i].placed) out.push_back(i);
   }
-  std::ranges::stable_sort(out, {}, [&](std::size_t i) { return rows.cells[i].position; });
+  const auto position = [&](std::size_t i) { return rows.cells[i].position; };
+  if (!std::ranges::is_sorted(out, {}, position)) std::ranges::stable_sort(out, {}, position);
   return out;
 }
 

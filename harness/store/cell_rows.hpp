@@ -43,6 +43,10 @@ struct CellRows {
   bool complete = false;            ///< no row is missing: the digests match the stored sum
 };
 
+/// From this number of cells on, half of them are read through a second connection on another
+/// thread.
+inline constexpr std::int64_t kCellsWorthAThread = 8192;
+
 /// Contents of CellRows::records: none; without key, build, options, signal and reason; or all.
 /// Phases, counts, notes and sequence data are never read.
 enum class WithRecords { no, costs, yes };

@@ -44,6 +44,7 @@ class SumOfDigests {
   /// zero.
   void add(std::string_view digest) { add(parsed_digest(digest)); }
   void add(const Hash& digest);
+  void add(const SumOfDigests& others) { add(others.sum_); }
   void remove(std::string_view digest);
   std::string text() const { return hex(sum_); }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
 
@@ -26,15 +25,5 @@ std::vector<CellRecord> read_costs(const std::filesystem::path& file);
 
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);
-
-/// Provenance of the cells of the current config: commit, compiler, machine and so on. Values that
-/// differ between cells are separate lines, in sweep order.
-std::map<std::string, std::string> read_provenance(const std::filesystem::path& file);
-
-/// Input files of each sequence, by "LABEL" or "LABEL (repeat N)".
-std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file);
-
-/// "DATASET: all options including defaults" of each loaded sequence, by the same labels.
-std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -53,12 +53,16 @@ bool can_be_failed_metric(const ScoreDefinition& d) {
 
 /// For each position in `order`, whether every sequence that began up to there has ended.
 std::vector<bool> ends_of_chunks(const CellRows& rows, const std::vector<std::size_t>& order) {
+  const auto sequence = [&](std::size_t i) { return rows.cells[order[i]].sequence.id(); };
+  const auto begins = [&](std::size_t i) { return i == 0 || sequence(i) != sequence(i - 1); };
   std::unordered_map<const void*, std::size_t> last;
-  for (std::size_t i = 0; i < order.size(); ++i) last[rows.cells[order[i]].sequence.id()] = i;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + 1 == order.size() || begins(i + 1)) last[sequence(i)] = i;
+  }
   std::vector<bool> out(order.size(), false);
   std::size_t end = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    end = std::max(end, last.at(rows.cells[order[i]].sequence.id()));
+    if (begins(i)) end = std::max(end, last.at(sequence(i)));
     out[i] = i == end;
   }
   return out;
@@ -78,10 +82,10 @@ RecordReader::RecordReader(const std::filesystem::path& file)
   }
   require_intact(sequences_, file_);
   order_ = in_order(rows_);
-  const bool can_fail = std::ranges::any_of(lists_.all(), [](const auto& entry) {
+  can_fail_ = std::ranges::any_of(lists_.all(), [](const auto& entry) {
     return std::ranges::any_of(entry.second, can_be_failed_metric);
   });
-  if (can_fail) find_scores();
+  if (can_fail_) find_scores();
 }
 
 /// Adds the scores of all metrics to `failed_metrics_`, in order of first appearance.
@@ -221,13 +225,13 @@ void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)
   std::size_t size = 0;  // of the last chunk
   const auto read = [&] {
     std::vector<Record> out;
-    out.reserve(size);
+    out.reserve(size + size / 2);  // callers add derived records
     while (next < order_.size()) {
       add_cell(order_[next], out);
       if (is_end[next++] && out.size() >= kLeastRecords) break;
     }
     size = out.size();
-    failed_metrics_.expand(out);
+    if (can_fail_) failed_metrics_.expand(out);
     return out;
   };
   // One chunk is read while the previous one is visited.
@@ -239,6 +243,13 @@ void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)
     if (!visit(records)) return;  // waits for `coming`
   }
   scores_.reset();
+}
+
+void RecordReader::for_each(const std::function<void(const Record&)>& visit) {
+  for_each_chunk([&](std::vector<Record>& records) {
+    std::ranges::for_each(records, visit);
+    return true;
+  });
 }
 
 }  // namespace loopbench::harness

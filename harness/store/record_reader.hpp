@@ -31,7 +31,10 @@ class RecordReader {
   /// Ends early if `visit` returns false. Throws InputError at the first damaged cell. O(scores).
   void for_each_chunk(const std::function<bool(std::vector<Record>& records)>& visit);
 
-  /// Restricts for_each_chunk() to the scores whose definition (protocol, times, metric, label,
+  /// Visits all records one by one, in the same order.
+  void for_each(const std::function<void(const Record& record)>& visit);
+
+  /// Restricts these visits to the scores whose definition (protocol, times, metric, label,
   /// relation, axis, unit) passes, and to cells without any score.
   void keep_scores(const std::function<bool(const Record& definition)>& is_kept);
 
@@ -63,6 +66,7 @@ class RecordReader {
   SequenceRows sequences_;
   ScoreLists lists_;
   std::vector<std::size_t> order_;  ///< in_order(rows_)
+  bool can_fail_ = false;           ///< whether a cell can have a metric that failed
   FailedMetrics failed_metrics_;
   std::optional<Statement> scores_;  ///< at the row of cell row_cell_
   bool has_row_ = false;

@@ -55,34 +55,58 @@ bool has_failed(const CellRow& row) {
          row.failed_scores > 0;
 }
 
+constexpr auto kNoRow = static_cast<std::size_t>(-1);
+
+/// For each position of a sweep of `count` cells, the number of a placed intact row, or kNoRow.
+std::vector<std::size_t> rows_by_position(const std::vector<CellRow>& rows, std::size_t count) {
+  std::vector<std::size_t> out(count, kNoRow);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto position = static_cast<std::size_t>(rows[i].position);
+    if (rows[i].intact && rows[i].placed && position < count) out[position] = i;
+  }
+  return out;
+}
+
 /// The intact row of each cell, or null. If two cells have the same key, the labels decide.
 std::vector<const CellRow*> claim(const CheckedStore& stored,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
   struct KeyedRow {
     Hash key;
-    const CellRow* row = nullptr;
+    std::size_t number = 0;
   };
   const auto parts = [](const Hash& key) { return std::pair(key.low, key.high); };
   const auto key_of = [&](const KeyedRow& one) { return parts(one.key); };
-  std::vector<KeyedRow> rows;
-  for (const CellRow& row : stored.cells.cells) {
-    if (row.intact) rows.push_back({row.key, &row});
-  }
-  std::ranges::stable_sort(rows, {}, key_of);
+  const std::vector<CellRow>& rows = stored.cells.cells;
   const std::vector<Hash> wanted = keys_now(stored.sequences, keys, all);
   std::vector<bool> is_claimed(rows.size(), false);
   std::vector<const CellRow*> out(all.size(), nullptr);
+  const auto can_claim = [&](std::size_t i, std::size_t number, bool exact) {
+    if (is_claimed[number] || rows[number].key != wanted[i]) return false;
+    return !exact || same_labels(rows[number], all[i], keys.sweep());
+  };
+  const auto claim_row = [&](std::size_t i, std::size_t number) {
+    is_claimed[number] = true;
+    out[i] = &rows[number];
+  };
+  // Mostly nothing has changed, and the row is where it was.
+  const std::vector<std::size_t> placed = rows_by_position(rows, all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t number = all[i].index < placed.size() ? placed[all[i].index] : kNoRow;
+    if (number != kNoRow && can_claim(i, number, true)) claim_row(i, number);
+  }
+  std::vector<KeyedRow> others;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].intact && !is_claimed[i]) others.push_back({rows[i].key, i});
+  }
+  std::ranges::stable_sort(others, {}, key_of);
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (out[i] != nullptr) continue;
-      auto found = std::ranges::lower_bound(rows, parts(wanted[i]), {}, key_of);
-      for (; found != rows.end() && found->key == wanted[i]; ++found) {
-        const auto number = static_cast<std::size_t>(found - rows.begin());
-        const CellRow& row = *found->row;
-        if (is_claimed[number] || (exact && !same_labels(row, all[i], keys.sweep()))) continue;
-        is_claimed[number] = true;
-        out[i] = &row;
+      auto found = std::ranges::lower_bound(others, parts(wanted[i]), {}, key_of);
+      for (; found != others.end() && found->key == wanted[i]; ++found) {
+        if (!can_claim(i, found->number, exact)) continue;
+        claim_row(i, found->number);
         break;
       }
     }

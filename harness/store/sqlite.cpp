@@ -54,6 +54,8 @@ void Database::execute(const std::string& sql) {
 
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
 
+bool Database::has_changed() const { return sqlite3_total_changes64(handle_.get()) > 0; }
+
 Transaction::~Transaction() {
   if (!open_) return;
   try {
@@ -136,35 +138,37 @@ bool Statement::step() {
 
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
 double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
-bool Statement::is_null() const {
-  return sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
-}
 
 int Statement::columns() const { return sqlite3_column_count(handle_.get()); }
 
 std::string_view Statement::bytes_of_columns(int from, int to) {
   bytes_.clear();
+  append_columns(from, to, bytes_);
+  return bytes_;
+}
+
+void Statement::append_columns(int from, int to, std::string& bytes) {
   const auto append = [&](const void* data, std::size_t size) {
-    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+    if (size > 0) bytes.append(static_cast<const char*>(data), size);
   };
   for (int i = from; i < to; ++i) {
-    const int type = sqlite3_column_type(handle_.get(), i);
-    bytes_ += static_cast<char>(type);
+    sqlite3_value* const column = sqlite3_column_value(handle_.get(), i);
+    const int type = sqlite3_value_type(column);
+    bytes += static_cast<char>(type);
     if (type == SQLITE_INTEGER) {
-      const std::int64_t value = sqlite3_column_int64(handle_.get(), i);
+      const std::int64_t value = sqlite3_value_int64(column);
       append(&value, sizeof value);
     } else if (type == SQLITE_FLOAT) {
-      const double value = sqlite3_column_double(handle_.get(), i);
+      const double value = sqlite3_value_double(column);
       append(&value, sizeof value);
     } else if (type != SQLITE_NULL) {
-      const void* data = type == SQLITE_TEXT ? sqlite3_column_text(handle_.get(), i)
-                                             : sqlite3_column_blob(handle_.get(), i);
-      const std::int64_t size = sqlite3_column_bytes(handle_.get(), i);
+      const void* data =
+          type == SQLITE_TEXT ? sqlite3_value_text(column) : sqlite3_value_blob(column);
+      const std::int64_t size = sqlite3_value_bytes(column);
       append(&size, sizeof size);
       append(data, static_cast<std::size_t>(size));
     }
   }
-  return bytes_;
 }
 
 std::string Statement::blob() {

@@ -25,6 +25,8 @@ class Database {
   Statement prepare(const std::string& sql);
 
   std::int64_t last_row() const;  ///< rowid of the last insert
+  bool has_changed() const;       ///< whether this connection has changed rows
+  const std::string& file() const { return file_; }
 
   /// Throws InputError with the database's last message.
   [[noreturn]] void fail(const std::string& doing) const;
@@ -62,15 +64,13 @@ class Statement {
   double real();
   std::string text();
   std::string blob();
-  std::string_view view();        ///< text or blob, valid until the next step
-  void skip() { ++column_; }      ///< the next column
-  void rewind() { column_ = 0; }  ///< to the first column of the row
-  bool is_null() const;           ///< of the next column, without consuming it
+  std::string_view view();  ///< text or blob, valid until the next step
 
   int columns() const;
   /// Unambiguous serialisation of types and values of the row's columns in [from, to). Valid until
   /// the next call.
   std::string_view bytes_of_columns(int from, int to);
+  void append_columns(int from, int to, std::string& bytes);  ///< the same, after `bytes`
 
  private:
   friend class Database;

@@ -88,17 +88,6 @@ std::vector<Record> all_records(const std::filesystem::path& store) {
   return records;
 }
 
-void add_derived(std::vector<Record>& records, const std::string& baseline) {
-  std::vector<Record> gain = gains(records, baseline);
-  std::vector<Record> pairs = pair_counts(records);
-  std::vector<Record> time = run_times(records);
-  records.reserve(records.size() + gain.size() + pairs.size() + time.size());
-  for (std::vector<Record>* more : {&gain, &pairs, &time}) {
-    records.insert(
-        records.end(), std::move_iterator(more->begin()), std::move_iterator(more->end()));
-  }
-}
-
 void for_each_record(RecordReader& reader,
                      const std::string& baseline,
                      bool derived,

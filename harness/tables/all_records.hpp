@@ -15,9 +15,6 @@ namespace loopbench::harness {
 /// Stored records, then gains, pair counts and run times: columns in this order.
 std::vector<Record> all_records(const std::filesystem::path& store);
 
-/// Appends gains, pair counts and run times; `records`: complete sequences.
-void add_derived(std::vector<Record>& records, const std::string& baseline);
-
 /// Visits the stored records and, if `derived`, the same records as all_records(), in that order,
 /// until `visit` returns false. Reads the store up to four times, with little memory.
 void for_each_record(RecordReader& reader,

@@ -9,6 +9,9 @@
 
 namespace loopbench::harness {
 
+/// Room for runs when the first is added: most entries have several.
+inline constexpr std::size_t kFirstRuns = 8;
+
 /// Different runs in ascending order. insert() is O(1) in that order, otherwise O(n).
 class RunSet {
  public:
@@ -21,6 +24,7 @@ class RunSet {
   auto end() const { return runs_.end(); }
 
   void insert(std::size_t run) {
+    if (runs_.empty()) reserve(kFirstRuns);
     if (runs_.empty() || runs_.back() < run) {
       runs_.push_back(run);
       return;
@@ -31,6 +35,7 @@ class RunSet {
   void insert(const RunSet& others) {
     for (const std::size_t run : others) insert(run);
   }
+  void reserve(std::size_t runs) { runs_.reserve(runs); }
   bool contains(std::size_t run) const { return std::ranges::binary_search(runs_, run); }
   bool intersects(const RunSet& other) const {
     return std::ranges::any_of(runs_, [&](std::size_t run) { return other.contains(run); });
@@ -62,6 +67,7 @@ class ByRun {
   void set(std::size_t run, std::optional<double> value) { place(run).value = value; }
   /// Adds a failure unless the run is there.
   void add_failure(std::size_t run) { place(run); }
+  void reserve(std::size_t runs) { values_.reserve(runs); }
   void erase(std::size_t run) {
     std::erase_if(values_, [&](const RunValue& one) { return one.run == run; });
   }

@@ -17,8 +17,12 @@ auto comparison_key(const Record& r) {
 using RowPlace =
     std::tuple<SharedText, std::int64_t, SharedText, SharedText, SharedText, SharedText>;
 
+const SharedText kAte = "ate";
+const SharedText kTranslation = "translation";
+const SharedText kOkStatus = "ok";
+
 bool is_gain_source(const Record& r) {
-  return r.metric == "ate" && r.relation == "translation" && r.status == "ok";
+  return r.metric == kAte && r.relation == kTranslation && r.status == kOkStatus;
 }
 
 /// NaN if the baseline has zero error.
@@ -27,33 +31,47 @@ double gain(double value, double baseline) {
   return 100.0 * (1.0 - value / baseline);
 }
 
-/// A score of a single number: every statistic has this value.
-template <class Number>
-std::vector<Record> one_per_cell(const std::vector<Record>& records,
-                                 const SharedText& metric,
-                                 const SharedText& unit,
-                                 metrics::Better better,
-                                 Number number) {
-  std::vector<Record> out;
+/// The first scores of each cell, protocol and times, by index.
+std::vector<std::size_t> first_scores(const std::vector<Record>& records) {
+  std::vector<std::size_t> out;
   std::set<std::tuple<std::int64_t, SharedText, SharedText>> seen;
   const Record* last = nullptr;
-  for (const Record& r : records) {
-    if (r.status != "ok" || r.metric.empty()) continue;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Record& r = records[i];
+    if (r.status != kOkStatus || r.metric.empty()) continue;
     const bool is_like_last = last != nullptr && last->cell == r.cell &&
                               last->protocol == r.protocol && last->times == r.times;
     last = &r;
-    if (is_like_last || !seen.emplace(r.cell, r.protocol, r.times).second) continue;
-    Record one = r;
-    one.metric = metric;
-    one.label.clear();
-    one.better = better;
-    one.relation = one.axis = {};
-    one.unit = unit;
-    const double x = number(r);
-    one.statistics = {1, x, x, x, 0.0, x, x, x * x};
-    out.push_back(one);
+    if (!is_like_last && seen.emplace(r.cell, r.protocol, r.times).second) out.push_back(i);
   }
   return out;
+}
+
+/// A score of a single number: every statistic has this value.
+Record one_number(const Record& r,
+                  const SharedText& metric,
+                  const SharedText& unit,
+                  metrics::Better better,
+                  double x) {
+  Record one = r;
+  one.metric = metric;
+  one.label.clear();
+  one.better = better;
+  one.relation = one.axis = {};
+  one.unit = unit;
+  one.statistics = {1, x, x, x, 0.0, x, x, x * x};
+  return one;
+}
+
+Record run_time(const Record& r) {
+  static const SharedText metric = "time";
+  static const SharedText unit = "ms";
+  return one_number(r, metric, unit, metrics::Better::lower, r.milliseconds);
+}
+
+Record pair_count(const Record& r) {
+  static const SharedText metric = "pairs";
+  return one_number(r, metric, {}, metrics::Better::neither, static_cast<double>(r.pairs));
 }
 
 }  // namespace
@@ -94,15 +112,24 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  return one_per_cell(records, "time", "ms", metrics::Better::lower, [](const Record& r) {
-    return r.milliseconds;
-  });
+  std::vector<Record> out;
+  for (const std::size_t i : first_scores(records)) out.push_back(run_time(records[i]));
+  return out;
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  return one_per_cell(records, "pairs", "", metrics::Better::neither, [](const Record& r) {
-    return static_cast<double>(r.pairs);
-  });
+  std::vector<Record> out;
+  for (const std::size_t i : first_scores(records)) out.push_back(pair_count(records[i]));
+  return out;
+}
+
+void add_derived(std::vector<Record>& records, const std::string& baseline) {
+  const std::vector<Record> gain = gains(records, baseline);
+  const std::vector<std::size_t> first = first_scores(records);
+  records.reserve(records.size() + gain.size() + 2 * first.size());
+  records.insert(records.end(), gain.begin(), gain.end());
+  for (const std::size_t i : first) records.push_back(pair_count(records[i]));
+  for (const std::size_t i : first) records.push_back(run_time(records[i]));
 }
 
 }  // namespace loopbench::harness

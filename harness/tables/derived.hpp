@@ -22,4 +22,7 @@ std::vector<Record> run_times(const std::vector<Record>& records);
 /// One record per cell, protocol and times: metric `pairs`, number of pose pairs of the scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records);
 
+/// Appends gains, pair counts and run times; `records`: complete sequences.
+void add_derived(std::vector<Record>& records, const std::string& baseline);
+
 }  // namespace loopbench::harness

@@ -13,6 +13,7 @@ namespace loopbench::harness {
 std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content.text(); }
 
 void EntryNumbers::add(const Record& record, std::size_t run, std::size_t group, double value) {
+  if (values_.empty()) values_.reserve(kFirstRuns);
   values_.push_back({run, group, record.method, value});
   method_ = record.method;
   is_gain_ = record.metric == "gain";
@@ -28,6 +29,7 @@ std::size_t EntryNumbers::averaged() const {
 
 RunSet EntryNumbers::finished() const {
   RunSet out;
+  out.reserve(values_.size());
   for (const Value& one : values_) {
     if (one.is_kept) out.insert(one.run);
   }
@@ -37,6 +39,7 @@ RunSet EntryNumbers::finished() const {
 ByRun EntryNumbers::runs() const {
   ByRun out;
   if (is_oracle_) return out;
+  out.reserve(values_.size());
   for (const Value& one : values_) out.set(one.run, one.value);
   return out;
 }
@@ -47,6 +50,7 @@ void EntryNumbers::keep(const RunSet& runs) {
 
 std::vector<double> EntryNumbers::kept() const {
   std::vector<double> out;
+  out.reserve(values_.size());
   for (const Value& one : values_) {
     if (one.is_kept) out.push_back(one.value);
   }

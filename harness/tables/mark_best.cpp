@@ -53,6 +53,7 @@ MarkContest mark_contest(const MarkInput& input) {
   RunSet common;
   for (const std::size_t i : out.entries) {
     RunSet own;
+    own.reserve(input.competitors[i].size());
     for (const RunValue& one : input.competitors[i]) own.insert(one.run);
     out.is_complete.push_back(own.size() == runs);
     if (i == out.entries.front()) {
@@ -64,9 +65,12 @@ MarkContest mark_contest(const MarkInput& input) {
   Renumbered groups;
   for (const std::size_t run : common) out.values.group.push_back(groups.index(input.group[run]));
   for (const std::size_t i : out.entries) {
+    const ByRun& own = input.competitors[i];
+    const bool is_common = own.size() == common.size();
     std::vector<std::optional<double>>& values = out.values.values.emplace_back();
-    for (const RunValue& one : input.competitors[i]) {
-      if (common.contains(one.run)) values.push_back(one.value);
+    values.reserve(common.size());
+    for (const RunValue& one : own) {
+      if (is_common || common.contains(one.run)) values.push_back(one.value);
     }
   }
   out.values.better = input.better;

@@ -15,8 +15,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   if (record.oracle) table.note("oracle: the method uses the reference");
   if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
   const std::size_t run = table.runs.index(record);
-  if (run >= table.group_of_run.size()) table.group_of_run.resize(run + 1);
-  const std::size_t group = table.group_of_run[run] = table.groups.index(record);
+  if (run == table.group_of_run.size()) table.group_of_run.push_back(table.groups.index(record));
   const bool is_ok = record.status == "ok";
   if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
@@ -51,7 +50,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     return;
   }
   table.counts.add(column, record);
-  entry.numbers.add(record, run, group, value(record, spec.value));
+  entry.numbers.add(record, run, table.group_of_run[run], value(record, spec.value));
 }
 
 /// Number of runs of all competitors together: an upper limit of possible().

@@ -12,6 +12,7 @@
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
+#include "harness/tables/derived.hpp"
 #include "harness/tables/usual_table.hpp"
 
 namespace loopbench::harness {
@@ -64,12 +65,13 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
     std::move(own.tables.begin(), middle, std::back_inserter(out));
     std::move(middle, own.tables.end(), std::back_inserter(without_scores));
   };
-  const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+  // More than processors, because the first is waited for while others may have ended.
+  const std::size_t most = std::max(1u, std::thread::hardware_concurrency()) + 2;
   reader.for_each_chunk([&](std::vector<Record>& records) {
     if (begun.size() >= most) take_first();
     begun.push_back(std::async(std::launch::async, [&, own = std::move(records)]() mutable {
       add_derived(own, baseline);
-      std::erase_if(own, [&](const Record& r) { return !is_kept(r); });
+      if (!rules.empty()) std::erase_if(own, [&](const Record& r) { return !is_kept(r); });
       if (own.empty()) return PivotedTables{};
       has_records = true;
       return pivot_parts(own, spec, options);

@@ -6,6 +6,7 @@
 #include "harness/store/damage.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/salvage.hpp"
+#include "harness/store/sources.hpp"
 #include "harness/store/traces.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -40,8 +41,8 @@ void fuzz_store(const std::filesystem::path& file) {
     }
     read_records(store);
     read_run(store);
-    read_provenance(store);
-    read_inputs(store);
+    StoreSources(store).provenance();
+    StoreSources(store).inputs();
   });
 }
 

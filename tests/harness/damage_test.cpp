@@ -6,6 +6,7 @@
 
 #include "harness/store/merge.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/sources.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::damage_test {
@@ -53,10 +54,11 @@ class Damage : public TinyStore {
       out += r.sequence + r.method + r.protocol_version + std::to_string(r.possible) + r.closures +
              std::to_string(r.milliseconds) + "\n";
     }
-    for (const auto& texts : {read_run(file), read_provenance(file), read_dataset_options(file)}) {
+    for (const auto& texts :
+         {read_run(file), StoreSources(file).provenance(), StoreSources(file).dataset_options()}) {
       for (const auto& [key, value] : texts) out += key + "=" + value + "\n";
     }
-    for (const auto& [label, files] : read_inputs(file)) {
+    for (const auto& [label, files] : StoreSources(file).inputs()) {
       for (const InputFile& input : files) out += label + input.path + input.hash + "\n";
     }
     return out;
@@ -159,7 +161,7 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   change("UPDATE sequence SET sequence_key = 'f' || sequence_key");
   EXPECT_EQ(run(kUsual).cells.size(), 4u) << "none of its cells has a sequence any more";
   EXPECT_EQ(store_text(file_), expected);
-  EXPECT_EQ(read_dataset_options(file_).size(), 2u);
+  EXPECT_EQ(StoreSources(file_).dataset_options().size(), 2u);
   for (const char* table : {"run", "provenance"}) {
     put(sound);
     change(std::string("DELETE FROM ") + table);

@@ -3,6 +3,8 @@
 # folder and on ports of the loopback interface.
 #   start_cluster FOLDER NODES   writes the settings, starts munged, slurmctld and slurmd; exports SLURM_CONF
 #   stop_cluster                 ends what start_cluster started
+#   use_folder NAME              sets `folder`; when the script ends, stops the cluster and deletes the folder with its
+#                                mounts, or prints its name after an error
 # Needs root (slurmd starts jobs of users) and the packages slurm-wlm and munge.
 
 cluster_folder='' cluster_processes=()
@@ -109,4 +111,19 @@ stop_cluster() {
   for process in "${cluster_processes[@]}"; do kill -KILL "$process" 2>/dev/null || true; done
   wait 2>/dev/null || true
   cluster_folder='' cluster_processes=()
+}
+
+use_folder() {
+  folder=$(mktemp -d "/tmp/loopbench-$1.XXXXXX")
+  trap leave_folder EXIT
+}
+
+leave_folder() {
+  local code=$? mounted
+  stop_cluster
+  while read -r _ mounted _; do
+    [[ $mounted != "$folder"/* ]] || umount -l "$mounted" || true
+  done </proc/mounts
+  ((code)) && { echo "failed; the files are in $folder"; exit "$code"; }
+  rm -rf "$folder"
 }

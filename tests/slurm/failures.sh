@@ -10,16 +10,8 @@ loopbench=$(realpath "$1") seed=${2:-1} failures=${3:-100} cells=${4:-2000}
 per_round=10 shards=8
 # shellcheck source=tests/slurm/cluster.sh
 source "$here/cluster.sh"
-folder=$(mktemp -d /tmp/loopbench-failures.XXXXXX)
+use_folder failures
 disk='' is_full=0
-finish() {
-  local code=$?
-  stop_cluster
-  [[ -z $disk ]] || umount -l "$disk" 2>/dev/null || true
-  ((code)) && { echo "failed; the files are in $folder"; exit "$code"; }
-  rm -rf "$folder"
-}
-trap finish EXIT
 RANDOM=$seed
 
 cat >"$folder/sweep.yaml" <<YAML

@@ -9,14 +9,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 loopbench=$(realpath "$1") seed=${2:-1} failures=${3:-10} cells=${4:-400}
 # shellcheck source=tests/slurm/cluster.sh
 source "$here/cluster.sh"
-folder=$(mktemp -d /tmp/loopbench-slurm.XXXXXX)
-finish() {
-  local code=$?
-  stop_cluster
-  ((code)) && { echo "failed; the files are in $folder"; exit "$code"; }
-  rm -rf "$folder"
-}
-trap finish EXIT
+use_folder slurm
 
 expect_same_rows() { "$here/same_rows.py" "$loopbench" "$folder/whole" "$1" 2>/dev/null; }
 
