@@ -43,14 +43,17 @@
           .style("fill", (p) => (R.state.shown.has(p.m.place) ? R.color(p.m.place) : "var(--soft)"))
           .style("fill-opacity", (p) => (front.includes(p) ? 1 : 0.7)).style("stroke", "var(--card)")
           .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms`);
-        // Avoids overlapping names: lower ones move down, those at the right edge are placed left.
+        // Avoids overlapping names: those at the right edge are placed left, others of the same height above or below.
         const taken = [];
+        const most = Math.max(12, Math.floor(x.range()[1] / 16));  // characters: about half of the width
         dots.filter(isNamed).sort((a, b) => d3.ascending(a.error, b.error)).each(function (p) {
-          const text = R.short(p.m.label, 40);
+          const text = R.short(p.m.label, Math.min(40, most));
           const onLeft = x(p.ms) + 12 + 7 * text.length > x.range()[1];
           const from = onLeft ? x(p.ms) - 12 - 7 * text.length : x(p.ms) + 12;
-          let at = y(p.error) + 4;
-          while (taken.some((t) => Math.abs(t.at - at) < 14 && from < t.to && t.from < from + 7 * text.length)) at -= 14;
+          const isFree = (at) => at > 12 && at < y.range()[0] &&
+            !taken.some((t) => Math.abs(t.at - at) < 14 && from < t.to && t.from < from + 7 * text.length);
+          const places = d3.range(60).map((k) => y(p.error) + 4 + 14 * (k % 2 ? -1 : 1) * Math.ceil(k / 2));
+          const at = places.find(isFree) ?? places[0];
           taken.push({ at, from, to: from + 7 * text.length });
           d3.select(this).append("text").attr("class", "strong halo").attr("x", onLeft ? -12 : 12)
             .attr("y", at - y(p.error)).attr("text-anchor", onLeft ? "end" : null).text(text);
