@@ -50,7 +50,7 @@ def main():
             "profile": [loopbench, "profile", whole],
             "check --update": [loopbench, "check", whole, "--baseline", f"{folder}/b.json", "--update",
                                "--allow-dirty"],
-            "report": [loopbench, "report", whole, "-o", f"{folder}/report.html", "--size", "1000"],
+            "report": [loopbench, "report", whole, "-o", f"{folder}/report.html"],
             "export rows": [loopbench, "export", whole, "-o", f"{folder}/rows.csv.zst"],
         }
         for name, words in steps.items():
