@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kDetailTables[] = {"scores", "phase", "count", "note", "section", "trace"};
 
-/// Whether all scores of these cells are as written, as far as can be seen by searching for them.
-bool are_some_intact(Database& database, const ScoreLists& lists, std::span<const CellRow> cells) {
+/// Whether the scores of these cells, found by the numbers of the cells, match their digests.
+bool scores_match(Database& database, const ScoreLists& lists, std::span<const CellRow> cells) {
   Statement row =
       database.prepare("SELECT * FROM scores WHERE cell >= ? AND cell <= ? ORDER BY cell");
   row.bind(cells.front().id).bind(cells.back().id);
@@ -42,12 +42,12 @@ bool are_scores_intact(Database& database,
   std::future<bool> upper = std::async(std::launch::async, [&] {
     try {
       Database other(database.file(), Database::Mode::read);
-      return are_some_intact(other, lists, cells.subspan(half));
+      return scores_match(other, lists, cells.subspan(half));
     } catch (const InputError&) {
       return false;
     }
   });
-  const bool lower = are_some_intact(database, lists, cells.first(half));
+  const bool lower = scores_match(database, lists, cells.first(half));
   return upper.get() && lower;
 }
 

@@ -157,7 +157,7 @@ PartOfCells read_halves(Database& database,
       Database other(database.file(), Database::Mode::read);
       return read_part(other, with, middle + 1, largest);
     } catch (const InputError&) {
-      return PartOfCells{};  // the other connection will meet the same error if it is one
+      return PartOfCells{};  // an error of the store is met by the first connection, too
     }
   });
   PartOfCells out = read_part(database, with, least, middle);
