@@ -1,18 +1,17 @@
 #include "datasets/formats/replace_file.hpp"
 
 #include <fcntl.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/temporary_file.hpp"
 
 namespace loopbench {
 namespace {
@@ -58,28 +57,6 @@ int open_existing(const FilePath& file, const struct stat& status) {
   return ::dup(STDOUT_FILENO);
 }
 
-std::string random_digits() {
-  std::uint64_t bits = 0;
-  if (::getrandom(&bits, sizeof bits, 0) != sizeof bits) bits = static_cast<unsigned>(::getpid());
-  std::string out(16, '0');
-  for (char& digit : out) {
-    digit = "0123456789abcdef"[bits & 15];
-    bits >>= 4;
-  }
-  return out;
-}
-
-/// Creates a new temporary file in `folder`; returns its descriptor, or -1 and errno.
-int create_in(const FilePath& folder, FilePath& part) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-  for (int i = 0; i < 100; ++i) {
-    part = folder / (".loopbench-" + random_digits());
-    const int descriptor = ::open(part.c_str(), kFlags, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
-  return -1;
-}
-
 /// Renaming ignores the file's permissions, and root bypasses them.
 void reject_read_only(const FilePath& file, const struct stat& status) {
   const bool is_read_only = (status.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
@@ -101,8 +78,10 @@ PendingFile::PendingFile(const FilePath& file, Target target) : file_(file) {
   } else {
     if (is_regular) reject_read_only(file, status);
     place_ = is_named ? link_target(file) : file;
-    descriptor_ = create_in(place_.parent_path(), part_);
+    remove_abandoned_files(place_.parent_path());
+    descriptor_ = create_temporary_file(place_.parent_path(), part_);
     if (descriptor_ < 0) part_.clear();
+    if (descriptor_ >= 0) lock_ = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   }
   if (descriptor_ < 0) throw cannot_write(file, std::strerror(errno));
   if (is_regular && !part_.empty()) ::fchmod(descriptor_, status.st_mode & 0777);
@@ -112,6 +91,7 @@ PendingFile::~PendingFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
   if (!part_.empty()) std::filesystem::remove(part_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void PendingFile::write(std::string_view bytes) {
