@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <set>
 
 #include "datasets/rgbd/folder/folder_source.hpp"
 #include "tests/rgbd/recording.hpp"
@@ -64,6 +65,19 @@ TEST_F(HostileRecording, ReadsRegularFilesOnlyAlsoBehindLinks) {
   replaced_by("../depth");
   EXPECT_FALSE(open()->read(1, why));
   EXPECT_TRUE(why.ends_with("rgb/0001.png: is a folder, expected an image")) << why;
+}
+
+TEST_F(HostileRecording, HasOwnContentForEveryReasonThatAFileCannotBeRead) {
+  const std::filesystem::path image = folder_.path() / "rgb" / "0001.png";
+  const auto source = open();
+  std::set<std::uint64_t> contents{source->content()};
+  std::filesystem::resize_file(image, 0);
+  contents.insert(source->content());
+  std::filesystem::remove(image);
+  contents.insert(source->content());
+  std::filesystem::create_directory(image);
+  contents.insert(source->content());
+  EXPECT_EQ(contents.size(), 4u);
 }
 
 /// Signature and header of a PNG with 8 bits per pixel.

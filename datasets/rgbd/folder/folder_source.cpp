@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 
 constexpr std::uint16_t kNoDepth = 65535;  // invalid depth in 7-Scenes; TUM uses 0
 
-/// Hash of the content; a file that cannot be read counts as empty.
+/// Hash of the content, or of the reason why the file cannot be read, which notes state.
 std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
   try {
     return mixed(seed, read_regular_file(file, kLargestImageFile, "image"));
-  } catch (const InputError&) {  // read() reports it
-    return mixed(seed, "");
+  } catch (const InputError& error) {  // read() reports it
+    return mixed(mixed(seed, "cannot be read"), error.what());
   }
 }
 
