@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
@@ -45,7 +46,6 @@ class IsolatedSweep {
         finished_(finished),
         queue_(context.cells),
         metadata_(context.cells.size()),
-        load_failures_(context.cells.size()),
         slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
         core_(context.sweep.serial ? last_core() : -1) {}
 
@@ -108,9 +108,9 @@ class IsolatedSweep {
   /// The next cell whose sequence can be loaded; the others get the reason why theirs could not.
   std::optional<Job> next_cell(WorkerSlot& slot) {
     while (const auto cell = queue_.next(slot.group)) {
-      const std::optional<CellResult>& failure = load_failures_[queue_.group_of(*cell)];
-      if (!failure) return Job{*cell, false};
-      finish(*failure, *cell);
+      const auto failure = load_failures_.find(queue_.group_of(*cell));
+      if (failure == load_failures_.end()) return Job{*cell, false};
+      finish(failure->second, *cell);
     }
     return std::nullopt;
   }
@@ -229,7 +229,7 @@ class IsolatedSweep {
       if (killed_.runs_again(first.cell, result->signal)) return requeue(first);
     }
     set_conditions(*result, first.cell);
-    if (loading) load_failures_[queue_.group_of(first.cell)] = result;
+    if (loading) load_failures_[queue_.group_of(first.cell)] = *result;
     if (!first.only_load) finish(*result, first.cell);
   }
 
@@ -273,7 +273,9 @@ class IsolatedSweep {
   std::deque<Job> loads_;
   bool loads_done_ = false;
   std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;  ///< by group
-  std::vector<std::optional<CellResult>> load_failures_;           ///< by group
+  /// By group. Not an entry for every group: cells are forked from processes with a copy of this,
+  /// and a fork takes time for all memory in use.
+  std::map<std::size_t, CellResult> load_failures_;
   Subreaper reaper_;  ///< ends strays after the workers
   std::vector<WorkerSlot> slots_;
   int core_;
