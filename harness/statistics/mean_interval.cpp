@@ -13,32 +13,40 @@
 namespace loopbench::harness {
 namespace {
 
-/// Whether some of the first values are kFewestThatDiffer + 1 that all differ by more than
-/// rounding: then as many differ from the most frequent value, and differing() need not sort.
-bool surely_differ(std::span<const double> values) {
-  constexpr std::size_t kFirst = 64;
-  double largest = 0.0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  std::vector<double> found;
-  for (const double value : values.first(std::min(kFirst, values.size()))) {
-    const auto is_near = [&](double one) { return std::abs(one - value) <= 2e-9 * largest; };
-    if (std::ranges::none_of(found, is_near)) found.push_back(value);
-    if (found.size() > kFewestThatDiffer) return true;
-  }
-  return false;
-}
+/// With this many values that differ, ties change an interval by at most 0.1 %.
+constexpr std::size_t kManyThatDiffer = 1000;
 
-/// Number of values that differ, by more than rounding, from the most frequent one.
-std::size_t differing(std::span<const double> values) {
+struct Ties {
+  std::size_t distinct = 0;       ///< number of values, those equal but for rounding counted once
+  std::size_t most_frequent = 0;  ///< how often the most frequent one occurs
+};
+
+Ties count_ties(std::span<const double> values, double rounding) {
   std::vector<double> sorted(values.begin(), values.end());
   std::ranges::sort(sorted);
-  const double rounding = 1e-9 * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
-  std::size_t most = 0;
+  Ties out;
   for (std::size_t first = 0, i = 0; i < sorted.size(); ++i) {
-    if (sorted[i] - sorted[first] > rounding) first = i;
-    most = std::max(most, i - first + 1);
+    if (i == 0 || sorted[i] - sorted[first] > rounding) {
+      first = i;
+      ++out.distinct;
+    }
+    out.most_frequent = std::max(out.most_frequent, i - first + 1);
   }
-  return sorted.size() - most;
+  return out;
+}
+
+/// Number of values that differ, by more than rounding, from the most frequent one. If the first
+/// ones show that there are many, the rest is taken to differ without sorting it.
+std::size_t differing(std::span<const double> values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  const double rounding = 1e-9 * largest;
+  constexpr std::size_t kFirst = 2 * kManyThatDiffer;
+  if (values.size() > kFirst &&
+      count_ties(values.first(kFirst), rounding).distinct > kManyThatDiffer) {
+    return values.size() - 1;
+  }
+  return values.size() - count_ties(values, rounding).most_frequent;
 }
 
 /// Three quarters of the bias-corrected sample skewness.
@@ -75,7 +83,6 @@ std::string why_no_interval(std::span<const double> values) {
                        values.size() == 1 ? "" : "s",
                        kFewestForInterval);
   }
-  if (surely_differ(values)) return "";
   const std::size_t count = differing(values);
   if (count >= kFewestThatDiffer) return "";
   return fmt::format("{} of {} observations differ from the most frequent value, {} must",
@@ -88,16 +95,18 @@ std::optional<MeanInterval> mean_interval(std::span<const double> values, double
   if (!(level > 0.0 && level < 1.0)) {
     throw std::invalid_argument("an interval needs a level within (0, 1)");
   }
-  if (!why_no_interval(values).empty()) return std::nullopt;
+  if (values.size() < kFewestForInterval) return std::nullopt;
+  const std::size_t freedom = differing(values);
+  if (freedom < kFewestThatDiffer) return std::nullopt;
   const auto n = static_cast<double>(values.size());
   const double middle = mean(values);
   const double deviation = sample_deviation(values);
   const double skewness = applied_skewness(values, middle, deviation);
-  const double t = student_quantile(1.0 - level, values.size() - 1);
+  const double t = student_quantile(1.0 - level, freedom);
   return MeanInterval{{middle,
                        middle - deviation * skewed(t, skewness, n),
                        middle - deviation * skewed(-t, skewness, n)},
-                      student_p(symmetrised(middle / deviation, skewness, n), values.size() - 1)};
+                      student_p(symmetrised(middle / deviation, skewness, n), freedom)};
 }
 
 }  // namespace loopbench::harness

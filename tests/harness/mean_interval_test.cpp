@@ -94,6 +94,48 @@ TEST(MeanInterval, CoversNormalAndExponentialValues) {
   EXPECT_NEAR(exponential / double{kDraws}, 0.935, 0.01);  // 89.4 % without the correction
 }
 
+TEST(MeanInterval, HasFewerDegreesOfFreedomWithTies) {
+  // Symmetric about 0 with sum of squares 58; six of twelve values differ from 0.
+  const auto found =
+      mean_interval(Numbers{-4.0, -3.0, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-12, 2.0, 3.0, 4.0});
+  ASSERT_TRUE(found);
+  const double half = student_quantile(0.05, 6) * std::sqrt(58.0 / 11.0 / 12.0);
+  EXPECT_NEAR(found->interval.low, -half, 1e-9);
+  EXPECT_NEAR(found->interval.high, half, 1e-9);
+}
+
+TEST(MeanInterval, CountsTiesOfManyValues) {
+  Numbers x(4000, 0.0);
+  for (std::size_t i = 0; i < 40; ++i) x[100 * i] = i % 2 == 0 ? 1.0 : -1.0;
+  const double deviation = std::sqrt(40.0 / 3999.0);
+  const double half = student_quantile(0.05, 40) * deviation / std::sqrt(4000.0);
+  EXPECT_NEAR(mean_interval(x)->interval.high, half, 1e-12);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = static_cast<double>(i) - 1999.5;
+  EXPECT_NEAR(mean_interval(x)->p, 1.0, 1e-12);
+}
+
+TEST(MeanInterval, CoversTheMeanOfManyTies) {
+  std::mt19937_64 bits(3);
+  const auto uniform = [&] { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; };
+  for (const double ties : {0.5, 0.75}) {
+    int given = 0;
+    int covers = 0;
+    Numbers x(15);
+    while (given < 10000) {  // standard error 0.25 points
+      for (double& value : x) {
+        const double normal =
+            std::sqrt(-2.0 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
+        value = uniform() < ties ? 0.0 : normal;
+      }
+      const auto found = mean_interval(x);
+      if (!found) continue;
+      ++given;
+      covers += found->interval.low <= 0.0 && 0.0 <= found->interval.high ? 1 : 0;
+    }
+    EXPECT_NEAR(covers / double{10000}, 0.95, 0.02) << ties;  // 89 to 91 % with n - 1
+  }
+}
+
 TEST(MeanInterval, IsNotGivenOfTooLittle) {
   EXPECT_EQ(why_no_interval(Numbers{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}),
             "7 observations, 8 are needed");

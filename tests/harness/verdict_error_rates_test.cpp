@@ -52,13 +52,14 @@ TEST(VerdictErrorRates, LeaveRealDifferencesToBeFound) {
 
 TEST(IntervalCoverage, IsNominalFromEightObservationsOn) {
   for (const Shape& shape : shapes()) {
-    if (shape.name == "lognormal 1" || shape.name == "half ties") continue;  // mean_interval.hpp
+    if (shape.name == "lognormal 1") continue;  // mean_interval.hpp
+    const bool has_ties = shape.name == "half ties";
     for (const std::size_t n : {8u, 15u}) {
       const Truth truth{.effects = {0.0, -0.2}, .groups = n, .baseline_is_fixed = true};
       const IntervalCoverage found = coverage(truth, shape, 1000, 11);
       EXPECT_GE(found.covered, 0.93 - 4.0 * 0.0081) << shape.name << " " << n;
-      EXPECT_LE(found.covered, 0.97 + 4.0 * 0.0054) << shape.name << " " << n;
-      EXPECT_EQ(found.declined, 0.0) << shape.name << " " << n;
+      EXPECT_LE(found.covered, (has_ties ? 0.99 : 0.97) + 4.0 * 0.0054) << shape.name << " " << n;
+      if (!has_ties) EXPECT_EQ(found.declined, 0.0) << shape.name << " " << n;
     }
     const Truth few{.effects = {0.0, -0.2}, .groups = 7, .baseline_is_fixed = true};
     EXPECT_EQ(coverage(few, shape, 10, 11).declined, 1.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
@@ -30,16 +31,18 @@ std::size_t truly_best(const Truth& truth) {
 }
 
 /// Whether the letters claim an order that does not hold: methods without a common letter are
-/// claimed to differ, the first in order being better.
+/// claimed to differ, the first in order being better. Of methods with equal effects, the one that
+/// fails less often is better.
 bool has_false_claim(const Comparison& c, const Truth& truth) {
-  const auto effect = [&](const MethodVerdict& m) {
-    return truth.effects[static_cast<std::size_t>(std::stoi(m.method.substr(1)))];
+  const auto error = [&](const MethodVerdict& m) {
+    const auto i = static_cast<std::size_t>(std::stoi(m.method.substr(1)));
+    return std::pair(truth.effects[i], truth.failures.empty() ? 0.0 : truth.failures[i]);
   };
   for (std::size_t i = 0; i < c.methods.size(); ++i) {
     for (std::size_t j = i + 1; j < c.methods.size(); ++j) {
       const bool is_claimed =
           c.methods[i].letters.find_first_of(c.methods[j].letters) == std::string::npos;
-      if (is_claimed && effect(c.methods[i]) >= effect(c.methods[j])) return true;
+      if (is_claimed && error(c.methods[i]) >= error(c.methods[j])) return true;
     }
   }
   return false;

@@ -3,8 +3,10 @@
 /// [repeats].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #include "tests/studies/error_rates.hpp"
@@ -46,26 +48,52 @@ std::vector<Scene> scenes() {
   };
 }
 
-/// 5 % plus four standard errors of such a rate.
-double limit(int repeats) { return 0.05 + 4.0 * std::sqrt(0.05 * 0.95 / repeats); }
+/// Intervals of this distribution are known to cover too little (mean_interval.hpp).
+bool is_extreme(const Shape& shape) { return shape.name == "lognormal 1"; }
 
+/// 5 % (12 % for the extreme distribution) plus four standard errors of such a rate.
+double limit(const Shape& shape, int repeats) {
+  const double rate = is_extreme(shape) ? 0.12 : 0.05;
+  return rate + 4.0 * std::sqrt(rate * (1.0 - rate) / repeats);
+}
+
+/// Largest rates over the distributions but the extreme one; one row a scene.
 bool print_error_rates(const std::vector<Scene>& all, int repeats, Through through) {
   bool is_good = true;
   fmt::print(
-      "| records | logarithms | false best [%] | any false claim [%] | wrong mark [%] | best found "
-      "[%] |\n| --- | --- | ---: | ---: | ---: | ---: |\n");
+      "| records | false best [%] | wrong mark [%] | any false claim [%] | best found [%] | "
+      "lognormal 1: false best [%] | wrong mark [%] | any false claim [%] |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (const Scene& scene : all) {
+    ErrorRates most, extreme;
+    double least_found = 1.0;
     for (const Shape& shape : shapes()) {
       const ErrorRates r = error_rates(scene.truth, shape, repeats, 7, through);
-      fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n",
-                 scene.name,
-                 shape.name,
-                 100.0 * r.false_best,
-                 100.0 * r.false_better,
-                 100.0 * r.marked_wrong,
-                 100.0 * r.found);
-      is_good = is_good && r.false_best <= limit(repeats) && r.marked_wrong <= limit(repeats);
+      is_good = is_good &&
+                std::max({r.false_best, r.false_better, r.marked_wrong}) <= limit(shape, repeats);
+      if (is_extreme(shape)) {
+        extreme = r;
+        continue;
+      }
+      least_found = std::min(least_found, r.found);
+      most = {.false_best = std::max(most.false_best, r.false_best),
+              .false_better = std::max(most.false_better, r.false_better),
+              .found = std::max(most.found, r.found),
+              .marked_wrong = std::max(most.marked_wrong, r.marked_wrong)};
     }
+    const std::string found =
+        most.found > 0.0 ? fmt::format("{:.1f} to {:.1f}", 100.0 * least_found, 100.0 * most.found)
+                         : "none";
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {} | {:.1f} | {:.1f} | {:.1f} |\n",
+               scene.name,
+               100.0 * most.false_best,
+               100.0 * most.marked_wrong,
+               100.0 * most.false_better,
+               found,
+               100.0 * extreme.false_best,
+               100.0 * extreme.marked_wrong,
+               100.0 * extreme.false_better);
+    std::fflush(stdout);
   }
   return is_good;
 }
