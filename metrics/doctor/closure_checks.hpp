@@ -11,15 +11,14 @@ namespace loopbench::metrics {
 /// Compares closures with the odometry, without a reference:
 /// - direction: neighbouring closures connect the same two stretches of the chain, so that the
 /// drift
-///   between them cancels; if the inverses are much more consistent, closures are inverted;
-/// - gap: the odometry along a loop ends further from the closure than 2 m and eight times the
-/// drift
-///   per distance of the median loop (at most 35 % of the loop's length);
-/// - information: squared residuals of neighbouring closures, divided by their covariance,
-/// separately
-///   for translation and rotation: far from 1 in opposite directions and near 1 after exchange of
-///   the blocks (order), or both far from 1 (scale).
-/// O(closures + keyframes).
+///   between them cancels; if the inverses are much more consistent, closures are inverted.
+///   Closures without neighbours are compared with the odometry, by the ratio of likelihoods;
+/// - gap: the odometry along a loop ends further from the closure than 2 m, and than eight times
+/// the
+///   drift per distance of the median loop (at most 35 % of the loop's length) or 50 times the
+///   squared error over its variance of nine in ten loops;
+/// - information: see check_information().
+/// Empty if the odometry is no chain. O(closures + keyframes).
 std::vector<InputFinding> check_closures(const Problem& problem);
 
 }  // namespace loopbench::metrics

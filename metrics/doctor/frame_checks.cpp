@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
+#include "metrics/doctor/axis_fit.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/frame_fit.hpp"
 #include "metrics/doctor/unit_checks.hpp"
@@ -128,7 +128,7 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
   if (!is_bad && before < kDisagrees) return std::nullopt;
   for (const Candidate& each : candidates(poses, positions)) {
     const bool fits = is_bad ? each.residual < kBetter * as_read.residual
-                             : each.residual < kBad && each.disagreement < kAgrees &&
+                             : each.residual < as_read.residual && each.disagreement < kAgrees &&
                                    each.hypothesis->fault == Fault::quaternion_order;
     if (!fits) continue;
     return InputFinding{
@@ -150,70 +150,22 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
   return std::nullopt;
 }
 
-/// The signed permutation of axes that is closest to an orthogonal matrix, and their angle [rad].
-struct AxisMap {
-  Matrix3 matrix = Matrix3::Zero();
-  double angle = 0.0;
-
-  /// "x -y z": where the axes come from.
-  std::string text() const {
-    std::string out;
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        if (matrix(row, column) == 0.0) continue;
-        out += std::string(out.empty() ? "" : " ") + (matrix(row, column) < 0.0 ? "-" : "") +
-               "xyz"[column];
-      }
-    }
-    return out;
-  }
-};
-
-AxisMap closest_axes(const Matrix3& orthogonal) {
-  AxisMap out;
-  Matrix3 rest = orthogonal;
-  for (int k = 0; k < 3; ++k) {
-    Eigen::Index row = 0, column = 0;
-    rest.cwiseAbs().maxCoeff(&row, &column);
-    out.matrix(row, column) = orthogonal(row, column) < 0.0 ? -1.0 : 1.0;
-    rest.row(row).setZero();
-    rest.col(column).setZero();
-  }
-  const double trace = (out.matrix.transpose() * orthogonal).trace();
-  out.angle = std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
-  return out;
-}
-
-/// Positions and rotations that each fit, but with world frames that differ by a signed permutation
-/// of axes.
-std::optional<InputFinding> check_axes(const ConstantRotations& rotations,
-                                       const PositionFit& positions) {
-  constexpr double kGood = 15.0 / kDegrees, kGoodPositions = 0.45, kWide = 0.005;
-  constexpr double kLeastAngle = 30.0 / kDegrees, kClose = 17.0 / kDegrees;
-  if (rotations.residual > kGood || positions.width < kWide) return std::nullopt;
-  if (disagreement(rotations, positions) < kLeastAngle) return std::nullopt;
-  const Matrix3 left = rotations.left.toRotationMatrix();
-  const AxisMap proper = closest_axes(left.transpose() * positions.rotation);
-  const AxisMap improper = closest_axes(left.transpose() * positions.reflection);
-  const bool is_proper =
-      positions.similarity < kGoodPositions && proper.angle < kClose && !proper.matrix.isIdentity();
-  const bool is_improper = positions.reflected < kGoodPositions && improper.angle < kClose &&
-                           positions.reflected < 1.02 * positions.similarity;
-  if (!is_proper && !is_improper) return std::nullopt;
-  const bool uses_reflection =
-      is_improper && (!is_proper || positions.reflected < 0.8 * positions.similarity);
-  const AxisMap& found = uses_reflection ? improper : proper;
+/// Positions and rotations that do not belong together, but do with other axes of the positions.
+std::optional<InputFinding> check_axes(const CommonPoses& poses) {
+  constexpr double kBad = 0.1, kBetter = 0.5;
+  const AxisFit fit = fit_axes(poses.reference, poses.estimate);
+  if (fit.as_read < kBad || fit.changed > kBetter * fit.as_read) return std::nullopt;
   return InputFinding{
       Fault::axes,
-      fmt::format("the axes of positions and rotations differ: x y z of one are {} of the other, "
-                  "within {:.1f} deg (relative position error {:.3f}, rotation error {:.1f} deg)",
-                  found.text(),
-                  kDegrees * found.angle,
-                  uses_reflection ? positions.reflected : positions.similarity,
-                  kDegrees * rotations.residual),
+      fmt::format("the axes of positions and rotations differ: with {} of the estimate's positions "
+                  "as x y z, displacements in body frames differ by {:.3f} of their length, as "
+                  "read by {:.3f}",
+                  fit.text(),
+                  fit.changed,
+                  fit.as_read),
       "exchange or mirror the axes in one of the files",
-      std::clamp(1.0 - found.angle / (M_PI / 4), 0.0, 1.0),
-      kDegrees * found.angle};
+      1.0 - fit.changed / fit.as_read,
+      fit.as_read};
 }
 
 }  // namespace
@@ -233,7 +185,7 @@ std::vector<InputFinding> check_frames(const Trajectory& reference, const Trajec
   const ConstantRotations rotations = fit_rotations(poses.reference, poses.estimate);
   if (auto finding = check_quaternions(poses, rotations, positions)) {
     out.push_back(*finding);
-  } else if (auto mismatch = check_axes(rotations, positions)) {
+  } else if (auto mismatch = check_axes(poses)) {
     out.push_back(*mismatch);
   }
   return out;

@@ -12,19 +12,20 @@ namespace {
 
 using Svd = Eigen::JacobiSVD<Matrix3>;
 
-/// Rotation R that maximises trace(R^T M), or the best reflection.
-Matrix3 closest(const Svd& svd, bool reflection) {
-  const double determinant =
-      (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  Vector3 signs(1.0, 1.0, determinant);
-  if (reflection) signs.z() = -signs.z();
-  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+/// -1 if the orthogonal matrix that maximises trace(Q^T M) is a reflection, else 1.
+double sign_of(const Svd& svd) {
+  return (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+}
+
+/// Rotation R that maximises trace(R^T M).
+Matrix3 closest(const Svd& svd) {
+  return svd.matrixU() * Vector3(1.0, 1.0, sign_of(svd)).asDiagonal() * svd.matrixV().transpose();
 }
 
 /// The rotation that is closest to the sum of rotations.
 Rotation mean_rotation(const Matrix3& sum) {
   const Svd svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return Rotation(closest(svd, false)).normalized();
+  return Rotation(closest(svd)).normalized();
 }
 
 }  // namespace
@@ -51,20 +52,14 @@ PositionFit fit_positions(const std::vector<Pose>& reference, const std::vector<
   const Svd svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector3& d = svd.singularValues();
   if (!(d[0] > 0.0)) return out;
-  out.rotation = closest(svd, false);
-  out.reflection = closest(svd, true);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const double proper = d[0] + d[1] + sign * d[2];
-  const double improper = d[0] + d[1] - sign * d[2];
+  out.rotation = closest(svd);
+  const double proper = d[0] + d[1] + sign_of(svd) * d[2];
   const auto relative = [&](double square) { return std::sqrt(std::max(0.0, square) / var_r); };
   out.scale = proper / var_e;
   out.similarity = relative(var_r - proper * proper / var_e);
-  out.reflected = relative(var_r - improper * improper / var_e);
   out.rigid = relative(var_r + var_e - 2.0 * proper);
   out.rmse_similarity = out.similarity * std::sqrt(var_r);
   out.rmse_rigid = out.rigid * std::sqrt(var_r);
-  out.width = d[1] / d[0];
-  out.flatness = d[2] / d[0];
   return out;
 }
 

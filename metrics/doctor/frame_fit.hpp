@@ -9,13 +9,9 @@ namespace loopbench::metrics {
 
 struct PositionFit {
   Matrix3 rotation = Matrix3::Identity();    ///< reference_from_estimate
-  Matrix3 reflection = Matrix3::Identity();  ///< the same with determinant -1
   double scale = 1.0;
   double similarity = 1.0;  ///< rmse after a similarity over the reference's standard deviation [-]
   double rigid = 1.0;       ///< the same after a rigid transform
-  double reflected = 1.0;   ///< the same after a similarity with a reflection
-  double flatness = 0.0;    ///< third over first singular value of the covariance [-]
-  double width = 0.0;       ///< second over first singular value [-]
   double rmse_rigid = 0.0;  ///< [m]
   double rmse_similarity = 0.0;  ///< [m]
 };

@@ -103,6 +103,33 @@ TEST(Doctor, MirroredAndPermutedAxes) {
   EXPECT_THAT(faults(truth(), each(sampled(20), permuted)), ElementsAre(Fault::axes));
 }
 
+/// A car on a plane whose heading drifts by `drift` at the end [rad].
+Trajectory driven(double drift) {
+  Trajectory out;
+  Pose pose;
+  for (int i = 0; i <= 1200; ++i) {
+    const double t = 0.1 * i;
+    out.push_back({t, pose});
+    const double turn = 0.15 * std::max(0.0, std::sin(0.2 * t)) + drift / 120.0;  // [rad/s]
+    pose = pose * Pose{exp_so3({0, 0, 0.1 * turn}), {0.1 * (8.0 + std::sin(0.7 * t)), 0, 0}};
+  }
+  return out;
+}
+
+TEST(Doctor, DriftIsNoFaultOfAxesAndHidesNone) {
+  const auto mirrored = [](const Pose& p) -> Pose {
+    return {p.rotation, {-p.translation.x(), p.translation.y(), p.translation.z()}};
+  };
+  const auto has_axes = [](const Trajectory& estimate) {
+    const std::vector<Fault> all = faults(driven(0.0), estimate);
+    return std::ranges::find(all, Fault::axes) != all.end();
+  };
+  for (const double drift : {0.1, 0.5, 1.5, 3.0}) {
+    EXPECT_FALSE(has_axes(driven(drift))) << drift;
+    EXPECT_TRUE(has_axes(each(driven(drift), mirrored))) << drift;
+  }
+}
+
 TEST(Doctor, UnitsAndScale) {
   const auto times = [](double factor) {
     return [factor](const Pose& p) -> Pose { return {p.rotation, factor * p.translation}; };
@@ -185,6 +212,33 @@ TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
     for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
   }
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_order));
+}
+
+/// Without neighbours, and with too little drift to hide the motion between the lanes.
+TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
+  Problem problem = rounds();
+  problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
+  Problem inverted = problem;
+  for (Edge& edge : inverted.closures) edge.from_from_to = edge.from_from_to.inverse();
+  EXPECT_THAT(closure_faults(inverted), ElementsAre(Fault::closure_direction));
+  for (auto* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) edge.information *= 1e4;
+  }
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
+}
+
+TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
+  Problem problem = rounds();
+  // The gap is 30 % of the loop's length, most loops drift by 5 %.
+  for (Edge& edge : problem.odometry) edge.from_from_to.translation *= 1.06;
+  const Pose true_pose =
+      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
+  problem.closures.push_back({10,
+                              110,
+                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 60)},
+                              problem.closures[0].information});
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
 }
 
 TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {

@@ -1,0 +1,110 @@
+#include "metrics/doctor/closure_chain.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/doctor/common_motion.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+std::size_t difference(std::size_t i, std::size_t j) { return i > j ? i - j : j - i; }
+
+Matrix6 stated_covariance(const Edge& edge, bool exchanged) {
+  const Matrix6 given = edge.information.inverse();
+  if (!exchanged) return given;
+  Matrix6 out = Matrix6::Zero();
+  out.topLeftCorner<3, 3>() = given.bottomRightCorner<3, 3>();
+  out.bottomRightCorner<3, 3>() = given.topLeftCorner<3, 3>();
+  return out;
+}
+
+Matrix6 moved(const Pose& pose, const Matrix6& covariance) {
+  const Matrix6 a = adjoint(pose);
+  return a * covariance * a.transpose();
+}
+
+/// Parts without valid information count as 0: they constrain nothing.
+SquaredError over(const Twist& residual, const Matrix6& covariance) {
+  const auto valid = [](double x) { return std::isfinite(x) && x > 0.0 ? x : 0.0; };
+  return {valid(residual.head<3>().squaredNorm() / covariance.topLeftCorner<3, 3>().trace()),
+          valid(residual.tail<3>().squaredNorm() / covariance.bottomRightCorner<3, 3>().trace()),
+          valid(residual.dot(covariance.ldlt().solve(residual)) / 6.0)};
+}
+
+}  // namespace
+
+double Chain::length(std::size_t i, std::size_t j) const {
+  return std::abs(lengths[j] - lengths[i]);
+}
+
+Matrix6 Chain::covariance(std::size_t i, std::size_t j) const {
+  return moved(poses[j].inverse(), covariances[std::max(i, j)] - covariances[std::min(i, j)]);
+}
+
+Chain chain_of(const Problem& problem, bool exchanged) {
+  Chain out;
+  out.poses.resize(problem.keyframes.size());
+  out.lengths.resize(problem.keyframes.size(), 0.0);
+  out.covariances.resize(problem.keyframes.size(), Matrix6::Zero());
+  for (std::size_t i = 0; i + 1 < out.poses.size() && i < problem.odometry.size(); ++i) {
+    const Edge& step = problem.odometry[i];
+    out.poses[i + 1] = normalized(out.poses[i] * step.from_from_to);
+    out.lengths[i + 1] = out.lengths[i] + step.from_from_to.translation.norm();
+    out.covariances[i + 1] =
+        out.covariances[i] + moved(out.poses[i + 1], stated_covariance(step, exchanged));
+  }
+  return out;
+}
+
+SquaredError closure_error(const Edge& closure, const Chain& chain, bool exchanged, bool inverted) {
+  const Pose measured = inverted ? closure.from_from_to.inverse() : closure.from_from_to;
+  const Twist gap = log_se3(measured.inverse() * chain.between(closure.from, closure.to));
+  return over(gap,
+              stated_covariance(closure, exchanged) + chain.covariance(closure.from, closure.to));
+}
+
+SquaredError median_error(const std::vector<SquaredError>& all) {
+  const auto median_of = [&](double SquaredError::*part) {
+    std::vector<double> values;
+    for (const SquaredError& each : all) values.push_back(each.*part);
+    return median_value(std::move(values));
+  };
+  return {median_of(&SquaredError::translation),
+          median_of(&SquaredError::rotation),
+          median_of(&SquaredError::whole)};
+}
+
+std::vector<Neighbours> neighbours_of(const std::vector<Edge>& closures, const Chain& chain) {
+  constexpr std::size_t kSearched = 12, kMostKeyframes = 15;
+  constexpr double kMostMetres = 15.0;
+  std::vector<Neighbours> out;
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    for (std::size_t j = i + 1; j < std::min(closures.size(), i + 1 + kSearched); ++j) {
+      const Edge& a = closures[i];
+      const Edge& b = closures[j];
+      const bool is_near = difference(a.from, b.from) <= kMostKeyframes &&
+                           difference(a.to, b.to) <= kMostKeyframes &&
+                           chain.length(a.from, b.from) <= kMostMetres &&
+                           chain.length(a.to, b.to) <= kMostMetres;
+      if (is_near) {
+        out.push_back({&a, &b});
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+Twist neighbour_residual(const Neighbours& pair, const Chain& chain, bool inverted) {
+  const auto measured = [&](const Edge& edge) {
+    return inverted ? edge.from_from_to.inverse() : edge.from_from_to;
+  };
+  const Pose around = chain.between(pair.a->from, pair.b->from) * measured(*pair.b) *
+                      chain.between(pair.b->to, pair.a->to);
+  return log_se3(measured(*pair.a).inverse() * around);
+}
+
+}  // namespace loopbench::metrics
