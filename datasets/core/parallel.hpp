@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <thread>
@@ -38,6 +39,16 @@ void parallel_invoke(std::size_t count, const Body& body) {
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }
+}
+
+/// Calls body(0) .. body(count - 1) on at most as many threads as there are cores, each on the next
+/// that is free. Rethrows an exception after all have ended.
+template <class Body>
+void parallel_for_tasks(std::size_t count, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  parallel_invoke(std::min(count, hardware_threads()), [&](std::size_t) {
+    for (std::size_t i = 0; (i = next++) < count;) body(i);
+  });
 }
 
 /// Calls body(begin, end) in parallel for ranges that partition 0..count; small counts use a single

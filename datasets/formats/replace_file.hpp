@@ -39,8 +39,9 @@ class PendingFile {
 
 /// Writes a temporary file in the same folder and renames it, so that readers never see a partial
 /// file. The temporary file has an unpredictable name and is created exclusively; one that a killed
-/// process left in the folder is removed. The mode of a replaced regular file is kept. Throws InputError if the folder is missing, if the folder or file
-/// cannot be written, if `file` is read-only, or if it is a folder.
+/// process left in the folder is removed. The mode of a replaced regular file is kept. Throws
+/// InputError if the folder is missing, if the folder or file cannot be written, if `file` is
+/// read-only, or if it is a folder.
 void replace_file(const std::filesystem::path& file, std::string_view bytes, Target target);
 
 }  // namespace loopbench

@@ -42,8 +42,8 @@ void remove_if_abandoned(const std::filesystem::path& file) {
       ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) return;
   struct stat status {};
-  const bool is_own = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
-                      status.st_uid == ::geteuid();
+  const bool is_own =
+      ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
   if (is_own && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(file.c_str());
   ::close(descriptor);
 }

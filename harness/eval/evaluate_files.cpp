@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 
+#include "datasets/core/parallel.hpp"
 #include "datasets/formats/kitti.hpp"
 #include "harness/text/write_file.hpp"
 
@@ -91,9 +93,10 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
                                             const EvaluationInput& input,
                                             bool throws_failures) {
   const auto& [reference, estimate, reference_name, estimate_name, has_stamps] = input.read;
-  std::vector<std::string> remarks;
-  if (!input.findings.damage.empty()) remarks.push_back(input.findings.damage);
-  for (std::string& note : doctor_notes(input.read, rules)) remarks.push_back(std::move(note));
+  const bool is_large = estimate.size() >= kMinItemsPerThread;
+  std::future<std::vector<std::string>> doctor =
+      std::async(is_large ? std::launch::async : std::launch::deferred,
+                 [&] { return doctor_notes(input.read, rules); });
   std::vector<EvaluationResult> out;
   for (const metrics::NamedProtocol& protocol : rules) {
     const EvaluationOptions options{metric_requests(a, protocol.rules),
@@ -113,8 +116,6 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     }
     try {
       out.push_back(evaluate_estimate(reference, estimate, protocol, options));
-      std::vector<std::string>& notes = out.back().notes;
-      notes.insert(notes.end(), remarks.begin(), remarks.end());
     } catch (const std::runtime_error& error) {
       if (throws_failures) {
         throw InputError(estimate_name + " with reference " + reference_name + ": " + error.what());
@@ -124,6 +125,12 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     out.back().reference = reference_name;
     out.back().reference_body = a.reference_body.value_or("");
     out.back().estimate = estimate_name;
+  }
+  std::vector<std::string> remarks = doctor.get();
+  if (!input.findings.damage.empty()) remarks.insert(remarks.begin(), input.findings.damage);
+  for (EvaluationResult& result : out) {
+    if (!result.why_failed.empty()) continue;
+    result.notes.insert(result.notes.end(), remarks.begin(), remarks.end());
   }
   return out;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
+#include "datasets/core/parallel.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/execution/run/incomplete.hpp"
 #include "metrics/checks/diagnostics.hpp"
@@ -86,6 +88,46 @@ std::string why_not_ok(const EvaluationResult& result) {
   return "none of the requested metrics is defined";
 }
 
+namespace {
+
+EvaluatedMetric evaluated(const metrics::Evaluation& evaluation,
+                          const metrics::MetricEntry& entry,
+                          const MetricRequest& request) {
+  EvaluatedMetric out{request.metric, request.options, {}, {}, {}};
+  try {
+    out.scores = entry.score(evaluation, request.options);
+  } catch (const metrics::Undefined& reason) {
+    out.why_undefined = reason.what();
+  } catch (const std::runtime_error& error) {
+    out.why_failed = error.what();
+  }
+  return out;
+}
+
+/// The requested metrics that exist; several at a time for many poses.
+std::vector<EvaluatedMetric> evaluated(const metrics::Evaluation& evaluation,
+                                       const std::vector<MetricRequest>& requests) {
+  const std::vector<metrics::MetricEntry> known = metrics::metrics();
+  std::vector<std::pair<const metrics::MetricEntry*, const MetricRequest*>> found;
+  for (const MetricRequest& request : requests) {
+    const auto entry = std::ranges::find(known, request.metric, &metrics::MetricEntry::name);
+    if (entry != known.end()) found.emplace_back(&*entry, &request);
+  }
+  std::vector<EvaluatedMetric> out(found.size());
+  const auto evaluate = [&](std::size_t i) {
+    out[i] = evaluated(evaluation, *found[i].first, *found[i].second);
+  };
+  if (evaluation.estimate.size() >= kMinItemsPerThread) {
+    // The last first: segments take the longest.
+    parallel_for_tasks(found.size(), [&](std::size_t i) { evaluate(found.size() - 1 - i); });
+  } else {
+    for (std::size_t i = 0; i < found.size(); ++i) evaluate(i);
+  }
+  return out;
+}
+
+}  // namespace
+
 EvaluationResult evaluate_estimate(const Trajectory& reference,
                                    const Trajectory& estimate,
                                    const metrics::NamedProtocol& protocol,
@@ -116,21 +158,7 @@ EvaluationResult evaluate_estimate(const Trajectory& reference,
   }
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
   if (options.with_figures) out.drawn = {"", evaluation.reference, evaluation.estimate};
-  const std::vector<metrics::MetricEntry> known = metrics::metrics();
-  for (const MetricRequest& request : options.metric_requests) {
-    for (const metrics::MetricEntry& entry : known) {
-      if (entry.name != request.metric) continue;
-      EvaluatedMetric& metric =
-          out.metrics.emplace_back(EvaluatedMetric{request.metric, request.options, {}, {}, {}});
-      try {
-        metric.scores = entry.score(evaluation, request.options);
-      } catch (const metrics::Undefined& reason) {
-        metric.why_undefined = reason.what();
-      } catch (const std::runtime_error& error) {
-        metric.why_failed = error.what();
-      }
-    }
-  }
+  out.metrics = evaluated(evaluation, options.metric_requests);
   return out;
 }
 

@@ -14,12 +14,31 @@
 
 #if defined(__GLIBC__) && !defined(LOOPBENCH_SANITIZED)
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 
 namespace {
+
+constexpr std::size_t kHugePage = std::size_t{2} << 20;  // [bytes]
+constinit std::atomic<bool> uses_huge_pages{false};
+
+/// Lets the kernel back the block by huge pages, where it has whole ones.
+void* advised(void* block, std::size_t size) {
+  if (size < 2 * kHugePage || block == nullptr || !uses_huge_pages.load(std::memory_order_relaxed))
+    return block;
+  const auto address = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = (address + kHugePage - 1) / kHugePage * kHugePage;
+  const std::uintptr_t last = (address + size) / kHugePage * kHugePage;
+  const int saved = errno;
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  errno = saved;
+  return block;
+}
 
 /// A thread-local counter avoids an atomic addition, which would cost as much as malloc itself.
 struct alignas(64) AllocationCount {
@@ -54,7 +73,7 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) noexcept {
   count_allocation();
-  return __libc_malloc(size);
+  return advised(__libc_malloc(size), size);
 }
 void* calloc(std::size_t count, std::size_t size) noexcept {
   count_allocation();
@@ -93,6 +112,8 @@ AllocationCounter counted_malloc() {
   };
 }
 
+void use_huge_pages() { uses_huge_pages.store(true, std::memory_order_relaxed); }
+
 }  // namespace loopbench::harness
 
 #else
@@ -100,6 +121,8 @@ AllocationCounter counted_malloc() {
 namespace loopbench::harness {
 
 AllocationCounter counted_malloc() { return nullptr; }
+
+void use_huge_pages() {}
 
 }  // namespace loopbench::harness
 

@@ -109,6 +109,9 @@ int run(CLI::App& app,
 int main(int argc, char** argv) {
   reserve_standard_streams();
   set_allocation_counter(counted_malloc());
+  const std::vector<std::string> words{argv + 1, argv + argc};
+  const auto is_first = [&](const char* command) { return !words.empty() && words[0] == command; };
+  if (is_first("eval") || is_first("traj") || is_first("doctor")) use_huge_pages();
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.formatter(help_formatter());
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
@@ -144,7 +147,7 @@ int main(int argc, char** argv) {
   add_pages(app, exit_code);
   add_examples(app);
   int print_errno = 0;
-  const int out = run(app, {argv + 1, argv + argc}, exit_code, print_errno);
+  const int out = run(app, words, exit_code, print_errno);
   // Output counts as written only after the buffer is flushed.
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return out;
