@@ -47,7 +47,7 @@ inline const char* short_number(const char* at, const char* end, double& value) 
       1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16};
   constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
   const bool is_negative = at != end && *at == '-';
-  if (is_negative) ++at;
+  at += is_negative ? 1 : 0;
   std::uint64_t digits = 0;
   const char* const first = at;
   at = read_digits(at, end, digits);
@@ -62,7 +62,9 @@ inline const char* short_number(const char* at, const char* end, double& value) 
   const bool has_exponent = at != end && (*at == 'e' || *at == 'E');
   if (count < 1 || count > 16 || digits > kExact || has_exponent) return nullptr;
   const double size = static_cast<double>(digits) / kPowers[static_cast<std::size_t>(decimals)];
-  value = is_negative ? -size : size;
+  // Without a branch, which signs in random order would mislead.
+  value =
+      std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) | std::uint64_t{is_negative} << 63);
   return at;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -90,6 +91,25 @@ std::string why_not_ok(const EvaluationResult& result) {
 
 namespace {
 
+/// Sets diagnosis, notes and other_body.
+void add_checks(EvaluationResult& out,
+                const Trajectory& reference,
+                const metrics::Evaluation& evaluation,
+                const EvaluationOptions& options) {
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference, evaluation);
+  for (metrics::Score& score :
+       out.diagnosis) {  // readers normalise, so use the value from the files
+    if (score.relation == "off_unit")
+      score = metrics::single("off_unit", "", "1", options.repaired.off_unit);
+  }
+  out.diagnosis.push_back(
+      metrics::single("left_out", "", "1", static_cast<double>(options.repaired.repeated)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, options.body_from_reference);
+  }
+}
+
 EvaluatedMetric evaluated(const metrics::Evaluation& evaluation,
                           const metrics::MetricEntry& entry,
                           const MetricRequest& request) {
@@ -144,21 +164,13 @@ EvaluationResult evaluate_estimate(const Trajectory& reference,
   out.coverage = evaluation.coverage;
   out.incomplete_reason = incomplete_reason(evaluation.coverage, options.min_coverage);
   out.alignment = evaluation.alignment;
-  out.diagnosis = metrics::diagnostics(evaluation, {});
-  out.notes = evaluation_notes(reference, evaluation);
-  for (metrics::Score& score :
-       out.diagnosis) {  // readers normalise, so use the value from the files
-    if (score.relation == "off_unit")
-      score = metrics::single("off_unit", "", "1", options.repaired.off_unit);
-  }
-  out.diagnosis.push_back(
-      metrics::single("left_out", "", "1", static_cast<double>(options.repaired.repeated)));
-  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
-    out.other_body = metrics::other_body(*offset, options.body_from_reference);
-  }
+  const bool is_large = evaluation.estimate.size() >= kMinItemsPerThread;
+  std::future<void> checks = std::async(is_large ? std::launch::async : std::launch::deferred,
+                                        [&] { add_checks(out, reference, evaluation, options); });
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
   if (options.with_figures) out.drawn = {"", evaluation.reference, evaluation.estimate};
   out.metrics = evaluated(evaluation, options.metric_requests);
+  checks.get();
   return out;
 }
 

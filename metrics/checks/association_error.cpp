@@ -6,14 +6,26 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Speed [m/s] from the pose at `stamp` to the next one, or from the previous one.
-double speed(const Trajectory& reference, double stamp, bool is_ahead) {
-  const auto here = std::ranges::lower_bound(reference, stamp, {}, &StampedPose::stamp);
-  const auto last = reference.end() - 1;
-  auto from = std::min(here, last);
-  if (from == last || (!is_ahead && from != reference.begin())) --from;
-  const StampedPose& a = *from;
-  const StampedPose& b = *(from + 1);
+/// Index of the first pose at or after `stamp`, or of the last pose. Ascending stamps, as paired
+/// poses have them, take a step or two from the index found before.
+std::size_t index_at(const Trajectory& reference, double stamp, std::size_t before) {
+  const std::size_t last = reference.size() - 1;
+  std::size_t at = before;
+  for (int steps = 0; steps < 8; ++steps, ++at) {
+    const bool is_after_previous = at == 0 || reference[at - 1].stamp < stamp;
+    if (!is_after_previous) break;
+    if (at == last || reference[at].stamp >= stamp) return at;
+  }
+  const auto found = std::ranges::lower_bound(reference, stamp, {}, &StampedPose::stamp);
+  return std::min(static_cast<std::size_t>(found - reference.begin()), last);
+}
+
+/// Speed [m/s] from the pose `here` to the next one, or from the previous one.
+double speed(const Trajectory& reference, std::size_t here, bool is_ahead) {
+  const bool is_last = here + 1 == reference.size();
+  const std::size_t from = is_last || (!is_ahead && here > 0) ? here - 1 : here;
+  const StampedPose& a = reference[from];
+  const StampedPose& b = reference[from + 1];
   return (b.world_from_body.translation - a.world_from_body.translation).norm() /
          (b.stamp - a.stamp);
 }
@@ -28,12 +40,14 @@ std::optional<AssociationError> association_error(const Trajectory& reference,
   if (!has_differences || reference.size() < 2) return std::nullopt;
   AssociationError out;
   double squares = 0.0;
+  std::size_t here = 0;
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     const double stamp = evaluation.reference[i].stamp;
     const double difference = evaluation.estimate[i].stamp + protocol.offset - stamp;
     if (difference == 0.0) continue;
     out.largest_difference = std::max(out.largest_difference, std::abs(difference));
-    const double metres = difference * speed(reference, stamp, difference > 0.0);
+    here = index_at(reference, stamp, here);
+    const double metres = difference * speed(reference, here, difference > 0.0);
     squares += metres * metres;
   }
   out.metres = std::sqrt(squares / static_cast<double>(evaluation.reference.size()));

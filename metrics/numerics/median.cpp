@@ -40,11 +40,12 @@ NearMiddle near_middle(std::span<const double> values, double low, double high) 
   for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
     std::size_t below = 0;
     std::size_t count = 0;
-    // Branch-free: always writes and advances only if kept, since the branch is unpredictable.
+    // Branch-free (& instead of &&): always writes and advances only if kept, since the branches
+    // are unpredictable.
     for (const double value : values.subspan(begin, std::min(kBlock, values.size() - begin))) {
       below += value < low ? 1 : 0;
       kept[count] = value;
-      count += low <= value && value <= high ? 1 : 0;
+      count += static_cast<std::size_t>(low <= value) & static_cast<std::size_t>(value <= high);
     }
     out.below += below;
     out.values.insert(

@@ -93,9 +93,21 @@ double remaining_squares(const std::vector<LeverArmEquation>& all,
   return out;
 }
 
+/// At most kMostEquations of them, which determine a lever arm to a fraction of its use.
+std::vector<LeverArmEquation> evenly_chosen(std::vector<LeverArmEquation> all) {
+  constexpr std::size_t kMostEquations = 20'000;
+  const std::size_t step = (all.size() + kMostEquations - 1) / kMostEquations;
+  if (step <= 1) return all;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); i += step) all[kept++] = all[i];
+  all.resize(kept);
+  return all;
+}
+
 }  // namespace
 
 LeverArmFit fit_lever_arm(std::vector<LeverArmEquation> all) {
+  all = evenly_chosen(std::move(all));
   constexpr int kRounds = 20;
   constexpr double kConverged = 1e-6;
   constexpr double kHuber = 2.0, kJump = 6.0;  // times the residuals' scale
