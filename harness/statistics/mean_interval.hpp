@@ -27,9 +27,9 @@ struct MeanInterval {
 /// Mean with Hall's skewness-corrected Student interval (Journal of the Royal Statistical Society B
 /// 54, 1992), with three quarters of the bias-corrected sample skewness: with the full
 /// skewness, coverage is below 93 % for heavy tails; without it, below 93 % for skewed values.
-/// The degrees of freedom are the number of values that differ, by more than rounding, from the most
-/// frequent one: n - 1 without ties, fewer with ties, which say nothing about the deviation (ties are
-/// not counted if a thousand of the first values differ; they hardly matter then).
+/// The degrees of freedom are the number of values that differ, by more than rounding, from the
+/// most frequent one: n - 1 without ties, fewer with ties, which say nothing about the deviation
+/// (ties are not counted if a thousand of the first values differ; they hardly matter then).
 ///
 /// 95 % intervals cover 93 to 97 % from kFewestForInterval observations on for normal, uniform,
 /// Laplace, t (3 degrees of freedom), gamma (skewness 1), lognormal (sigma 0.5) and exponential

@@ -8,7 +8,7 @@
 namespace loopbench::metrics {
 
 struct PositionFit {
-  Matrix3 rotation = Matrix3::Identity();    ///< reference_from_estimate
+  Matrix3 rotation = Matrix3::Identity();  ///< reference_from_estimate
   double scale = 1.0;
   double similarity = 1.0;  ///< rmse after a similarity over the reference's standard deviation [-]
   double rigid = 1.0;       ///< the same after a rigid transform
