@@ -142,7 +142,7 @@ class Zoo : public testing::Test {
       methods += "}\n";
     }
     const std::string limits = kSanitized ? "limits: {seconds: 4, memory: 400MiB}\n"
-                                          : "limits: {seconds: 1.5, memory: 100MiB}\n";
+                                          : "limits: {seconds: 2.5, memory: 100MiB}\n";
     folder_.file("zoo.yaml", kDataset + limits + methods);
     folder_.file("honest.yaml", kDataset + "methods: [" + kHonest + "]\n");
   }
