@@ -35,7 +35,8 @@ std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
                                             const Chain& chain,
                                             const Chain& exchanged) {
   constexpr std::size_t kFewest = 2;
-  constexpr double kFar = 1000.0, kNear = 100.0, kTooLarge = 100.0, kTooSmall = 1e-5;  // in variance
+  constexpr double kFar = 1000.0, kNear = 100.0, kTooLarge = 100.0,
+                   kTooSmall = 1e-5;  // in variance
   if (closures.size() < kFewest) return {};
   const SquaredError stated = median_of_loops(closures, chain, false);
   const SquaredError other = median_of_loops(closures, exchanged, true);
