@@ -11,13 +11,13 @@ install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[
   "${python_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" clang "* ]] && install_missing clang-14
 
-# Runs shellcheck for all scripts, clang-format for all files; clang-tidy for the product, each library as one source.
+# Runs shellcheck for all scripts, clang-format and clang-tidy for all files; each library and program as one source.
 lint() {
   install_missing "${lint_packages[@]}"
   shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
-  cmake --preset lint >/dev/null
-  find build/lint/CMakeFiles -path '*/Unity/*.cxx' -print0 |
+  cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
+  find build/lint -path '*/Unity/*.cxx' -print0 |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option \
       --extra-arg=-Wno-shadow 2>/dev/null
 }

@@ -11,7 +11,7 @@ namespace loopbench::methods {
 namespace {
 
 constexpr double kLattice = 0.25;             // spacing of the factors [octaves]
-constexpr int kFarthest = 53;                 // largest lattice index: a factor of 1e4
+constexpr int kLastIndex = 53;                // largest lattice index: a factor of 1e4
 constexpr double kPriorOctaves = 6.64385619;  // prior deviation: a factor of 10 in deviation
 
 using LatticePoint = std::array<int, 2>;  // lattice indices of translation and rotation
@@ -94,7 +94,7 @@ LatticePoint minimise_factors(const LoopCovariance& loops, LatticePoint at) {
         for (const int by : {step, -step}) {
           LatticePoint trial = at;
           trial[which] += by;
-          if (std::abs(trial[which]) > kFarthest) continue;
+          if (std::abs(trial[which]) > kLastIndex) continue;
           const double value = objective(loops, trial);
           if (!(value < least)) continue;
           least = value;

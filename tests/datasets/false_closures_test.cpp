@@ -25,7 +25,7 @@ Problem chain(std::size_t keyframes, std::size_t closures) {
 }
 
 TEST(FalseClosures, ShortChainsGetTheirShareToo) {
-  for (const std::size_t keyframes : {3, 4, 10, 39, 40, 200}) {
+  for (const std::size_t keyframes : {3u, 4u, 10u, 39u, 40u, 200u}) {
     Problem problem = chain(keyframes, 6);
     EXPECT_EQ(add_false_closures(problem, {0.5, 1}, 0), 6u) << keyframes;
     EXPECT_EQ(problem.closures.size(), 12u);

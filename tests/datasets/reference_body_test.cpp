@@ -53,7 +53,9 @@ TEST(ReferenceBody, SameBodyKeepsEveryBit) {
   }
 }
 
-Sequence loaded(const std::string& dataset, const std::filesystem::path& folder, Params given) {
+Sequence loaded(const std::string& dataset,
+                const std::filesystem::path& folder,
+                const Params& given) {
   for (const DatasetEntry& entry : datasets()) {
     if (entry.name == dataset) return entry.load(given, {{folder}});
   }

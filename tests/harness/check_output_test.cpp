@@ -74,13 +74,13 @@ class CheckOutput : public TinyStore {
     EXPECT_EQ(cells.at(1).status, "failed");
     return cells.at(1).why;
   }
-  std::string why(Correct change) {
+  std::string why(const Correct& change) {
     known_.methods.push_back({"bad", Kind::corrector, "breaks a rule", {}, [=](const Params&) {
                                 return Stage(std::make_unique<const Corrected>(change));
                               }});
     return why_failed();
   }
-  std::string why_smoothed(Smooth make) {
+  std::string why_smoothed(const Smooth& make) {
     known_.methods.push_back({"bad", Kind::smoother, "breaks a rule", {}, [=](const Params&) {
                                 return Stage(std::make_unique<const Smoothed>(make));
                               }});
@@ -227,8 +227,11 @@ TEST_F(CheckOutput, EveryPartOfAReportIsChecked) {
 }
 
 TEST_F(CheckOutput, ALongExceptionTextIsCutOnceWhereItEnters) {
-  const std::string stored =
-      why([](Trajectory&, Report&) { throw std::runtime_error(std::string(50'000'000, '\xff')); });
+  const std::string stored = why([](Trajectory&, Report&) {
+    std::string text;
+    text.resize(50'000'000, '\xff');
+    throw std::runtime_error(text);
+  });
   EXPECT_EQ(stored.size(), kLongestNote + std::string(" ... (49998000 more bytes)").size());
   EXPECT_TRUE(stored.starts_with("\\xff\\xff")) << stored.substr(0, 40);
   EXPECT_TRUE(stored.ends_with(" ... (49998000 more bytes)"));

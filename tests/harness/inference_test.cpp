@@ -77,8 +77,8 @@ TEST(SignedRank, GivesTheNormalValuesOfR) {
   EXPECT_NEAR(signed_rank(twelve, {.exact_up_to = 0, .continuity = false}).p, 0.6948866, 5e-8);
   EXPECT_NEAR(signed_rank(twelve, {.exact_up_to = 0}).p, 0.7240817, 5e-8);
   Numbers coarse;  // 56 integers from -4 to 4, 15 of them zero
-  const int times[] = {1, 4, 16, 15, 8, 4, 5, 1, 2};
-  for (int value = -4; value <= 4; ++value) coarse.insert(coarse.end(), times[value + 4], value);
+  const std::size_t times[] = {1, 4, 16, 15, 8, 4, 5, 1, 2};
+  for (int i = 0; i < 9; ++i) coarse.insert(coarse.end(), times[i], i - 4);
   const SignedRank pratt = signed_rank(coarse, {.exact_up_to = 0, .continuity = false});
   EXPECT_EQ(pratt.positive, 423.0);
   EXPECT_NEAR(pratt.p, 0.0031724568006762576, 1e-12);

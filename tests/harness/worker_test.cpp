@@ -27,7 +27,7 @@ TEST_F(CellProcess, EveryCellHasAProcessOfItsOwn) {
           "          {method: mis, deed: own_process, label: b}]\nmetrics: [ate]\n",
           1);
   ASSERT_EQ(results.size(), 3u);
-  for (const std::size_t i : {0, 2}) {
+  for (const std::size_t i : {0u, 2u}) {
     // Short runs are repeated for their time, and the first run is reported.
     EXPECT_EQ(results[i].report.counts.at(0).value, 1.0) << "something of another cell is left";
   }

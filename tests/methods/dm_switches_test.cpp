@@ -5,6 +5,7 @@
 #include "methods/smoothers/manifold/continuity.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/moving_frames.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::dm_switches_test {
 
@@ -92,7 +93,7 @@ TEST_P(EverySwitch, IsIndependentOfTheWorldFrame) {
   const Problem problem = keyframes_only(wandering(60, 3));
   const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
   const auto original = smoothed(problem);
-  const auto moved = smoothed(moved_by(there_from_here, problem));
+  const auto moved = smoothed(test::moved_by(there_from_here, problem));
   for (const double t : times_over(problem.keyframes, 313)) {
     const Pose expected = there_from_here * original->at(t);
     EXPECT_LT((moved->at(t).translation - expected.translation).norm(), 1e-6) << t;
@@ -191,7 +192,7 @@ TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
   const auto curve = Dm(options).smooth(problem, report);
   double farthest = 0.0;
   const Pose rotation{exp_so3({0, 0, 0.8}), Vector3::Zero()};
-  const auto rotated = Dm(options).smooth(moved_by(rotation, problem), report);
+  const auto rotated = Dm(options).smooth(test::moved_by(rotation, problem), report);
   for (const double t : times_over(problem.keyframes, 60)) {
     const Vector3 p = curve->at(t).translation;
     EXPECT_NEAR(p.y(), p.x() * p.x(), 1e-12);

@@ -4,6 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "manifold_paths.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::dm_test {
 
@@ -50,7 +51,7 @@ TEST_P(EveryVariant, IsIndependentOfTheWorldFrame) {
   problem.keyframes.erase(problem.keyframes.begin() + 20, problem.keyframes.begin() + 26);
   const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
   const auto original = smoothed(problem, GetParam());
-  const auto moved = smoothed(moved_by(there_from_here, problem), GetParam());
+  const auto moved = smoothed(test::moved_by(there_from_here, problem), GetParam());
   EXPECT_GT(counted(problem, GetParam(), "quasi_keyframes"), 0.0);
   for (const double t : times_over(problem.keyframes, 997)) {
     EXPECT_TRUE(is_close(there_from_here * original->at(t), moved->at(t), 1e-9, 1e-9)) << t;

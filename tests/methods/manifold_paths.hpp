@@ -44,15 +44,6 @@ inline Problem keyframes_only(Trajectory keyframes) {
   return out;
 }
 
-inline Problem moved_by(const Pose& there_from_here, Problem problem) {
-  for (Trajectory* poses : {&problem.keyframes, &problem.frames}) {
-    for (StampedPose& pose : *poses) {
-      pose.world_from_body = normalized(there_from_here * pose.world_from_body);
-    }
-  }
-  return problem;
-}
-
 /// `count` evenly spaced times from the first to the last stamp, both included.
 inline std::vector<double> times_over(const Trajectory& poses, std::size_t count) {
   std::vector<double> out;

@@ -36,7 +36,9 @@ Trajectory without(Trajectory poses, double from, double to) {
   return poses;
 }
 
-Diagnostics of(const Trajectory& reference, const Trajectory& estimate, Protocol protocol = {}) {
+Diagnostics of(const Trajectory& reference,
+               const Trajectory& estimate,
+               const Protocol& protocol = {}) {
   Evaluation e = evaluate(reference, estimate, protocol);
   e.context = {.reference = &reference, .estimate = &estimate, .protocol = protocol};
   return diagnose(e, {});

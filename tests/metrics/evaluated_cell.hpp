@@ -17,7 +17,7 @@ struct EvaluatedCell {
                 Problem given,
                 std::unique_ptr<const Curve> made,
                 Times times,
-                Protocol protocol = {})
+                const Protocol& protocol = {})
       : reference(std::move(truth)),
         problem(std::move(given)),
         curve(std::move(made)),

@@ -144,7 +144,7 @@ TEST(ExtrinsicOffset, LeavesUntoldDirectionsZero) {
 
 // If all rotations have the same sign, a constant error per step resembles a lever arm.
 TEST(ExtrinsicOffset, IsNotSteadyDrift) {
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Twist error = twist({0.01, 0.005, 0.0}, {0.0, 0.0, 0.001});
     EXPECT_EQ(said(circle(), drifting(circle(), error, seed)), "");
     EXPECT_EQ(said(drive(), drifting(drive(), 2.0 * error, seed)), "");

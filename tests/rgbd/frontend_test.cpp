@@ -67,7 +67,7 @@ double largest_error(const Sequence& sequence, const OutAndBack& source) {
   const Pose reference_from_world = source.reference().front().world_from_body *
                                     sequence.problem.keyframes.front().world_from_body.inverse();
   for (const StampedPose& keyframe : sequence.problem.keyframes) {
-    const auto index = static_cast<std::size_t>(keyframe.stamp / 0.125 + 0.5);
+    const auto index = static_cast<std::size_t>(std::lround(keyframe.stamp / 0.125));
     const Vector3 truth = source.reference()[index].world_from_body.translation;
     const Pose placed = reference_from_world * keyframe.world_from_body;
     out = std::max(out, (placed.translation - truth).norm());
@@ -87,7 +87,8 @@ TEST(Frontend, TracksAndClosesTheLoopOfARoomWalkedOutAndBack) {
   for (const Edge& loop : sequence.problem.closures) {
     const auto pose = [&](std::size_t k) {
       const double stamp = sequence.problem.keyframes[k].stamp;
-      return source.reference()[static_cast<std::size_t>(stamp / 0.125 + 0.5)].world_from_body;
+      return source.reference()[static_cast<std::size_t>(std::lround(stamp / 0.125))]
+          .world_from_body;
     };
     EXPECT_TRUE(is_close(loop.from_from_to, pose(loop.from).inverse() * pose(loop.to), 0.1, 0.1));
   }
@@ -144,7 +145,8 @@ double mean_step_error(const Sequence& sequence, const OutAndBack& source) {
   for (const Edge& edge : sequence.problem.odometry) {
     const auto truth = [&](std::size_t k) {
       const double stamp = sequence.problem.keyframes[k].stamp;
-      return source.reference()[static_cast<std::size_t>(stamp / 0.125 + 0.5)].world_from_body;
+      return source.reference()[static_cast<std::size_t>(std::lround(stamp / 0.125))]
+          .world_from_body;
     };
     const Pose step = truth(edge.from).inverse() * truth(edge.to);
     out += (edge.from_from_to.translation - step.translation).norm();

@@ -129,6 +129,6 @@ int main(int count, char** arguments) {
       "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   Draws draws;
   for (const Distribution& each : kDistributions) {
-    for (const std::size_t n : {8, 10, 15, 20, 30}) print_row(each, n, samples, draws);
+    for (const std::size_t n : {8u, 10u, 15u, 20u, 30u}) print_row(each, n, samples, draws);
   }
 }

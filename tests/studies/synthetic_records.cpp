@@ -95,13 +95,13 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
           r.status = "failed";
           r.metric.clear();
         }
-        out.push_back(std::move(r));
+        out.push_back(r);
       }
       if (uniform(bits) >= truth.copies) continue;
       for (std::size_t m = 0; m < methods; ++m) {
         Record copy = out[begin + m];
         copy.sequence = copy.sequence + " again";
-        out.push_back(std::move(copy));
+        out.push_back(copy);
       }
     }
   }

@@ -130,7 +130,7 @@ bool print_coverage(const std::vector<std::size_t>& counts, int repeats, Through
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main(int count, char** arguments) try {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -150,4 +150,7 @@ int main(int count, char** arguments) {
   is_good = print_coverage({8, 15}, (repeats + 9) / 10, Through::store) && is_good;
   fmt::print("\n{:.0f} s in all\n", seconds());
   return is_good ? 0 : 1;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "verdict_error_rates: {}\n", error.what());
+  return 2;
 }
