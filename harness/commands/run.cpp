@@ -105,6 +105,8 @@ int run(const RunArguments& arguments, const Source& source) {
   sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
   sandbox.unreachable = {given};
   if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
+  const ControlGroups groups(sandbox.enabled);
+  sandbox.groups = &groups;
   std::map<std::string, std::string> made = provenance(source, sweep, known);
   if (arguments.save_trajectories) {
     set_estimate_folder(out / "trajectories");

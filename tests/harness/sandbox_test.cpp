@@ -120,7 +120,8 @@ TEST_F(Sandboxed, NothingIsRestrictedIfItIsOff) {
   options.enabled = false;
   const std::string shown = file("shown.txt");
   EXPECT_EQ(in_sandbox(options, [&] { return write_error(shown); }), 0);
-  EXPECT_EQ(sandbox_summary(options), "PID namespace off, Landlock off, seccomp off");
+  EXPECT_EQ(sandbox_summary(options),
+            "PID namespace off, Landlock off, seccomp off, cgroup v2 off");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -23,7 +24,19 @@ using namespace methods;
 using namespace metrics;
 using namespace harness;
 
-enum class Deed { nothing, abort, kill, exit, hang, flood, own_process, leak, shell, daemon };
+enum class Deed {
+  nothing,
+  abort,
+  kill,
+  exit,
+  hang,
+  flood,
+  own_process,
+  leak,
+  shell,
+  daemon,
+  unmapped
+};
 inline auto choices(Deed) {
   return std::array{std::pair{"nothing", Deed::nothing},
                     std::pair{"abort", Deed::abort},
@@ -34,7 +47,8 @@ inline auto choices(Deed) {
                     std::pair{"own_process", Deed::own_process},
                     std::pair{"leak", Deed::leak},
                     std::pair{"shell", Deed::shell},
-                    std::pair{"daemon", Deed::daemon}};
+                    std::pair{"daemon", Deed::daemon},
+                    std::pair{"unmapped", Deed::unmapped}};
 }
 
 struct Misbehaving final : Corrector {
@@ -81,6 +95,12 @@ struct Misbehaving final : Corrector {
           _exit(0);
         }
         break;
+      case Deed::unmapped: {  // memory of no process
+        const int file = memfd_create("unmapped", 0);
+        const std::string bytes(std::size_t{1} << 20, 'x');
+        for (int i = 0; i < 500 && write(file, bytes.data(), bytes.size()) > 0; ++i) continue;
+        break;
+      }
       case Deed::nothing:
         break;
     }

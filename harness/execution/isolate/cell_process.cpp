@@ -12,6 +12,7 @@
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/execution/isolate/active_clock.hpp"
 #include "harness/execution/isolate/cell_child.hpp"
@@ -29,6 +30,9 @@ namespace {
 
 constexpr int kMemoryTick = 20;     // [ms], between checks of memory and processes
 constexpr int kMostProcesses = 64;  // of one cell, apart from threads
+
+/// What a control group counts beyond the growth of processes: page tables, buffers, files [bytes].
+constexpr std::int64_t kReserveOfGroup = std::int64_t{64} << 20;
 
 /// The reason why a worker ends a cell.
 struct Verdict {
@@ -86,12 +90,14 @@ std::optional<Verdict> watch_cell(int cell,
 CellProcesses::CellProcesses(const WorkerContext& context,
                              int sweep,
                              int core,
-                             const ScratchFolder* scratch)
+                             const ScratchFolder* scratch,
+                             const ControlGroup& group)
     : context_(context),
       sweep_(sweep),
       core_(core),
       null_(open("/dev/null", O_RDWR | O_CLOEXEC)),
-      scratch_(scratch) {}
+      scratch_(scratch),
+      group_(group) {}
 
 CellProcesses::~CellProcesses() { close(null_); }
 
@@ -133,6 +139,7 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
   CellOutput output;
   const Limits& limits = context_.sweep.limits;
   const std::int64_t memory = limits.memory > 0 ? process_memory("self") : 0;
+  if (limits.memory > 0) group_.limit_growth(limits.memory + kReserveOfGroup);
   CommandSetting setting = command_setting(context_.sweep);
   setting.sandbox = &sandbox;
   prepare_programs(context_.sweep.methods[cell.method], setting);
@@ -173,7 +180,16 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
     _exit(0);
   }
   output.forward();
+  const std::int64_t ended_before = std::exchange(ended_by_limit_, group_.ended_by_limit());
+  const bool ended_by_limit = ended_by_limit_ > ended_before;
   if (verdict) return packed_failure(cell, verdict->status, verdict->why, "SIGKILL");
+  if (ended_by_limit) {
+    return packed_failure(
+        cell,
+        Status::out_of_memory,
+        fmt::format("the system ended it at its memory limit of {} bytes", limits.memory),
+        "SIGKILL");
+  }
   if (const auto result = area_.read()) return std::string(*result);
   if (!WIFSIGNALED(status)) {
     const std::string why = fmt::format("exited, exit code {}", WEXITSTATUS(status));

@@ -18,8 +18,12 @@ namespace loopbench::harness {
 class CellProcesses {
  public:
   /// `sweep`: socket to it; `core`: the core to run on, or -1; `scratch`: for programs, writable,
-  /// or null. Throws std::runtime_error without shared memory.
-  CellProcesses(const WorkerContext& context, int sweep, int core, const ScratchFolder* scratch);
+  /// or null; `group`: of the worker. Throws std::runtime_error without shared memory.
+  CellProcesses(const WorkerContext& context,
+                int sweep,
+                int core,
+                const ScratchFolder* scratch,
+                const ControlGroup& group);
   ~CellProcesses();
   CellProcesses(const CellProcesses&) = delete;
   CellProcesses& operator=(const CellProcesses&) = delete;
@@ -41,6 +45,8 @@ class CellProcesses {
   int core_;
   int null_;  ///< /dev/null
   const ScratchFolder* scratch_;
+  const ControlGroup& group_;
+  std::int64_t ended_by_limit_ = 0;  ///< of the group, before the running cell
   ResultArea area_;
   std::optional<Sandbox> sandbox_;
   std::vector<InputFile> hidden_;  ///< inputs that the sandbox hides

@@ -81,19 +81,25 @@ const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
 
 }  // namespace
 
-void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int core) {
+void run_worker(const WorkerContext& context,
+                int socket,
+                SharedStatus& shared_status,
+                int core,
+                const ControlGroup& group) {
   install_worker_signals(socket);
   keep_heap_compact();
   std::optional<Programs> programs;
   if (uses_programs(context.sweep)) programs.emplace();
   LoadedSequences loaded(context);
-  CellProcesses cell_processes(context, socket, core, programs ? &programs->scratch : nullptr);
+  const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
+  CellProcesses cell_processes(context, socket, core, scratch, group);
   for (Job job; receive_all(socket, &job, sizeof job);) {
     const Cell& cell = context.cells[job.cell];
     const LoadedSequences::Entry* entry = loaded.find(cell);
     if (entry == nullptr) {
       if (context.sweep.limits.memory > 0) shared_status.memory = process_memory("self");
       set_status(shared_status, job.cell, true);
+      group.remove_limit();
       try {
         entry = &load(loaded, cell);
       } catch (const std::exception& error) {

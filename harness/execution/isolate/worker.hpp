@@ -54,7 +54,11 @@ struct WorkerContext {
 };
 
 /// Reads jobs from `socket` and answers there until it is closed. `core`: the one that cells run
-/// on, or -1. Does not throw; returns early if it cannot answer.
-void run_worker(const WorkerContext& context, int socket, SharedStatus& shared_status, int core);
+/// on, or -1; `group`: of this process. Does not throw; returns early if it cannot answer.
+void run_worker(const WorkerContext& context,
+                int socket,
+                SharedStatus& shared_status,
+                int core,
+                const ControlGroup& group);
 
 }  // namespace loopbench::harness

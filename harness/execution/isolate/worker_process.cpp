@@ -60,7 +60,9 @@ pid_t fork_worker(bool pid_namespace) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const WorkerContext& context, int core) {
+WorkerProcess::WorkerProcess(const WorkerContext& context, int core)
+    : group_(context.sandbox.groups == nullptr ? ControlGroup()
+                                               : context.sandbox.groups->group_of_worker()) {
   void* shared = mmap(
       nullptr, sizeof(SharedStatus), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw creation_error("shared memory");
@@ -95,6 +97,7 @@ void WorkerProcess::release() {
 }
 
 void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
+  group_.enter();
   // Close the sweep's files: the store, its lock and the other workers' sockets.
   constexpr int kSocket = 3;
   if (socket != kSocket) dup2(socket, kSocket);
@@ -105,7 +108,7 @@ void WorkerProcess::run_child(const WorkerContext& context, int core, int socket
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   raise_oom_score();
-  run_worker(context, kSocket, *shared_status_, core);
+  run_worker(context, kSocket, *shared_status_, core, group_);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }
@@ -127,6 +130,7 @@ void WorkerProcess::receive(std::string& bytes) {
 
 void WorkerProcess::kill() const {
   if (process_ > 0) ::kill(process_, SIGKILL);
+  group_.kill();
 }
 
 bool WorkerProcess::has_ended() const {

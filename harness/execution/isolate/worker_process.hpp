@@ -45,6 +45,7 @@ class WorkerProcess {
   [[noreturn]] void run_child(const WorkerContext& context, int core, int socket);
   void release();
 
+  ControlGroup group_;
   SharedStatus* shared_status_ = nullptr;  ///< in shared memory
   int socket_ = -1;
   int descriptor_ = -1;

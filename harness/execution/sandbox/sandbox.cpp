@@ -64,7 +64,8 @@ bool enter_pid_namespace() {
 std::string sandbox_summary(const SandboxOptions& options) {
   const auto state = [&](bool available) { return options.enabled && available ? "on" : "off"; };
   return std::string("PID namespace ") + state(options.pid_namespace && has_pid_namespaces()) +
-         ", Landlock " + state(landlock_version() > 0) + ", seccomp " + state(has_seccomp());
+         ", Landlock " + state(landlock_version() > 0) + ", seccomp " + state(has_seccomp()) +
+         ", cgroup v2 " + (options.groups == nullptr ? "off" : options.groups->summary());
 }
 
 }  // namespace loopbench::harness

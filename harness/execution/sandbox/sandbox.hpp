@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/execution/sandbox/control_group.hpp"
+
 namespace loopbench::harness {
 
 struct SandboxOptions {
@@ -25,6 +27,7 @@ struct SandboxOptions {
   bool pid_namespace = true;                       ///< only if enabled
   std::vector<std::filesystem::path> unreachable;  ///< results, references; may not exist
   std::vector<std::filesystem::path> writable;     ///< folders, apart from /dev/null
+  const ControlGroups* groups = nullptr;           ///< for workers; null: none
 };
 
 /// The restrictions of one worker's cells, prepared before the cells are forked.
@@ -49,7 +52,8 @@ class Sandbox {
 /// them. False if that is not permitted.
 bool enter_pid_namespace();
 
-/// Which parts the system has, for example "PID namespace on, Landlock on, seccomp off". Creates a
+/// Which parts the system has, for example "PID namespace on, Landlock on, seccomp off, cgroup
+/// v2 kill, memory, pids". Creates a
 /// short-lived process.
 std::string sandbox_summary(const SandboxOptions& options);
 
