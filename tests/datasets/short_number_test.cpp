@@ -42,7 +42,23 @@ TEST(ShortNumber, ReadsCommonForms) {
                                  "3,4",
                                  "1.2.3",
                                  "0x1p3",
-                                 "123456789012345.6"}) {
+                                 "123456789012345.6",
+                                 "9007199254740993",  // halfway between two doubles
+                                 "9007199254740995",
+                                 "0.12345678901234567",
+                                 "-1305031102.175304001",
+                                 "9223372036854775807",
+                                 "9999999999999999999",  // does not fit into 63 bits
+                                 "0.1234567890123456789",
+                                 "000000000000000000000.000000000000000000000",
+                                 "0.00021487524287554123",
+                                 "-00012.00034",
+                                 "1e5",
+                                 "1.5E-3",
+                                 "-9.999978000000000e-01",
+                                 "1.234567890123456789e+00",
+                                 "5.0e-324",
+                                 "1e308"}) {
     EXPECT_TRUE(accepts(text)) << text;
   }
 }
@@ -55,13 +71,15 @@ TEST(ShortNumber, LeavesTheRestToTheStandardLibrary) {
                                  "+1",
                                  "nan",
                                  "inf",
-                                 "1e5",
-                                 "1.5E-3",
-
+                                 "1e",
+                                 "1e+",
+                                 "1e-x",
+                                 "1e0005",
+                                 "1e999",
                                  "e5",
                                  "--1",
-                                 "9007199254740993",
-                                 "0.12345678901234567",
+                                 "0.12345678901234567890",
+                                 "1.0000000000000000000",
                                  "12345678901234567890123",
                                  " 1"}) {
     EXPECT_FALSE(accepts(text)) << text;
@@ -79,6 +97,22 @@ TEST(ShortNumber, HasTheBitsOfTheStandardLibrary) {
     accepted += accepts(text) ? 1 : 0;
   }
   EXPECT_GT(accepted, 100000);
+}
+
+TEST(ShortNumber, HasTheBitsOfTheStandardLibraryForEveryCountOfDigits) {
+  std::mt19937_64 bits(5);
+  for (int i = 0; i < 100000; ++i) {
+    const double number = std::bit_cast<double>(bits() >> 2 | std::uint64_t{1} << 61) * 0x1p-2;
+    const double usual = static_cast<double>(bits() >> 11) * 0x1p-43;
+    accepts(fmt::format("{}", usual));                        // shortest
+    accepts(fmt::format("{:.{}f}", usual, 5 + bits() % 14));  // as C++ streams
+    accepts(fmt::format("{:.{}e}", usual, 5 + bits() % 14));  // as numpy.savetxt
+    accepts(fmt::format("{}", usual * 0x1p-24));
+    accepts(fmt::format("{:.{}e}", number, 5 + bits() % 14));  // any size
+    const std::uint64_t odd = (bits() >> 10 | 1) + (std::uint64_t{1} << 53);
+    accepts(fmt::format("{}", odd));                               // often halfway
+    accepts(fmt::format("{}.{}", odd / 2, odd % 2 == 0 ? 0 : 5));  // the same
+  }
 }
 
 TEST(ShortNumber, ReadsNothingBeyondTheEnd) {
