@@ -80,6 +80,17 @@ void apply_memory_limit(const Limits& limits, CellResult& result) {
 
 }  // namespace
 
+int last_core() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 0;
+  int last = 0;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) last = core;
+  }
+  return last;
+}
+
 void run_cell_and_exit(const CellChild& child) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != child.worker) _exit(1);  // the worker has ended in the meantime

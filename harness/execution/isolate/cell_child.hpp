@@ -24,6 +24,9 @@ struct CellChild {
   std::vector<int> kept;  ///< descriptors to keep open, apart from the standard streams
 };
 
+/// The highest core this process may use, since the first ones handle most interrupts.
+int last_core();
+
 /// In the forked process: detaches it from the worker, runs the cell in the sandbox and leaves the
 /// packed result in the area.
 [[noreturn]] void run_cell_and_exit(const CellChild& child);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <map>
 
 #include "harness/catalogue/loading.hpp"
+#include "harness/execution/isolate/cell_child.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
 #include "harness/execution/isolate/killed_cells.hpp"
 #include "harness/execution/isolate/subreaper.hpp"
@@ -22,18 +22,6 @@ namespace loopbench::harness {
 namespace {
 
 constexpr int kMemoryWatch = 20;  // [ms], between memory checks of loading workers
-
-/// The highest core this process may use, since the first ones handle most interrupts.
-int last_core() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) != 0) return 0;
-  int last = 0;
-  for (int core = 0; core < CPU_SETSIZE; ++core) {
-    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) last = core;
-  }
-  return last;
-}
 
 class IsolatedSweep {
  public:
@@ -99,6 +87,7 @@ class IsolatedSweep {
       if (!slot.process) {
         slot.process = std::make_unique<WorkerProcess>(context_, core_);
         slot.step = 0;
+        slot.ended_by_limit = 0;
       }
       slot.jobs.push_back(*job);
       slot.process->send(*job);
@@ -168,6 +157,9 @@ class IsolatedSweep {
         result.why = "its result is damaged: it wrote over its memory";
         set_conditions(result, header.cell);
       }
+      if (result.status == Status::out_of_memory) {
+        slot.ended_by_limit = slot.process->ended_by_limit();
+      }
       if (result.status == Status::crashed && killed_.runs_again(header.cell, result.signal)) {
         queue_.requeue(header.cell);
       } else {
@@ -213,6 +205,7 @@ class IsolatedSweep {
   void reap(WorkerSlot& slot) {
     const bool idle = slot.is_idle();
     const bool loading = slot.is_loading();
+    const bool by_limit = !loading && slot.process->ended_by_limit() > slot.ended_by_limit;
     const WorkerProcess::End end = slot.process->end();
     slot.process.reset();
     slot.bytes.clear();
@@ -225,8 +218,8 @@ class IsolatedSweep {
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
     if (idle && result) return;
     if (!result) {
-      result = crash_of_worker(end, loading);
-      if (killed_.runs_again(first.cell, result->signal)) return requeue(first);
+      result = crash_of_worker(end, loading, by_limit);
+      if (!by_limit && killed_.runs_again(first.cell, result->signal)) return requeue(first);
     }
     set_conditions(*result, first.cell);
     if (loading) load_failures_[queue_.group_of(first.cell)] = *result;

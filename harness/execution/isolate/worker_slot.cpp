@@ -39,8 +39,14 @@ void apply_limits(WorkerSlot& slot, const Limits& limits) {
   if (slot.verdict) slot.process->kill();
 }
 
-CellResult crash_of_worker(const WorkerProcess::End& end, bool loading) {
+CellResult crash_of_worker(const WorkerProcess::End& end, bool loading, bool by_limit) {
   CellResult out;
+  if (by_limit) {
+    out.status = Status::out_of_memory;
+    out.signal = "SIGKILL";
+    out.why = "the system ended its worker process at the memory limit of the cell";
+    return out;
+  }
   out.status = Status::crashed;
   if (end.signal != 0) out.signal = signal_name(end.signal);
   out.why = end.signal != 0 ? "ended by " + out.signal

@@ -22,6 +22,7 @@ struct WorkerSlot {
   std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, without its cell
   std::uint64_t step = 0;             ///< of the shared status, when the clock started
   ActiveClock clock;
+  std::int64_t ended_by_limit = 0;  ///< WorkerProcess::ended_by_limit() before the running cell
 
   /// Time since the worker began what it does [s].
   double seconds() {
@@ -37,7 +38,8 @@ struct WorkerSlot {
 /// the verdict.
 void apply_limits(WorkerSlot& slot, const Limits& limits);
 
-/// Result of the cell or sequence of a worker that ended by itself or was killed.
-CellResult crash_of_worker(const WorkerProcess::End& end, bool loading);
+/// Result of the cell or sequence of a worker that ended by itself or was killed; `by_limit`: by
+/// the memory limit of its control group.
+CellResult crash_of_worker(const WorkerProcess::End& end, bool loading, bool by_limit);
 
 }  // namespace loopbench::harness
