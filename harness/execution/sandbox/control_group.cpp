@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -58,6 +59,16 @@ bool remove_groups(const path& folder) {
   return rmdir(folder.c_str()) == 0;
 }
 
+/// Whether a process can move into the group.
+bool can_be_entered(const ControlGroup& group) {
+  const pid_t child = fork();
+  if (child == 0) _exit(group.enter() ? 0 : 1);
+  int status = 1;
+  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
 /// Descriptor of the folder of a sweep, locked, or -1 if another process uses it.
 int lock_of(const path& folder) {
   const int out = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -107,8 +118,8 @@ ControlGroup::ControlGroup(const path& parent) {
   write_setting(path_ / "pids.max", kMostTasks);
 }
 
-void ControlGroup::enter() const {
-  if (!path_.empty()) write_setting(path_ / "cgroup.procs", "0");
+bool ControlGroup::enter() const {
+  return !path_.empty() && write_setting(path_ / "cgroup.procs", "0");
 }
 
 void ControlGroup::limit_growth(std::int64_t growth) const {
@@ -157,6 +168,10 @@ ControlGroups::ControlGroups(bool enabled) {
   folder_ = name;
   lock_ = lock_of(folder_);
   enable_controllers();
+  if (can_be_entered(group_of_worker())) return;
+  release();
+  folder_.clear();
+  limits_memory_ = false;
 }
 
 void ControlGroups::enable_controllers() {
@@ -186,7 +201,10 @@ void ControlGroups::enable_controllers() {
 }
 
 ControlGroups::~ControlGroups() {
-  if (folder_.empty()) return;
+  if (!folder_.empty()) release();
+}
+
+void ControlGroups::release() {
   if (!enabled_.empty()) {
     write_setting(folder_ / "cgroup.subtree_control", enabled_);
     write_setting(own_ / "cgroup.subtree_control", enabled_);

@@ -20,8 +20,8 @@ class ControlGroup {
   ControlGroup(ControlGroup&& other) noexcept : path_(std::exchange(other.path_, {})) {}
   ControlGroup& operator=(ControlGroup&&) = delete;
 
-  /// Moves the calling process, whose later children are in the group, too.
-  void enter() const;
+  /// Moves the calling process, whose later children are in the group, too. False without a group.
+  bool enter() const;
 
   /// Limits the memory of the group to what it has now and `growth` [bytes].
   void limit_growth(std::int64_t growth) const;
@@ -45,7 +45,8 @@ class ControlGroups {
  public:
   /// Creates a folder in the group of this process, if that is permitted, and removes those of
   /// killed sweeps. Moves this process into the folder if only then it may limit memory: the system
-  /// limits groups only beside each other. `enabled`: otherwise it does nothing.
+  /// limits groups only beside each other. Creates a short-lived process, which tries a group.
+  /// `enabled`: otherwise it does nothing.
   explicit ControlGroups(bool enabled);
   ~ControlGroups();
   ControlGroups(const ControlGroups&) = delete;
@@ -62,6 +63,7 @@ class ControlGroups {
 
  private:
   void enable_controllers();
+  void release();
 
   std::filesystem::path own_;     ///< group of this process at the beginning
   std::filesystem::path folder_;  ///< in it; empty: off
