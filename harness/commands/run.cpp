@@ -274,7 +274,8 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("DIR");
   command->add_flag("--no-sandbox",
                     arguments->no_sandbox,
-                    "Do not restrict what methods can reach (files, network, other processes)");
+                    "Do not restrict what methods can reach (files, network, other processes) "
+                    "and create no control groups");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

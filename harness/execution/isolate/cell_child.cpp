@@ -1,6 +1,5 @@
 #include "harness/execution/isolate/cell_child.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/close_range.h>
 #include <sched.h>
@@ -17,6 +16,7 @@
 #include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/execution/run/process_usage.hpp"
 #include "harness/execution/run/run_cell.hpp"
+#include "harness/execution/sandbox/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,14 +33,6 @@ bool pin_to(int core) {
   CPU_ZERO(&set);
   CPU_SET(static_cast<std::size_t>(core), &set);
   return sched_setaffinity(0, sizeof set, &set) == 0;
-}
-
-/// If the system runs out of memory, it should kill the cell, not the worker or the sweep.
-void raise_oom_score_of_cell() {
-  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-  if (file < 0) return;
-  [[maybe_unused]] const ssize_t written = write(file, "800", 3);
-  close(file);
 }
 
 /// Ends growth that is faster than the worker's checks.
@@ -96,7 +88,8 @@ void run_cell_and_exit(const CellChild& child) {
   if (getppid() != child.worker) _exit(1);  // the worker has ended in the meantime
   setpgid(0, 0);
   restore_default_signals();
-  raise_oom_score_of_cell();
+  // If the system runs out of memory, it should kill the cell, not the worker or the sweep.
+  write_system_file("/proc/self/oom_score_adj", "800");
   const bool is_pinned = pin_to(child.core);
   limit_memory(child.context.sweep.limits.memory);
   set_freshly_forked();

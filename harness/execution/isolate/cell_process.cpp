@@ -187,7 +187,7 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
     return packed_failure(
         cell,
         Status::out_of_memory,
-        fmt::format("the system ended it at its memory limit of {} bytes", limits.memory),
+        fmt::format("the kernel killed it at its memory limit of {} bytes", limits.memory),
         "SIGKILL");
   }
   if (const auto result = area_.read()) return std::string(*result);

@@ -1,7 +1,6 @@
 #include "harness/execution/isolate/process_tree.hpp"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,23 +11,13 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "harness/execution/sandbox/system_file.hpp"
+
 namespace loopbench::harness {
 namespace {
 
-std::string text_of(const std::string& path) {
-  std::string out;
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return out;
-  char buffer[4096];
-  for (ssize_t size; (size = read(file, buffer, sizeof buffer)) > 0;) {
-    out.append(buffer, static_cast<std::size_t>(size));
-  }
-  close(file);
-  return out;
-}
-
 void append_children(const std::string& thread, std::vector<pid_t>& out) {
-  const std::string text = text_of(thread + "/children");
+  const std::string text = read_system_file(thread + "/children");
   const char* at = text.c_str();
   for (;;) {
     char* end = nullptr;
@@ -70,7 +59,7 @@ std::vector<pid_t> own_children() {
 }
 
 std::int64_t process_memory(const std::string& process) {
-  const std::string status = text_of("/proc/" + process + "/status");
+  const std::string status = read_system_file("/proc/" + process + "/status");
   return kilobytes(status, "RssAnon:") + kilobytes(status, "RssShmem:");
 }
 

@@ -18,6 +18,7 @@
 #include <stdexcept>
 
 #include "harness/execution/isolate/process_tree.hpp"
+#include "harness/execution/sandbox/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -25,14 +26,6 @@ namespace {
 std::runtime_error creation_error(const std::string& what) {
   return std::runtime_error("cannot create a worker process: " + what + ": " +
                             std::strerror(errno));
-}
-
-/// If the system runs out of memory, it should kill the worker, not the sweep.
-void raise_oom_score() {
-  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-  if (file < 0) return;
-  [[maybe_unused]] const ssize_t written = write(file, "500", 3);
-  close(file);
 }
 
 /// Returns the worker's number to the sweep, in an own process, and 0 in the worker. An
@@ -107,7 +100,8 @@ void WorkerProcess::run_child(const WorkerContext& context, int core, int socket
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  raise_oom_score();
+  // If the system runs out of memory, it should kill the worker, not the sweep.
+  write_system_file("/proc/self/oom_score_adj", "500");
   run_worker(context, kSocket, *shared_status_, core, group_);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors

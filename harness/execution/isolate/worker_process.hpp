@@ -26,7 +26,7 @@ class WorkerProcess {
 
   void kill() const;
 
-  /// Number of processes that the memory limit of its control group has ended so far.
+  /// Number of processes killed so far because of the memory limit of its control group.
   std::int64_t ended_by_limit() const { return group_.ended_by_limit(); }
 
   /// Whether the process has ended, as its descriptor tells: descendants may hold the socket.

@@ -44,7 +44,7 @@ CellResult crash_of_worker(const WorkerProcess::End& end, bool loading, bool by_
   if (by_limit) {
     out.status = Status::out_of_memory;
     out.signal = "SIGKILL";
-    out.why = "the system ended its worker process at the memory limit of the cell";
+    out.why = "the kernel killed its worker process at the memory limit of the cell";
     return out;
   }
   out.status = Status::crashed;

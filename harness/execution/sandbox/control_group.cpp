@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +12,9 @@
 #include <system_error>
 #include <thread>
 
+#include "harness/execution/sandbox/system_file.hpp"
+#include "harness/execution/sandbox/try_in_child.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -20,27 +22,6 @@ using std::filesystem::path;
 
 constexpr const char* kPrefix = "loopbench-";
 constexpr const char* kMostTasks = "4096";  // processes and threads of a worker with its cell
-
-std::string text_of_file(const path& file) {
-  std::string out;
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return out;
-  char buffer[4096];
-  for (ssize_t size; (size = read(descriptor, buffer, sizeof buffer)) > 0;) {
-    out.append(buffer, static_cast<std::size_t>(size));
-  }
-  close(descriptor);
-  return out;
-}
-
-/// False if the system refuses, for example since the controller is not enabled.
-bool write_setting(const path& file, const std::string& text) {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool is_written = write(descriptor, text.data(), text.size()) >= 0;
-  close(descriptor);
-  return is_written;
-}
 
 bool contains_word(const std::string& text, const std::string& word) {
   std::istringstream in(text);
@@ -57,16 +38,6 @@ bool remove_groups(const path& folder) {
     if (entry.is_directory(ignored)) rmdir(entry.path().c_str());
   }
   return rmdir(folder.c_str()) == 0;
-}
-
-/// Whether a process can move into the group.
-bool can_be_entered(const ControlGroup& group) {
-  const pid_t child = fork();
-  if (child == 0) _exit(group.enter() ? 0 : 1);
-  int status = 1;
-  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 /// Descriptor of the folder of a sweep, locked, or -1 if another process uses it.
@@ -114,28 +85,28 @@ ControlGroup::ControlGroup(const path& parent) {
   std::string name = parent / "worker-XXXXXX";
   if (mkdtemp(name.data()) == nullptr) return;
   path_ = name;
-  write_setting(path_ / "memory.swap.max", "0");
-  write_setting(path_ / "pids.max", kMostTasks);
+  write_system_file(path_ / "memory.swap.max", "0");
+  write_system_file(path_ / "pids.max", kMostTasks);
 }
 
 bool ControlGroup::enter() const {
-  return !path_.empty() && write_setting(path_ / "cgroup.procs", "0");
+  return !path_.empty() && write_system_file(path_ / "cgroup.procs", "0");
 }
 
 void ControlGroup::limit_growth(std::int64_t growth) const {
   if (path_.empty()) return;
-  const std::string now = text_of_file(path_ / "memory.current");
+  const std::string now = read_system_file(path_ / "memory.current");
   if (now.empty()) return;
-  write_setting(path_ / "memory.max", std::to_string(std::stoll(now) + growth));
+  write_system_file(path_ / "memory.max", std::to_string(std::stoll(now) + growth));
 }
 
 void ControlGroup::remove_limit() const {
-  if (!path_.empty()) write_setting(path_ / "memory.max", "max");
+  if (!path_.empty()) write_system_file(path_ / "memory.max", "max");
 }
 
 std::int64_t ControlGroup::ended_by_limit() const {
   if (path_.empty()) return 0;
-  std::istringstream in(text_of_file(path_ / "memory.events"));
+  std::istringstream in(read_system_file(path_ / "memory.events"));
   std::string event;
   for (std::int64_t count = 0; in >> event >> count;) {
     if (event == "oom_kill") return count;
@@ -144,7 +115,7 @@ std::int64_t ControlGroup::ended_by_limit() const {
 }
 
 void ControlGroup::kill() const {
-  if (!path_.empty()) write_setting(path_ / "cgroup.kill", "1");
+  if (!path_.empty()) write_system_file(path_ / "cgroup.kill", "1");
 }
 
 void ControlGroup::end() {
@@ -159,8 +130,8 @@ void ControlGroup::end() {
 
 ControlGroups::ControlGroups(bool enabled) {
   if (!enabled) return;
-  own_ =
-      control_group_path(text_of_file("/proc/self/cgroup"), text_of_file("/proc/self/mountinfo"));
+  own_ = control_group_path(read_system_file("/proc/self/cgroup"),
+                            read_system_file("/proc/self/mountinfo"));
   if (own_.empty() || access((own_ / "cgroup.procs").c_str(), W_OK) != 0) return;
   remove_groups_of_killed_sweeps(own_);
   std::string name = own_ / (std::string(kPrefix) + "XXXXXX");
@@ -168,35 +139,36 @@ ControlGroups::ControlGroups(bool enabled) {
   folder_ = name;
   lock_ = lock_of(folder_);
   enable_controllers();
-  if (can_be_entered(group_of_worker())) return;
+  const ControlGroup group = group_of_worker();
+  if (try_in_child([&] { return group.enter(); })) return;
   release();
   folder_.clear();
   limits_memory_ = false;
 }
 
 void ControlGroups::enable_controllers() {
-  const std::string available = text_of_file(own_ / "cgroup.controllers");
-  const std::string before = text_of_file(own_ / "cgroup.subtree_control");
+  const std::string available = read_system_file(own_ / "cgroup.controllers");
+  const std::string before = read_system_file(own_ / "cgroup.subtree_control");
   for (const std::string controller : {"memory", "pids"}) {
     if (!contains_word(available, controller)) continue;
     const auto enable = [&] {
-      return write_setting(own_ / "cgroup.subtree_control", "+" + controller);
+      return write_system_file(own_ / "cgroup.subtree_control", "+" + controller);
     };
     if (!contains_word(before, controller)) {
       bool is_enabled = enable();
       if (!is_enabled && !has_moved_ && mkdir((folder_ / "sweep").c_str(), 0700) == 0) {
-        has_moved_ = write_setting(folder_ / "sweep/cgroup.procs", "0");
+        has_moved_ = write_system_file(folder_ / "sweep/cgroup.procs", "0");
         is_enabled = has_moved_ && enable();
       }
       if (!is_enabled) continue;
       enabled_.append(enabled_.empty() ? "-" : " -").append(controller);
     }
-    if (!write_setting(folder_ / "cgroup.subtree_control", "+" + controller)) continue;
+    if (!write_system_file(folder_ / "cgroup.subtree_control", "+" + controller)) continue;
     controllers_.append(", ").append(controller);
     if (controller == "memory") limits_memory_ = true;
   }
   if (has_moved_ && enabled_.empty()) {
-    has_moved_ = !write_setting(own_ / "cgroup.procs", "0");
+    has_moved_ = !write_system_file(own_ / "cgroup.procs", "0");
   }
 }
 
@@ -206,10 +178,10 @@ ControlGroups::~ControlGroups() {
 
 void ControlGroups::release() {
   if (!enabled_.empty()) {
-    write_setting(folder_ / "cgroup.subtree_control", enabled_);
-    write_setting(own_ / "cgroup.subtree_control", enabled_);
+    write_system_file(folder_ / "cgroup.subtree_control", enabled_);
+    write_system_file(own_ / "cgroup.subtree_control", enabled_);
   }
-  if (has_moved_) write_setting(own_ / "cgroup.procs", "0");
+  if (has_moved_) write_system_file(own_ / "cgroup.procs", "0");
   remove_groups(folder_);
   if (lock_ >= 0) close(lock_);
 }

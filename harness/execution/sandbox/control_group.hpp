@@ -1,6 +1,6 @@
-/// Control groups (cgroup v2) of workers, where this process may create them: the system itself
-/// then ends growth between two checks, and memory that no process maps, and a whole group can be
-/// killed at once. Without them nothing else changes.
+/// Control groups (cgroup v2) of workers, where this process may create them. The kernel then also
+/// limits growth between two checks and memory that no process maps, and kills a whole group at
+/// once. Nothing else depends on them.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace loopbench::harness {
 
-/// Group of one worker and of all that it starts; ends them when it is destroyed. Does nothing if
-/// there are no groups.
+/// Group of one worker and every process it starts; kills them when it is destroyed. Does nothing
+/// if it could not be created.
 class ControlGroup {
  public:
-  /// A member of a group is created in it by `parent`, "" for none.
+  /// Creates the group in `parent`, unless that is empty.
   explicit ControlGroup(const std::filesystem::path& parent = {});
   ~ControlGroup() { end(); }
   ControlGroup(ControlGroup&& other) noexcept : path_(std::exchange(other.path_, {})) {}
@@ -23,12 +23,12 @@ class ControlGroup {
   /// Moves the calling process, whose later children are in the group, too. False without a group.
   bool enter() const;
 
-  /// Limits the memory of the group to what it has now and `growth` [bytes].
+  /// Limits the memory of the group to what it uses now plus `growth` [bytes].
   void limit_growth(std::int64_t growth) const;
 
   void remove_limit() const;
 
-  /// Number of processes that the limit has ended so far.
+  /// Number of processes killed so far because of the limit.
   std::int64_t ended_by_limit() const;
 
   /// Kills all processes in the group.
@@ -44,9 +44,9 @@ class ControlGroup {
 class ControlGroups {
  public:
   /// Creates a folder in the group of this process, if that is permitted, and removes those of
-  /// killed sweeps. Moves this process into the folder if only then it may limit memory: the system
-  /// limits groups only beside each other. Creates a short-lived process, which tries a group.
-  /// `enabled`: otherwise it does nothing.
+  /// killed sweeps. Moves this process into the folder if that is needed to limit memory, because a
+  /// group that contains processes cannot limit the groups in it. Starts a short-lived process to
+  /// check that a group can be entered. Does nothing unless `enabled`.
   explicit ControlGroups(bool enabled);
   ~ControlGroups();
   ControlGroups(const ControlGroups&) = delete;
