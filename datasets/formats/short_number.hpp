@@ -40,9 +40,10 @@ inline const char* read_digits(const char* at, const char* end, std::uint64_t& d
   return at;
 }
 
-/// `digits` times ten to the `power`, rounded to the nearest double; false if that takes more work than this.
-/// Powers up to 10^22 are exact doubles (Clinger, PLDI 1990), up to 10^27 exact numbers of 64 bits.
-/// Rounding those again to 53 bits changes nothing, unless they are halfway between two doubles.
+/// `digits` times ten to the `power`, rounded to the nearest double; false if that takes more work
+/// than this. Powers up to 10^22 are exact doubles (Clinger, PLDI 1990), up to 10^27 exact numbers
+/// of 64 bits. Rounding those again to 53 bits changes nothing, unless they are halfway between two
+/// doubles.
 inline bool scale_by_ten(std::uint64_t digits, std::ptrdiff_t power, double& value) {
   static constexpr std::array<long double, 28> kPowers{
       1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
