@@ -75,7 +75,7 @@ TEST_F(CommandProcesses, AForkBombIsEnded) {
 TEST_F(CommandProcesses, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
   folder_.file("hangs.sh", "setsid sleep 8741 &\necho >$TMPDIR/left\nsleep 8742\n");
   const auto done =
-      cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 1}\n");
+      cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 5}\n");
   ASSERT_EQ(done.size(), 2u);
   EXPECT_EQ(done[1].status, "timeout") << done[1].why;
   EXPECT_TRUE(ends_soon("sleep 8741"));

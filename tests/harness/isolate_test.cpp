@@ -70,7 +70,7 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
   const std::vector<CellResult> results = run(
       "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2]}}]\n"
       "methods: [straight, {method: mis, sweep: {deed: [abort, kill, exit, hang, flood]}}, shift]\n"
-      "metrics: [ate]\nlimits: {seconds: 5, memory: 1200MB}\n",
+      "metrics: [ate]\nlimits: {seconds: 10, memory: 1200MB}\n",
       2);
   ASSERT_EQ(results.size(), 14u);
   const std::vector<std::pair<Status, std::string>> wanted{{Status::ok, ""},
@@ -91,7 +91,7 @@ TEST_F(Isolated, WhatEndsAWorkerCostsOneCell) {
     EXPECT_TRUE(results[i].metadata) << "the sequence was loaded";
   }
   EXPECT_NE(results[3].why.find("exit code 7"), std::string::npos) << results[3].why;
-  EXPECT_NE(results[4].why.find("limit of 5 s"), std::string::npos) << results[4].why;
+  EXPECT_NE(results[4].why.find("limit of 10 s"), std::string::npos) << results[4].why;
 }
 
 std::atomic<int>* shared_counter = nullptr;  // of all processes

@@ -62,7 +62,7 @@ TEST_F(CellProcess, NothingOutlivesItsCellWithAndWithoutPidNamespace) {
     sandbox_.enabled = pid_namespace;
     const std::vector<CellResult> results =
         run("datasets: [line]\nmethods: [{method: mis, sweep: {deed: [shell, daemon, kill]}}, "
-            "shift]\nmetrics: [ate]\nlimits: {seconds: 1}\n",
+            "shift]\nmetrics: [ate]\nlimits: {seconds: 5}\n",
             2);
     ASSERT_EQ(results.size(), 4u);
     EXPECT_EQ(results[0].status, Status::timeout) << results[0].why;
@@ -85,12 +85,12 @@ TEST_F(CellProcess, ASequenceThatExceedsALimitIsNotLoadedForEachOfItsCells) {
       }));
   const std::vector<CellResult> results =
       run("datasets: [slow, line]\nmethods: [straight, {method: shift, sweep: {by: [1, 2, 3]}}]\n"
-          "metrics: [ate]\nlimits: {seconds: 0.5}\n",
+          "metrics: [ate]\nlimits: {seconds: 4.5}\n",
           2);
   ASSERT_EQ(results.size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(results[i].status, i < 4 ? Status::timeout : Status::ok) << results[i].why;
-    EXPECT_EQ(results[i].why, i < 4 ? "loading its sequence exceeded the time limit of 0.5 s" : "");
+    EXPECT_EQ(results[i].why, i < 4 ? "loading its sequence exceeded the time limit of 4.5 s" : "");
   }
   EXPECT_EQ(loads, 1);
   munmap(memory, sizeof(std::atomic<int>));

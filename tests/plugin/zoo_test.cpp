@@ -141,7 +141,7 @@ class Zoo : public testing::Test {
       }
       methods += "}\n";
     }
-    const std::string limits = kSanitized ? "limits: {seconds: 4, memory: 400MiB}\n"
+    const std::string limits = kSanitized ? "limits: {seconds: 8, memory: 400MiB}\n"
                                           : "limits: {seconds: 2.5, memory: 100MiB}\n";
     folder_.file("zoo.yaml", kDataset + limits + methods);
     folder_.file("honest.yaml", kDataset + "methods: [" + kHonest + "]\n");
@@ -236,12 +236,12 @@ TEST_F(Zoo, EachBeastCostsItsOwnCellForTheRightReason) {
 
 TEST_F(Zoo, ClocksPauseWhileTheSweepIsStopped) {
   folder_.file("naps.yaml",
-               kDataset + "limits: {seconds: 2}\nmethods: [{method: nap, label: a}, " +
+               kDataset + "limits: {seconds: 5}\nmethods: [{method: nap, label: a}, " +
                    "{method: nap, label: b}]\n");
   const pid_t sweep = start("naps.yaml", "naps");
   wait_for_cells("naps", 1);
   kill(-sweep, SIGTSTP);  // as Ctrl-Z
-  sleep_for(3.5);
+  sleep_for(6.0);
   kill(-sweep, SIGCONT);
   EXPECT_EQ(exit_code(sweep), 0) << read_all(folder_.path() / ".out");
   for (const CellRecord& cell : read_cells(folder_.path() / "naps")) {
