@@ -49,30 +49,51 @@ std::size_t differing(std::span<const double> values) {
   return values.size() - count_ties(values, rounding).most_frequent;
 }
 
-/// Three quarters of the bias-corrected sample skewness.
-double applied_skewness(std::span<const double> values, double middle, double deviation) {
+/// Sample skewness, corrected for bias.
+double sample_skewness(std::span<const double> values, double middle, double deviation) {
   double cubes = 0.0;
   for (const double value : values) {
     const double own = (value - middle) / deviation;
     cubes += own * own * own;
   }
   const auto n = static_cast<double>(values.size());
-  return 0.75 * n / ((n - 1.0) * (n - 2.0)) * cubes;
+  return n / ((n - 1.0) * (n - 2.0)) * cubes;
 }
 
-/// Hall's transformation of (mean - expectation) / deviation, about Student's t for skewed values.
-double symmetrised(double ratio, double skewness, double n) {
-  const double cubic =
-      ratio + skewness * ratio * ratio / 3.0 + skewness * skewness * ratio * ratio * ratio / 27.0;
-  return std::sqrt(n) * (cubic + skewness / (6.0 * n));
-}
+/// The end in the shorter tail, by Hall's transformation: a ratio r = (mean - expectation) /
+/// deviation and the value t about Student's. The skewness is positive, the mean above the end.
+struct ShortTail {
+  double skewness;
+  double n;
 
-/// Inverse of symmetrised.
-double skewed(double t, double skewness, double n) {
-  const double cubic = t / std::sqrt(n) - skewness / (6.0 * n);
-  if (std::abs(skewness) < 1e-8) return cubic;
-  return 3.0 / skewness * (std::cbrt(1.0 + skewness * cubic) - 1.0);
-}
+  double t(double r) const {
+    const double cubic = r + skewness * r * r / 3.0 + skewness * skewness * r * r * r / 27.0;
+    return std::sqrt(n) * (cubic + skewness / (6.0 * n));
+  }
+  double r(double t) const {
+    const double cubic = t / std::sqrt(n) - skewness / (6.0 * n);
+    if (skewness < 1e-8) return cubic;
+    return 3.0 / skewness * (std::cbrt(1.0 + skewness * cubic) - 1.0);
+  }
+};
+
+/// The end in the longer tail: r = (expectation - mean) / deviation. Hall's cubic ends at its
+/// stationary point, r = 3 / skewness, where r is three times Student's; beyond it stays so.
+struct LongTail {
+  double skewness;
+  double n;
+
+  double t(double r) const {
+    if (skewness * r >= 3.0) return std::sqrt(n) * r / 3.0;
+    return std::sqrt(n) * (r - skewness * r * r / 3.0 + skewness * skewness * r * r * r / 27.0);
+  }
+  double r(double t) const {
+    const double student = t / std::sqrt(n);
+    if (skewness < 1e-8) return student;
+    if (skewness * student >= 1.0) return 3.0 * student;
+    return 3.0 / skewness * (1.0 - std::cbrt(1.0 - skewness * student));
+  }
+};
 
 }  // namespace
 
@@ -101,12 +122,17 @@ std::optional<MeanInterval> mean_interval(std::span<const double> values, double
   const auto n = static_cast<double>(values.size());
   const double middle = mean(values);
   const double deviation = sample_deviation(values);
-  const double skewness = applied_skewness(values, middle, deviation);
+  const double skewness = sample_skewness(values, middle, deviation);
+  const ShortTail shorter{0.5 * std::abs(skewness), n};
+  const LongTail longer{1.7 * std::abs(skewness), n};
   const double t = student_quantile(1.0 - level, freedom);
-  return MeanInterval{{middle,
-                       middle - deviation * skewed(t, skewness, n),
-                       middle - deviation * skewed(-t, skewness, n)},
-                      student_p(symmetrised(middle / deviation, skewness, n), freedom)};
+  const double below = skewness > 0.0 ? shorter.r(t) : longer.r(t);
+  const double above = skewness > 0.0 ? longer.r(t) : shorter.r(t);
+  const double to_zero = std::abs(middle) / deviation;
+  const bool zero_is_in_longer = (skewness > 0.0) == (middle < 0.0);
+  return MeanInterval{
+      {middle, middle - deviation * below, middle + deviation * above},
+      student_p(zero_is_in_longer ? longer.t(to_zero) : shorter.t(to_zero), freedom)};
 }
 
 }  // namespace loopbench::harness

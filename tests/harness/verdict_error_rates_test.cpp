@@ -52,13 +52,13 @@ TEST(VerdictErrorRates, LeaveRealDifferencesToBeFound) {
 
 TEST(IntervalCoverage, IsNominalFromEightObservationsOn) {
   for (const Shape& shape : shapes()) {
-    if (shape.name == "lognormal 1") continue;  // mean_interval.hpp
     const bool has_ties = shape.name == "half ties";
+    const double high = has_ties ? 0.99 : shape.name == "uniform" ? 0.98 : 0.97;
     for (const std::size_t n : {8u, 15u}) {
       const Truth truth{.effects = {0.0, -0.2}, .groups = n, .baseline_is_fixed = true};
       const IntervalCoverage found = coverage(truth, shape, 1000, 11);
       EXPECT_GE(found.covered, 0.93 - 4.0 * 0.0081) << shape.name << " " << n;
-      EXPECT_LE(found.covered, (has_ties ? 0.99 : 0.97) + 4.0 * 0.0054) << shape.name << " " << n;
+      EXPECT_LE(found.covered, high + 4.0 * 0.0054) << shape.name << " " << n;
       EXPECT_TRUE(has_ties || found.declined == 0.0) << shape.name << " " << n;
     }
     const Truth few{.effects = {0.0, -0.2}, .groups = 7, .baseline_is_fixed = true};

@@ -1,6 +1,6 @@
 /// Measures the coverage of mean_interval's 95 % intervals by distribution and number of values: of
-/// all intervals, and of those that two stricter rules would keep. Prints Markdown
-/// (results/methods/intervals.md). Usage: interval_coverage [samples].
+/// all intervals, with their width, and of those that two stricter rules would keep. Prints
+/// Markdown (results/methods/intervals.md). Usage: interval_coverage [samples].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,9 @@
 #include <random>
 #include <vector>
 
+#include "harness/statistics/average.hpp"
 #include "harness/statistics/mean_interval.hpp"
+#include "harness/statistics/student.hpp"
 
 namespace loopbench::interval_coverage {
 namespace {
@@ -46,6 +48,13 @@ const Distribution kDistributions[] = {
     {"lognormal 0.5", std::exp(0.125), [](Draws& d) { return std::exp(0.5 * d.normal()); }},
     {"exponential", 1.0, [](Draws& d) { return d.exponential(); }},
     {"lognormal 1", std::exp(0.5), [](Draws& d) { return std::exp(d.normal()); }},
+    {"lognormal 0.75", std::exp(0.28125), [](Draws& d) { return std::exp(0.75 * d.normal()); }},
+    {"Weibull 0.7",
+     std::tgamma(1.0 + 1.0 / 0.7),
+     [](Draws& d) { return std::pow(d.exponential(), 1.0 / 0.7); }},
+    {"normal, one in ten 5 times as wide",
+     0.0,
+     [](Draws& d) { return (d.uniform() < 0.1 ? 5.0 : 1.0) * d.normal(); }},
     {"half 0, half normal", 0.0, [](Draws& d) { return d.uniform() < 0.5 ? 0.0 : d.normal(); }},
     {"3/4 0, 1/4 normal", 0.0, [](Draws& d) { return d.uniform() < 0.75 ? 0.0 : d.normal(); }},
     {"half 0, half normal + 1",
@@ -67,14 +76,10 @@ bool has_few_ties(const Sample& x) {
 /// The sample skewness is at most 1.5.
 bool has_low_skewness(const Sample& x) {
   const auto n = static_cast<double>(x.size());
-  double mean = 0.0;
-  for (const double value : x) mean += value / n;
-  double squares = 0.0, cubes = 0.0;
-  for (const double value : x) {
-    squares += std::pow(value - mean, 2);
-    cubes += std::pow(value - mean, 3);
-  }
-  const double deviation = std::sqrt(squares / (n - 1.0));
+  const double mean = harness::mean(x);
+  const double deviation = harness::sample_deviation(x);
+  double cubes = 0.0;
+  for (const double value : x) cubes += std::pow(value - mean, 3);
   return std::abs(n / ((n - 1.0) * (n - 2.0)) * cubes) <= 1.5 * std::pow(deviation, 3);
 }
 
@@ -91,6 +96,8 @@ struct Counts {
 
 void print_row(const Distribution& from, std::size_t n, int samples, Draws& draws) {
   Counts all, few_ties, low_skewness;
+  double width = 0.0;  // sum of the ratios to Student's
+  const double student = 2.0 * harness::student_quantile(0.05, n - 1) / std::sqrt(double(n));
   Sample x(n);
   for (int i = 0; i < samples; ++i) {
     for (double& value : x) value = from.draw(draws);
@@ -102,13 +109,16 @@ void print_row(const Distribution& from, std::size_t n, int samples, Draws& draw
       to.covers += covers ? 1 : 0;
     };
     add(all);
+    width +=
+        (found->interval.high - found->interval.low) / (student * harness::sample_deviation(x));
     if (has_few_ties(x)) add(few_ties);
     if (has_low_skewness(x)) add(low_skewness);
   }
-  fmt::print("| {} | {} | {} | {} | {} |\n",
+  fmt::print("| {} | {} | {} | {} | {} | {} |\n",
              from.name,
              n,
              all.text(samples),
+             all.given == 0 ? "-" : fmt::format("{:.2f}", width / all.given),
              few_ties.text(samples),
              low_skewness.text(samples));
 }
@@ -124,9 +134,9 @@ int main(int count, char** arguments) {
     return 2;
   }
   fmt::print(
-      "| values | n | covers [%] | given [%] | at most half ties: covers [%] | given [%] | "
-      "skewness <= 1.5: covers [%] | given [%] |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "| values | n | covers [%] | given [%] | width / Student's | "
+      "at most half ties: covers [%] | given [%] | skewness <= 1.5: covers [%] | given [%] |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   Draws draws;
   for (const Distribution& each : kDistributions) {
     for (const std::size_t n : {8u, 10u, 15u, 20u, 30u}) print_row(each, n, samples, draws);
