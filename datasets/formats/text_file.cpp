@@ -82,7 +82,9 @@ void TextFile::skip_header() {
   if (!probe.next(line) || !names_columns(line.text)) return;
   std::string header(line.text);
   const std::size_t end = probe.offset();
-  if (!probe.next(line) || !is_number(words_of(line.text)[0])) return;
+  if (!probe.next(line)) return;
+  const std::vector<std::string_view> words = words_of(line.text);
+  if (words.empty() || !is_number(words[0])) return;  // a line of commas has no words
   next(line);
   header_ = std::move(header);
   begin_ = end;
