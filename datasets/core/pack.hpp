@@ -16,18 +16,30 @@ namespace loopbench {
 template <class T, class Of>
 concept Either = std::same_as<std::remove_const_t<T>, Of>;
 
-/// Appends its arguments: plain data, strings, vectors, optionals, and types with a
-/// `walk(archive, value)`.
+/// T's members are listed by a `walk(archive, value)`. Types with a bool need one, since not every
+/// byte is a bool; other types that can be copied as bytes do not.
+template <class T, class Archive>
+concept Walked = requires(Archive& archive, T& value) {
+  walk(archive, value);
+};
+
+/// Appends its arguments: numbers, plain data, strings, vectors, optionals, and Walked types.
 class Packer {
  public:
   template <class T>
   Packer& operator()(const T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    } else {
+    if constexpr (Walked<const T, Packer>) {
       walk(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
     return *this;
+  }
+  template <class T>
+  Packer& operator()(const std::optional<T>& value) {
+    (*this)(value.has_value());
+    return value ? (*this)(*value) : *this;
   }
   Packer& operator()(const std::string& text) {
     (*this)(text.size());
@@ -37,7 +49,7 @@ class Packer {
   template <class T>
   Packer& operator()(const std::vector<T>& items) {
     (*this)(items.size());
-    if constexpr (std::is_trivially_copyable_v<T>) {
+    if constexpr (std::is_trivially_copyable_v<T> && !Walked<const T, Packer>) {
       bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
     } else {
       for (const T& item : items) (*this)(item);
@@ -52,19 +64,33 @@ class Packer {
 };
 
 /// Reads in the same order. The bytes may be anything: throws std::runtime_error if they end too
-/// early, and allocates no more than they justify.
+/// early or hold what is no bool, and allocates no more than they justify.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T>
   Unpacker& operator()(T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      std::memcpy(&value, take(sizeof value), sizeof value);
-    } else {
+    if constexpr (Walked<T, Unpacker>) {
       walk(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      std::memcpy(&value, take(sizeof value), sizeof value);
     }
     return *this;
+  }
+  Unpacker& operator()(bool& value) {
+    const char byte = *take(sizeof value);
+    if (byte != 0 && byte != 1) throw std::runtime_error("serialised data are damaged");
+    value = byte == 1;
+    return *this;
+  }
+  template <class T>
+  Unpacker& operator()(std::optional<T>& value) {
+    bool any = false;
+    (*this)(any);
+    if (!any) value.reset();
+    return any ? (*this)(value.emplace()) : *this;
   }
   Unpacker& operator()(std::string& text) {
     const std::size_t size = count(1);
@@ -73,7 +99,7 @@ class Unpacker {
   }
   template <class T>
   Unpacker& operator()(std::vector<T>& items) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
+    if constexpr (std::is_trivially_copyable_v<T> && !Walked<T, Unpacker>) {
       items.resize(count(sizeof(T)));
       if (items.empty()) return *this;
       std::memcpy(items.data(), take(items.size() * sizeof(T)), items.size() * sizeof(T));

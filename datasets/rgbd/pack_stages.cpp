@@ -38,6 +38,11 @@ void walk(Archive& a, T& t) {
   a(t.keyframes)(t.odometry)(t.shared_landmarks)(t.frames)(t.lost)(t.skipped)(t.notes);
 }
 
+template <class Archive, Either<LoopCandidate> T>
+void walk(Archive& a, T& c) {
+  a(c.from)(c.to)(c.score)(c.accepted);
+}
+
 template <class Archive, Either<rgbd::DetectedLoops> T>
 void walk(Archive& a, T& loops) {
   a(loops.closures)(loops.candidates);
@@ -69,17 +74,13 @@ T deserialised(const std::string& bytes) {
 
 std::string packed(const FrameFeatures& frame) {
   Packer pack;
-  pack(frame.why)(frame.features.has_value());
-  if (frame.features) pack(*frame.features);
+  pack(frame.why)(frame.features);
   return pack.bytes();
 }
 
 FrameFeatures deserialise_frame(const std::string& bytes) {
   FrameFeatures out;
-  Unpacker unpack(bytes);
-  bool any = false;
-  unpack(out.why)(any);
-  if (any) unpack(out.features.emplace());
+  Unpacker{bytes}(out.why)(out.features);
   return out;
 }
 

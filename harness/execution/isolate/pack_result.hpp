@@ -46,6 +46,11 @@ void walk(Archive& a, T& metadata) {
       metadata.trace.closures);
 }
 
+template <class Archive, Either<harness::Worker> T>
+void walk(Archive& a, T& worker) {
+  a(worker.isolated)(worker.serial)(worker.pinned);
+}
+
 /// All members except the metadata of its sequence, which are sent once for all its cells.
 template <class Archive, Either<harness::CellResult> T>
 void walk(Archive& a, T& r) {
