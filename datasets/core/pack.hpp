@@ -16,8 +16,8 @@ namespace loopbench {
 template <class T, class Of>
 concept Either = std::same_as<std::remove_const_t<T>, Of>;
 
-/// T's members are listed by a `walk(archive, value)`. Types with a bool need one, since not every
-/// byte is a bool; other types that can be copied as bytes do not.
+/// `walk(archive, value)` lists the members of T. Types with a bool need it, because not every byte
+/// is a valid bool; other trivially copyable types do not, and are copied as bytes.
 template <class T, class Archive>
 concept Walked = requires(Archive& archive, T& value) {
   walk(archive, value);
@@ -64,7 +64,7 @@ class Packer {
 };
 
 /// Reads in the same order. The bytes may be anything: throws std::runtime_error if they end too
-/// early or hold what is no bool, and allocates no more than they justify.
+/// early or contain an invalid bool, and allocates no more than they justify.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}

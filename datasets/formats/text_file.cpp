@@ -84,7 +84,7 @@ void TextFile::skip_header() {
   const std::size_t end = probe.offset();
   if (!probe.next(line)) return;
   const std::vector<std::string_view> words = words_of(line.text);
-  if (words.empty() || !is_number(words[0])) return;  // a line of commas has no words
+  if (words.empty() || !is_number(words[0])) return;  // commas only: no words
   next(line);
   header_ = std::move(header);
   begin_ = end;

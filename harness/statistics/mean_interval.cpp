@@ -60,10 +60,10 @@ double sample_skewness(std::span<const double> values, double middle, double dev
   return n / ((n - 1.0) * (n - 2.0)) * cubes;
 }
 
-/// The end in the shorter tail, by Hall's transformation: a ratio r = (mean - expectation) /
-/// deviation and the value t about Student's. The skewness is positive, the mean above the end.
+/// Towards the shorter tail: the distance r of the true mean from the sample mean, in sample
+/// deviations, and the t of Hall's transformation, which is about Student's.
 struct ShortTail {
-  double skewness;
+  double skewness;  ///< not negative
   double n;
 
   double t(double r) const {
@@ -77,10 +77,10 @@ struct ShortTail {
   }
 };
 
-/// The end in the longer tail: r = (expectation - mean) / deviation. Hall's cubic ends at its
-/// stationary point, r = 3 / skewness, where r is three times Student's; beyond it stays so.
+/// Towards the longer tail: the same. Hall's cubic is used up to its stationary point, r = 3 /
+/// skewness, where r is three times Student's; beyond that, r remains three times Student's.
 struct LongTail {
-  double skewness;
+  double skewness;  ///< not negative
   double n;
 
   double t(double r) const {

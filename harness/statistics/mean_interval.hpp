@@ -25,13 +25,14 @@ struct MeanInterval {
 };
 
 /// Mean with a Student interval that is corrected for skewness by Hall's cubic transformation
-/// (Journal of the Royal Statistical Society B 54, 1992). The skewness of few values is known
-/// badly: too small for distributions with a long tail, noise for symmetric ones. The end in the
-/// longer tail therefore assumes 1.7 times the bias-corrected sample skewness, and is at most three
-/// times as far from the mean as Student's; the other end assumes half of it. The degrees of
-/// freedom are the number of values that differ, by more than rounding, from the most frequent one:
-/// n - 1 without ties, fewer with ties, which say nothing about the deviation (ties are not counted
-/// if a thousand of the first values differ; they hardly matter then).
+/// (Journal of the Royal Statistical Society B 54, 1992). Few values estimate
+/// skewness poorly: too low for distributions with a long tail, not zero for symmetric ones. The
+/// end in the longer tail therefore assumes 1.7 times the bias-corrected sample skewness, and is at
+/// most three times as far from the mean as Student's; the other end assumes half the sample
+/// skewness. The degrees of freedom are the number of values that differ, by more than rounding,
+/// from the most frequent one: n - 1 without ties, fewer with ties, which say nothing about the
+/// deviation (ties are not counted if a thousand of the first values differ; they hardly matter
+/// then).
 ///
 /// 95 % intervals cover 93 to 97 % from kFewestForInterval observations on for normal, Laplace,
 /// t (3 degrees of freedom), gamma (skewness 1), exponential and lognormal values (sigma 0.5 and 1;

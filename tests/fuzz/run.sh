@@ -27,6 +27,6 @@ fuzz_one() {
   echo "$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "build/corpus/$1.log") executions"
 }
 export -f fuzz_one
-# A fifth faster; to learn where memory of a finding was allocated, run the target on it without them.
+# A fifth faster. Without them, a finding's report also says where its memory was allocated.
 export ASAN_OPTIONS=malloc_context_size=0:quarantine_size_mb=16:allocator_release_to_os_interval_ms=-1
 printf '%s\n' "$@" | xargs -P 2 -I{} bash -c "fuzz_one {} $seconds"

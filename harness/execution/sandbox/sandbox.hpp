@@ -53,8 +53,7 @@ class Sandbox {
 bool enter_pid_namespace();
 
 /// Which parts the system has, for example "PID namespace on, Landlock on, seccomp off, cgroup
-/// v2 kill, memory, pids". Creates a
-/// short-lived process.
+/// v2 kill, memory, pids". Creates a short-lived process.
 std::string sandbox_summary(const SandboxOptions& options);
 
 }  // namespace loopbench::harness
