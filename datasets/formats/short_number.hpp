@@ -1,6 +1,7 @@
 /// Numbers as trajectory files contain them, faster than std::from_chars.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -70,34 +71,34 @@ inline bool scale_by_ten(std::uint64_t digits, std::ptrdiff_t power, double& val
   return false;
 }
 
+/// Number of digits in [at, end), which may contain a decimal point, without leading zeros.
+inline std::ptrdiff_t significant_digits(const char* at, const char* end) {
+  while (at != end && (*at == '0' || *at == '.')) ++at;
+  return end - at - std::count(at, end, '.');
+}
+
 /// Reads digits, at most 19 after leading zeros, with an optional minus sign, decimal point and
 /// exponent. Returns the end of the number; nullptr for all else, which std::from_chars then reads
 /// or rejects. The value has the same bits as std::from_chars'.
 inline const char* short_number(const char* at, const char* end, double& value) {
+  constexpr std::ptrdiff_t kMostDigits = 19;  // 10^19 is below 2^64
   const char* const begin = at;
   const bool is_negative = at != end && *at == '-';
   at += is_negative ? 1 : 0;
-  const auto skip_zeros = [&] {
-    while (at != end && *at == '0') ++at;
-  };
-  const char* const zeros = at;
-  skip_zeros();
-  bool has_digits = at != zeros;
+  const char* const first = at;
   std::uint64_t digits = 0;
-  const char* first = at;
   at = read_digits(at, end, digits);
-  std::ptrdiff_t count = at - first;  // without leading zeros
+  std::ptrdiff_t count = at - first;
   std::ptrdiff_t power = 0;
   if (at != end && *at == '.') {
     const char* const after_point = ++at;
-    if (count == 0) skip_zeros();
-    first = at;
     at = read_digits(at, end, digits);
-    count += at - first;
     power = after_point - at;
-    has_digits = has_digits || power != 0;
+    count -= power;
   }
-  if (count > 19 || (count == 0 && !has_digits)) return nullptr;  // 10^19 is below 2^64
+  if (count == 0) return nullptr;
+  // Leading zeros are not skipped as they are read: a random number of them would mislead a branch.
+  if (count > kMostDigits && significant_digits(first, at) > kMostDigits) return nullptr;
   if (at != end && (*at == 'e' || *at == 'E')) {
     ++at;
     const bool is_small = at != end && *at == '-';

@@ -15,8 +15,7 @@ bool is_digit(char c) { return '0' <= c && c <= '9'; }
 }  // namespace
 
 double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds) {
-  constexpr double kNanoseconds = 1e16, kMaxNanoseconds = 9e18;  // 1970 + 115 days, + 285 years
-  if (number > kMaxNanoseconds || (number < kNanoseconds && !small_nanoseconds)) return number;
+  if (!is_in_nanoseconds(number, small_nanoseconds)) return number;
   std::int64_t integer = 0;
   const char* const end = word.data() + word.size();
   const auto [rest, error] = std::from_chars(word.data(), end, integer);

@@ -8,6 +8,12 @@
 
 namespace loopbench {
 
+/// Whether a stamp is so large that it cannot be in seconds (1e16: 1970 + 115 days in nanoseconds)
+/// and fits into 64 bits of nanoseconds (9e18: + 285 years).
+inline bool is_in_nanoseconds(double stamp, bool small_nanoseconds) {
+  return stamp <= 9e18 && (stamp >= 1e16 || small_nanoseconds);
+}
+
 /// Converts a stamp column to [s], where `number` is its parsed value. Nanoseconds, as written by
 /// ORB-SLAM3, are whole numbers or have zero decimals; they are 1e16 or more, or smaller with
 /// `small_nanoseconds`.

@@ -27,13 +27,14 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds
   std::array<double, kTumColumns.size()> v;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
-    const std::string_view stamp = columns.peek();
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (columns.done()) throw wrong_row(file, line);
       v[i] = columns.number(kTumColumns[i]);
     }
     if (!columns.done()) throw wrong_row(file, line);
-    v[0] = seconds_of_stamp(stamp, v[0], small_nanoseconds);
+    if (is_in_nanoseconds(v[0], small_nanoseconds)) {
+      v[0] = seconds_of_stamp(Columns(file, line).peek(), v[0], small_nanoseconds);
+    }
     const Rotation rotation = normalized_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
     order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }

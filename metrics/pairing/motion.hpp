@@ -10,8 +10,9 @@
 namespace loopbench::metrics {
 
 /// a^-1 b. Half the cost of inverse and product, and subtracts the positions first, which is
-/// accurate far from the origin.
-inline Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) {
+/// accurate far from the origin. Inlined, because a call costs as much as the arithmetic.
+[[gnu::always_inline]] inline Pose relative_pose(const Pose& world_from_a,
+                                                 const Pose& world_from_b) {
   const Rotation a_from_world = world_from_a.rotation.conjugate();
   return {a_from_world * world_from_b.rotation,
           a_from_world * (world_from_b.translation - world_from_a.translation)};
