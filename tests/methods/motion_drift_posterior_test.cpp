@@ -110,7 +110,7 @@ TEST(MotionDriftPrior, MediansFollowSteadyAfter) {
     squared += duration * duration / static_cast<double>(problem.closures.size());
   }
   const MotionPrior prior =
-      prior_of(terms, {.steady_after = 2.0 * seconds}, problem, edge_motions, gap);
+      prior_of(terms, {.drift_after = 2.0 * seconds}, problem, edge_motions, gap);
   // Half as much drift as noise in squared angle at the loop ends.
   const MotionModel& medians = prior.hypotheses.back().medians;
   EXPECT_NEAR(medians[1].value * squared, 0.5 * medians[0].value * seconds, 1e-12);

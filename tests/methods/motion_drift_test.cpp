@@ -134,11 +134,11 @@ TEST(MotionDrift, ReportsTheEstimatedModel) {
   Report report;
   MotionDrift({}).correct(test::hand_held(), report);
   EXPECT_TRUE(std::isfinite(count(report, "log_evidence")));
-  EXPECT_NEAR(count(report, "chance.as_stated") + count(report, "chance.scaled") +
-                  count(report, "chance.free"),
+  EXPECT_NEAR(count(report, "probability.as_stated") + count(report, "probability.scaled") +
+                  count(report, "probability.free"),
               1.0,
               1e-9);
-  EXPECT_GE(count(report, "chance.steady"), 0.0);
+  EXPECT_GE(count(report, "probability.drift"), 0.0);
   EXPECT_GE(count(report, "noise.t.per_metre"), 0.0);  // 0 if the term is excluded
   EXPECT_GE(count(report, "drift.r.per_second.x"), 0.0);
   EXPECT_GT(count(report, "stated"), 0.0);
@@ -155,13 +155,13 @@ TEST(MotionDrift, HasOneRotationDriftAxisInThePlane) {
 TEST(MotionDrift, EqualsDualWhenCovariancesAreAsStated) {
   const Problem problem = test::hand_held();
   MotionDrift::Options options;
-  options.prior.as_stated_chance = 1.0;
-  options.prior.scaled_chance = 0.0;
-  options.prior.steady_chance = 0.0;
+  options.prior.as_stated_probability = 1.0;
+  options.prior.scaled_probability = 0.0;
+  options.prior.drift_probability = 0.0;
   Report report;
   const Trajectory corrected_poses = MotionDrift(options).correct(problem, report);
   const Trajectory dual = Dual({.tolerance = 0.0}).correct(problem, report);
-  EXPECT_EQ(count(report, "chance.as_stated"), 1.0);
+  EXPECT_EQ(count(report, "probability.as_stated"), 1.0);
   for (std::size_t i = 0; i < corrected_poses.size(); ++i) {
     EXPECT_TRUE(is_close(corrected_poses[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6))
         << i;

@@ -24,9 +24,9 @@ struct Setting {
 };
 
 Params chances(double as_stated, double scaled, double steady) {
-  return {{"prior.as_stated_chance", as_stated},
-          {"prior.scaled_chance", scaled},
-          {"prior.steady_chance", steady}};
+  return {{"prior.as_stated_probability", as_stated},
+          {"prior.scaled_probability", scaled},
+          {"prior.drift_probability", steady}};
 }
 
 /// Settings in the table, each an earlier version of the method.

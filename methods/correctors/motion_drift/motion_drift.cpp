@@ -91,19 +91,21 @@ std::vector<std::size_t> evenly_spaced(std::size_t size, std::size_t most) {
   return out;
 }
 
-void count_chances(const MotionPrior& prior, const MotionPosterior& posterior, Report& report) {
+void count_probabilities(const MotionPrior& prior,
+                         const MotionPosterior& posterior,
+                         Report& report) {
   double probabilities[] = {0.0, 0.0, 0.0};
-  double steady = 0.0;
+  double with_drift = 0.0;
   for (std::size_t h = 0; h < prior.hypotheses.size(); ++h) {
     probabilities[static_cast<std::size_t>(prior.hypotheses[h].covariance)] +=
         posterior.probabilities[h];
-    if (prior.hypotheses[h].steady) steady += posterior.probabilities[h];
+    if (prior.hypotheses[h].has_drift) with_drift += posterior.probabilities[h];
   }
   if (prior.hypotheses.size() < 2) return;
-  report.count("chance.as_stated", probabilities[0]);
-  report.count("chance.scaled", probabilities[1]);
-  report.count("chance.free", probabilities[2]);
-  report.count("chance.steady", steady);
+  report.count("probability.as_stated", probabilities[0]);
+  report.count("probability.scaled", probabilities[1]);
+  report.count("probability.free", probabilities[2]);
+  report.count("probability.drift", with_drift);
 }
 
 /// Subsamples the models: each iteration of the average factorises one dense matrix per model, and
@@ -171,7 +173,7 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
     chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
     iterations += chain.minimise(options_.max_iterations, options_.tolerance);
     report.count("log_evidence", posterior.log_evidence);
-    count_chances(prior, posterior, report);
+    count_probabilities(prior, posterior, report);
   }
   const bool is_averaged =
       problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);

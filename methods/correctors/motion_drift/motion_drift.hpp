@@ -64,8 +64,8 @@ class MotionDrift final : public Corrector {
 
   std::optional<std::string> declines(const Problem& problem) const override;
 
-  /// Counts: `iterations`; `log_evidence` of the gaps; `chance.*`, the posterior probabilities of
-  /// the hypotheses; the variances of the most probable hypothesis by name (0: term excluded);
+  /// Counts: `iterations`; `log_evidence` of the gaps; `probability.*`, the posterior probabilities
+  /// of the hypotheses; the variances of the most probable hypothesis by name (0: term excluded);
   /// `largest_move` of a keyframe and `explained_move` [m] (large_moves.hpp). Adds a note when
   /// largest_move is far above explained_move. Throws std::runtime_error when the loop equations
   /// cannot be solved.
@@ -94,11 +94,12 @@ inline auto choices(MotionDrift::Model) {
 
 template <class Visit>
 void fields(MotionDrift::Options& o, Visit visit) {
-  visit("model",
-        o.model,
-        "terms of the noise model; const: equal in every edge; time, distance, rotation, speed: "
-        "noise that grows with that quantity and those before it; drift: rotation, the stated "
-        "odometry covariance and rotation drift");
+  visit(
+      "model",
+      o.model,
+      "terms of the noise model; const: equal in every edge; time, distance, rotation, speed: "
+      "noise that grows with that quantity and those before it; drift: the terms of rotation, the "
+      "stated odometry covariances and constant rotation rates");
   visit(
       "fit",
       o.fit,
@@ -108,27 +109,26 @@ void fields(MotionDrift::Options& o, Visit visit) {
   MotionPriorOptions& p = o.prior;
   const Between share{0.0, 1.0};
   const Between deviation{0.0, 10.0};
-  visit("prior.noise_part",
-        p.noise_part,
+  visit("prior.noise_ratio",
+        p.noise_ratio,
         "prior standard deviation of the translation noise along a loop, over its path length [-]",
         GreaterThan{0.0});
-  visit(
-      "prior.stated_part",
-      p.stated_part,
-      "prior fraction of the noise attributed to the stated odometry covariances, whose factor is "
-      "set by the rotation noise [-]",
-      share);
-  visit("prior.steady_after",
-        p.steady_after,
+  visit("prior.stated_fraction",
+        p.stated_fraction,
+        "prior fraction of the rotation noise variance that is proportional to the stated odometry "
+        "covariances [-]",
+        share);
+  visit("prior.drift_after",
+        p.drift_after,
         "loop duration at which drift and noise contribute equal rotation variance a priori [s]",
         GreaterThan{0.0});
-  visit("prior.scale_dispersion",
-        p.scale_dispersion,
+  visit("prior.common_dispersion",
+        p.common_dispersion,
         "standard deviation of the natural log of the factor common to all translation variances, "
         "and of that common to all rotation variances [-]",
         deviation);
-  visit("prior.steady_dispersion",
-        p.steady_dispersion,
+  visit("prior.drift_dispersion",
+        p.drift_dispersion,
         "standard deviation of the natural log of the ratio of drift to noise variance [-]",
         deviation);
   visit("prior.axis_dispersion",
@@ -136,8 +136,8 @@ void fields(MotionDrift::Options& o, Visit visit) {
         "standard deviation of the natural log of the drift variance of one body axis relative to "
         "the common one; unused if planar [-]",
         deviation);
-  visit("prior.share_dispersion",
-        p.share_dispersion,
+  visit("prior.term_dispersion",
+        p.term_dispersion,
         "standard deviation of the natural log of the variance of one term (time, distance, "
         "rotation) relative to the others [-]",
         deviation);
@@ -151,18 +151,18 @@ void fields(MotionDrift::Options& o, Visit visit) {
       p.closures_dispersion,
       "standard deviation of the natural log of the factors on the stated closure covariances [-]",
       deviation);
-  visit("prior.as_stated_chance",
-        p.as_stated_chance,
+  visit("prior.as_stated_probability",
+        p.as_stated_probability,
         "prior probability that all stated covariances are correct up to one common factor and no "
         "other noise exists; ignored if a noise variance above 0 is given [-]",
         share);
-  visit("prior.scaled_chance",
-        p.scaled_chance,
+  visit("prior.scaled_probability",
+        p.scaled_probability,
         "prior probability that odometry and closure covariances are correct up to separate "
         "factors; ignored if a noise variance above 0 is given; the remainder of both is the "
         "probability of noise that grows with the motion [-]",
         share);
-  visit("prior.steady_chance", p.steady_chance, "prior probability of drift [-]", share);
+  visit("prior.drift_probability", p.drift_probability, "prior probability of drift [-]", share);
   visit("prior.drift_reach",
         p.drift_reach,
         "drift is extrapolated outside the loops over at most this multiple of the time, distance "
@@ -174,8 +174,11 @@ void fields(MotionDrift::Options& o, Visit visit) {
         "number of noise models drawn from the posterior; at most 64 of them are averaged when "
         "there are more than 16 closures",
         Between{1, 10000});
-  visit("draw_steps", o.sampling.steps, "sampler steps between two draws", Between{1, 1000});
-  visit("warm_up", o.sampling.warm_up, "sampler steps before the first draw", Between{0, 100000});
+  visit("thinning",
+        o.sampling.steps,
+        "sampler steps between two draws that are kept",
+        Between{1, 1000});
+  visit("burn_in", o.sampling.burn_in, "sampler steps before the first draw", Between{0, 100000});
   visit("seed", o.sampling.seed, "seed of the sampler's random numbers", Between{0});
   visit("fit_closures",
         o.fit_closures,
@@ -211,7 +214,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
                               " per second",
                               " per metre",
                               " per radian of rotation angle",
-                              " per (distance / duration)^2 times duration"};
+                              " per squared speed times duration"};
     for (std::size_t g = first; g < kRegressors.size(); ++g) {
       visit((what + ".per_" + name_of(kRegressors[g])).c_str(),
             values[g],
@@ -219,17 +222,18 @@ void fields(MotionDrift::Options& o, Visit visit) {
             Between{0.0});
     }
   };
-  const std::string median = "median derived from the loops, if the model has the term";
+  const std::string median =
+      "median derived from the loops if `model` has this term, otherwise no such term";
   by_regressor("noise.t", "translation noise variance on each axis [m^2]", median, o.noise[0], 0u);
   by_regressor("noise.r", "rotation noise variance on each axis [rad^2]", median, o.noise[1], 0u);
   by_regressor("drift.t",
                "standard deviation of the constant rate of translation drift [m]",
-               "no such drift",
+               "no such drift, because loops do not determine it",
                o.drift[0],
                1u);
   by_regressor("drift.r",
                "standard deviation of the constant rate of rotation drift [rad]",
-               "median derived from the loops, if the model has the term",
+               median,
                o.drift[1],
                1u);
   visit("closures.t",

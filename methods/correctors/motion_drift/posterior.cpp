@@ -89,7 +89,7 @@ MotionPosterior posterior_of(const MotionPrior& prior,
       slice_step(at, prior, evidence, draw);
     }
   };
-  move(sampling.warm_up);
+  move(sampling.burn_in);
   MotionPosterior out;
   out.probabilities.resize(prior.hypotheses.size(), 0.0);
   std::vector<Eigen::VectorXd> sums(prior.hypotheses.size(), zero);

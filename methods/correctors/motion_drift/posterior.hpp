@@ -12,7 +12,7 @@ namespace loopbench::methods {
 struct Sampling {
   int draws = 256;
   int steps = 8;      ///< steps between draws
-  int warm_up = 120;  ///< steps before the first draw
+  int burn_in = 120;  ///< steps before the first draw
   std::int64_t seed = 1;
 };
 

@@ -36,22 +36,22 @@ void guess_odometry(MotionModel& model, const MotionPriorOptions& by, const Loop
   const double variance_r =
       plausible(loops, Component::rotation) + loops.gap(Component::rotation) +
       (squared_path > 0.0 ? loops.gap(Component::translation) / squared_path : 0.0);
-  const double steady =
-      drifts ? loops.motion(Component::rotation, Regressor::time, false) / by.steady_after : 0.0;
-  const double noise_r = variance_r / (1.0 + steady);
+  const double drift_over_noise =
+      drifts ? loops.motion(Component::rotation, Regressor::time, false) / by.drift_after : 0.0;
+  const double noise_r = variance_r / (1.0 + drift_over_noise);
   const double noise_t =
-      by.noise_part * by.noise_part * squared_path + plausible(loops, Component::translation);
+      by.noise_ratio * by.noise_ratio * squared_path + plausible(loops, Component::translation);
 
   for (Term& term : model) {
     if (term.given || term.kind == TermKind::closures) continue;
     double square = term.component == Component::translation ? noise_t : noise_r;
     double unit = 0.0;
     if (term.kind == TermKind::stated) {
-      square = noise_r * by.stated_part;
+      square = noise_r * by.stated_fraction;
       unit = loops.stated_odometry(Component::rotation);
     } else {
       const bool noise = term.kind == TermKind::noise;
-      square *= !noise ? steady : states ? 1.0 - by.stated_part : 1.0;
+      square *= !noise ? drift_over_noise : states ? 1.0 - by.stated_fraction : 1.0;
       unit = loops.motion(term.component, term.regressor, !noise);
       unit *= static_cast<double>(std::ranges::count_if(model, [&](const Term& other) {
         return is_guessed(other, term.kind) && other.component == term.component &&
@@ -85,7 +85,7 @@ enum : Eigen::Index {
   kChoice,
   kTranslation,
   kRotation,
-  kSteady,
+  kDrift,
   kAxis,
   kRegressor = kAxis + 3,
   kOwn = kRegressor + static_cast<Eigen::Index>(kRegressors.size())
@@ -101,22 +101,22 @@ std::vector<std::vector<MotionPrior::Loading>> loadings_of(const MotionModel& me
     if (term.kind != TermKind::closures) {
       const bool is_translation =
           term.kind != TermKind::stated && term.component == Component::translation;
-      loadings.push_back({is_translation ? kTranslation : kRotation, options.scale_dispersion});
+      loadings.push_back({is_translation ? kTranslation : kRotation, options.common_dispersion});
     }
     if (term.kind == TermKind::drift) {
-      loadings.push_back({kSteady, options.steady_dispersion});
+      loadings.push_back({kDrift, options.drift_dispersion});
       if (term.axis >= 0) {
         // A planar problem has only one rotation axis.
         if (!planar) loadings.push_back({kAxis + term.axis, options.axis_dispersion});
         loadings.push_back(
-            {kRegressor + static_cast<Eigen::Index>(term.regressor), options.share_dispersion});
+            {kRegressor + static_cast<Eigen::Index>(term.regressor), options.term_dispersion});
       }
     }
     if (term.axis < 0) {
       loadings.push_back({own++,
                           term.kind == TermKind::stated     ? options.stated_dispersion
                           : term.kind == TermKind::closures ? options.closures_dispersion
-                                                            : options.share_dispersion});
+                                                            : options.term_dispersion});
     }
     out.push_back(std::move(loadings));
   }
@@ -132,7 +132,8 @@ void simplify(MotionPrior::Hypothesis& to, Covariance covariance, const MotionPr
   to.covariance = covariance;
   double stated = 0.0;
   for (Term& term : to.medians) {
-    if (term.kind == TermKind::stated) stated = term.value /= by.stated_part;  // the whole noise
+    if (term.kind == TermKind::stated)
+      stated = term.value /= by.stated_fraction;  // the whole noise
     if (is_guessed(term, TermKind::noise)) term.value = 0.0;
   }
   for (std::size_t j = 0; j < to.medians.size(); ++j) {
@@ -141,7 +142,7 @@ void simplify(MotionPrior::Hypothesis& to, Covariance covariance, const MotionPr
         covariance == Covariance::as_stated && is_guessed(term, TermKind::closures);
     if (follows) term.value = stated;
     if (follows || term.kind == TermKind::stated)
-      to.loadings[j] = {{kRotation, by.scale_dispersion}};
+      to.loadings[j] = {{kRotation, by.common_dispersion}};
   }
 }
 
@@ -164,11 +165,11 @@ MotionPrior prior_of(const MotionModel& model,
       Covariance::free, true, 1.0, medians, loadings_of(medians, options, problem.planar)};
   const bool drifts = has_guessed(medians, TermKind::drift);
   const double probabilities[] = {
-      options.as_stated_chance,
-      options.scaled_chance,
-      std::max(0.0, 1.0 - options.as_stated_chance - options.scaled_chance)};
-  for (const bool steady : {false, true}) {
-    if (!steady && !drifts) continue;
+      options.as_stated_probability,
+      options.scaled_probability,
+      std::max(0.0, 1.0 - options.as_stated_probability - options.scaled_probability)};
+  for (const bool with_drift : {false, true}) {
+    if (!with_drift && !drifts) continue;
     for (const Covariance covariance :
          {Covariance::as_stated, Covariance::scaled, Covariance::free}) {
       MotionPrior::Hypothesis one = all;
@@ -176,11 +177,12 @@ MotionPrior prior_of(const MotionModel& model,
         if (!has_guessed(medians, TermKind::stated)) continue;
         simplify(one, covariance, options);
       }
-      one.chance = probabilities[static_cast<std::size_t>(covariance)];
-      if (drifts) one.chance *= steady ? options.steady_chance : 1.0 - options.steady_chance;
-      one.steady = steady;
+      one.probability = probabilities[static_cast<std::size_t>(covariance)];
+      if (drifts)
+        one.probability *= with_drift ? options.drift_probability : 1.0 - options.drift_probability;
+      one.has_drift = with_drift;
       for (Term& term : one.medians) {
-        if (is_guessed(term, TermKind::drift) && !steady) term.value = 0.0;
+        if (is_guessed(term, TermKind::drift) && !with_drift) term.value = 0.0;
       }
       out.hypotheses.push_back(std::move(one));
     }
@@ -190,11 +192,11 @@ MotionPrior prior_of(const MotionModel& model,
 
 std::size_t hypothesis_at(const MotionPrior& prior, const Eigen::VectorXd& unknowns) {
   double sum = 0.0;
-  for (const MotionPrior::Hypothesis& h : prior.hypotheses) sum += h.chance;
+  for (const MotionPrior::Hypothesis& h : prior.hypotheses) sum += h.probability;
   double left = 0.5 * std::erfc(-unknowns[kChoice] / std::numbers::sqrt2) * sum;
   std::size_t out = 0;
-  while (out + 1 < prior.hypotheses.size() && left >= prior.hypotheses[out].chance) {
-    left -= prior.hypotheses[out++].chance;
+  while (out + 1 < prior.hypotheses.size() && left >= prior.hypotheses[out].probability) {
+    left -= prior.hypotheses[out++].probability;
   }
   return out;
 }

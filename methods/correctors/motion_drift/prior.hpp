@@ -11,19 +11,20 @@ namespace loopbench::methods {
 /// standard deviation of the log of a variance. Tuned on the development chains of results/methods,
 /// in which drift exceeds noise after 4 s to 5 min.
 struct MotionPriorOptions {
-  double noise_part = 0.002;  ///< translation noise along a loop / path length of the loop [-]
-  double stated_part = 0.33;  ///< part of the rotation noise proportional to stated covariances [-]
-  double steady_after = 60.0;  ///< loop duration at which drift and noise have equal variance [s]
-  double scale_dispersion = 2.3;     ///< scale common to all errors of a component
-  double steady_dispersion = 1.8;    ///< ratio of drift to noise
-  double axis_dispersion = 1.5;      ///< drift of one body axis relative to the others
-  double share_dispersion = 0.7;     ///< a single term
-  double stated_dispersion = 1.5;    ///< the stated odometry covariance relative to the scale
-  double closures_dispersion = 0.7;  ///< factors on the closure covariances
-  double as_stated_chance = 0.5;     ///< probabilities of Covariance; `free` has the remainder
-  double scaled_chance = 0.25;
-  double steady_chance = 0.7;  ///< probability of drift
-  double drift_reach = 2.0;    ///< extrapolation of drift / motion enclosed by loops [-]
+  double noise_ratio = 0.002;  ///< translation noise along a loop / path length of the loop [-]
+  double stated_fraction =
+      0.33;  ///< of the rotation noise variance, proportional to stated covariances [-]
+  double drift_after = 60.0;  ///< loop duration at which drift and noise have equal variance [s]
+  double common_dispersion = 2.3;      ///< scale common to all errors of a component
+  double drift_dispersion = 1.8;       ///< ratio of drift to noise
+  double axis_dispersion = 1.5;        ///< drift of one body axis relative to the others
+  double term_dispersion = 0.7;        ///< a single term
+  double stated_dispersion = 1.5;      ///< the stated odometry covariance relative to the scale
+  double closures_dispersion = 0.7;    ///< factors on the closure covariances
+  double as_stated_probability = 0.5;  ///< probabilities of Covariance; `free` has the remainder
+  double scaled_probability = 0.25;
+  double drift_probability = 0.7;  ///< probability of drift
+  double drift_reach = 2.0;        ///< extrapolation of drift / motion enclosed by loops [-]
 };
 
 /// Hypotheses about the covariances. as_stated: all stated covariances times one common factor, on
@@ -45,8 +46,8 @@ struct MotionPrior {
   };
   struct Hypothesis {
     Covariance covariance = Covariance::free;
-    bool steady = true;  ///< has drift
-    double chance = 1.0;
+    bool has_drift = true;
+    double probability = 1.0;
     MotionModel medians;  ///< the same terms in all hypotheses; excluded terms are 0
     std::vector<std::vector<Loading>> loadings;  ///< one list per term
   };
