@@ -44,7 +44,7 @@ void keep_listed(std::vector<Edge>& closures,
                  const std::vector<std::int64_t>& ids,
                  const std::filesystem::path& list);
 
-/// Subsamples at most `max` closures, evenly over time (see spread()); 0 keeps all.
+/// Subsamples at most `max` closures, evenly over time; 0 keeps all.
 void subsample_closures(std::vector<Edge>& closures, const Trajectory& poses, std::size_t max);
 
 }  // namespace loopbench

@@ -62,7 +62,7 @@ void add_get(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<GetArguments>();
   CLI::App* command =
       app.add_subcommand("get", "Download public sequences and verify them by their SHA-256");
-  command->add_option("names", arguments->names, "names of sequences; none: print the catalogue");
+  command->add_option("names", arguments->names, "Names of sequences; none: print the catalogue");
   command->add_option("--data", arguments->data, "Folder to write to")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR")

@@ -268,7 +268,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_flag("--pin-instructions",
                     arguments->pin_instructions,
                     "Use the code paths of old processors in the C library and OpenCV, so that "
-                    "bits do not depend on the node");
+                    "results are bit-identical on all nodes");
   command
       ->add_option("--stage", arguments->stage, "Copy inputs into this folder first, once per node")
       ->type_name("DIR");

@@ -95,9 +95,10 @@ void add_verify(CLI::App& app, int& exit_code, const Source& source) {
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");
   command
-      ->add_option("--sample",
-                   arguments->sample.share,
-                   "Instead, recompute this share of the cells of a store and compare bits [-]")
+      ->add_option(
+          "--sample",
+          arguments->sample.share,
+          "Recompute this fraction of the cells of a store and compare them bit by bit [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
   command

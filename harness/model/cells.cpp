@@ -80,12 +80,10 @@ std::vector<Cell> cells(const Sweep& sweep,
 
 std::int64_t derived_seed(std::int64_t seed, int repeat) {
   if (repeat == 0) return seed;
-  std::uint64_t z =
-      static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(repeat) * 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return static_cast<std::int64_t>(z >> 1);
+  constexpr std::uint64_t kIncrement = 0x9e3779b97f4a7c15u;  // added by mixed() once
+  const std::uint64_t state =
+      static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(repeat - 1) * kIncrement;
+  return static_cast<std::int64_t>(mixed(state) >> 1);
 }
 
 }  // namespace loopbench::harness

@@ -37,7 +37,7 @@ struct TraceClosure {
 };
 static_assert(sizeof(TracePose) == 32 && sizeof(TraceSample) == 48 && sizeof(TraceClosure) == 32);
 
-/// StoreProvenance of stamps and positions in a sequence's traces: its first reference pose.
+/// Origin of stamps and positions in a sequence's traces: its first reference pose.
 struct TraceOrigin {
   double stamp = 0.0;                ///< [s]
   double x = 0.0, y = 0.0, z = 0.0;  ///< in the reference's world frame [m]

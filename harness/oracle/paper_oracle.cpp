@@ -104,9 +104,10 @@ Rotation PaperOracle::fit_axes_from_world(const Trajectory& keyframes) const {
 std::unique_ptr<const Curve> PaperOracle::smooth_in_axes(const Problem& problem,
                                                          methods::Report& report) const {
   Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
-  methods::manifold::PieceCost judge;
-  if (options_.reference_families) judge = nearest_to(reference);
-  std::shared_ptr<const methods::manifold::ManifoldCurve> fitted = dm_.fit(problem, report, judge);
+  methods::manifold::PieceCost piece_cost;
+  if (options_.reference_families) piece_cost = nearest_to(reference);
+  std::shared_ptr<const methods::manifold::ManifoldCurve> fitted =
+      dm_.fit(problem, report, piece_cost);
   if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
   const ReferenceUse use = options_.overwrite            ? ReferenceUse::overwrite
                            : options_.reference_abscissa ? ReferenceUse::abscissa

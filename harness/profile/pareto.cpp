@@ -8,6 +8,7 @@
 
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
+#include "harness/statistics/average.hpp"
 #include "harness/statistics/ranks.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -19,12 +20,6 @@ double geometric_mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += std::log(value);
   return std::exp(sum / static_cast<double>(values.size()));
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 struct Chosen {

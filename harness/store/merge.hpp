@@ -14,7 +14,7 @@ struct Merged {
   std::size_t missing = 0;     ///< of these, cells that no store has
   std::vector<std::string> first_missing;     ///< labels of up to kListedMissing of them
   std::vector<std::string> instruction_sets;  ///< of the processors that computed the cells
-  std::vector<std::string> missing_shards;  ///< "3/8": of divisions of which other shards are there
+  std::vector<std::string> missing_shards;    ///< "3/8": absent, unlike others of its division
 };
 
 inline constexpr std::size_t kListedMissing = 10;

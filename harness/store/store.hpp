@@ -5,8 +5,8 @@
 /// report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each cell is one
 /// transaction, so a killed sweep leaves only complete cells.
 ///
-/// Durability: the store is written in WAL mode with `synchronous = NORMAL`. A cell that write()
-/// returned for survives the end of the process in any way. It is on the disk, and survives a power
+/// Durability: the store is written in WAL mode with `synchronous = NORMAL`. Once write()
+/// has returned, no end of the process can lose the cell. It is on the disk, and survives a power
 /// cut, after the next sync(), which write() calls every 10 s, and after the destructor, so before
 /// `run` reports the end of the sweep. A power cut can lose the cells since the last sync, each
 /// completely; the next `run` recomputes them. It never damages the file, if the disk writes what

@@ -13,12 +13,6 @@ namespace {
 
 using metrics::kDegrees;
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Speeds above twenty times the median and ten times the 95 % quantile are jumps.
 void remark_jumps(TrajectorySummary& out, const std::vector<double>& speeds) {
   constexpr double kOverMedian = 20.0, kOverUsual = 10.0;

@@ -38,7 +38,8 @@ struct Diagnostics {
   double standing = 0.0;                 ///< share of pairs at which the reference is at rest, 0..1
   bool position_only_reference = false;  ///< if true, rotation is not evaluated
   bool position_only_estimate = false;
-  /// Tracking gaps: pauses of the estimate longer than `loss` during which the reference moved.
+  /// Tracking gaps: pauses of the estimate longer than `tracking_gap` during which the reference
+  /// moved.
   std::size_t tracking_gaps = 0;
   double lost = 0.0;         ///< total duration of the tracking gaps [s]
   double longest_gap = 0.0;  ///< [s]

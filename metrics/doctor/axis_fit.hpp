@@ -13,7 +13,7 @@ struct AxisFit {
   double as_read = 0.0;                ///< relative error of displacements without it [-]
   double changed = 0.0;                ///< with it [-]
 
-  /// "x -y z": where the axes come from.
+  /// Source axis of each axis, for example "x -y z".
   std::string text() const;
 };
 

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "datasets/core/interpolate.hpp"
+#include "datasets/core/upper_median.hpp"
 
 namespace loopbench::metrics {
 
 double median_value(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : upper_median(values);
 }
 
 double usual_interval(const Trajectory& poses) {

@@ -25,7 +25,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate);
 
 /// A finding if the offset is significant (four standard deviations, above 40 ms and 60 % of the
-/// estimate's interval) and explains the speeds better than none.
+/// estimate's interval) and gives a higher correlation of the speeds than no offset.
 std::optional<InputFinding> check_time_offset(const Trajectory& reference,
                                               const Trajectory& estimate);
 

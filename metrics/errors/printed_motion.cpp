@@ -3,8 +3,8 @@
 namespace loopbench::metrics {
 namespace {
 
-bool has_stamps_of(const Trajectory& judged, const Trajectory* complete) {
-  return complete != nullptr && stamps(judged) == stamps(*complete);
+bool has_stamps_of(const Trajectory& evaluated, const Trajectory* complete) {
+  return complete != nullptr && stamps(evaluated) == stamps(*complete);
 }
 
 }  // namespace

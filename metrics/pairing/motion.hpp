@@ -19,7 +19,8 @@ namespace loopbench::metrics {
 }
 
 /// Relative error for reference poses Q and estimate poses P at both ends, in the given ErrorForm.
-inline Pose motion_error(
+/// Eigen's products are inlined, too: calls took a tenth of an evaluation.
+[[gnu::flatten]] inline Pose motion_error(
     ErrorForm form, const Pose& Q_i, const Pose& Q_j, const Pose& P_i, const Pose& P_j) {
   switch (form) {
     case ErrorForm::kitti:

@@ -33,7 +33,8 @@ struct SurfaceAlignment {
 /// such as sliding along a wall. Distances are whitened with inverse_depth_sigma and weighted by
 /// Huber's function. A point associated with several surfaces counts once, because their errors are
 /// correlated. As in refine_pose(), the surface information is multiplied by
-/// options.information_scale and divided by spread^2 if that is above 1. O(steps * pixels * model).
+/// options.information_scale and divided by residual_rms^2 if that is above 1. O(steps * pixels *
+/// model).
 SurfaceAlignment align_surface(const Surface& surface,
                                const std::vector<PlacedSurface>& model,
                                const PriorPose& prior,

@@ -68,7 +68,7 @@ struct RefinedPose {
 /// Refines a pose by Gauss-Newton on pixel and inverse-depth residuals with Huber weights. After
 /// each of four rounds, observations above the 95 % quantile of chi^2 become outliers; they may
 /// become inliers again. The information is that of the inliers, multiplied by information_scale
-/// and divided by spread^2 if that is above 1. It is zero if fewer than six inliers remain.
+/// and divided by residual_rms^2 if that is above 1. It is zero if fewer than six inliers remain.
 /// O(observations).
 RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,

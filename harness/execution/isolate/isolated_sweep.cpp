@@ -245,7 +245,7 @@ class IsolatedSweep {
       if (!slot.process || slot.jobs.empty()) continue;
       const bool runs = !slot.is_idle() && !slot.is_loading();
       const double seconds = slot.seconds();
-      const std::size_t cell = slot.process->shared_status().job;
+      const std::size_t cell = slot.jobs.front().cell;  // what the worker reports may be damaged
       slot.process.reset();
       slot.jobs.clear();
       if (!runs) continue;

@@ -16,7 +16,9 @@ std::size_t min_segment_nodes(const DmOptions& o) {
   return static_cast<std::size_t>(nodes);
 }
 
-PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const PieceCost& judge) {
+PlanarRule planar_rule(const DmOptions& o,
+                       std::vector<Family> families,
+                       const PieceCost& piece_cost) {
   return {.size = static_cast<std::size_t>(o.planar),
           .axes = o.frame,
           .guarded = o.guard,
@@ -24,7 +26,7 @@ PlanarRule planar_rule(const DmOptions& o, std::vector<Family> families, const P
           .families = std::move(families),
           .family = o.family,
           .selection = o.selection,
-          .judge = judge,
+          .piece_cost = piece_cost,
           .fallback = o.fallback,
           .chords_below = o.short_policy == ShortPolicy::polyline ? min_segment_nodes(o) : 0};
 }
@@ -131,16 +133,16 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
                                              Report& report,
-                                             const PieceCost& judge) const {
+                                             const PieceCost& piece_cost) const {
   NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 3) return nullptr;
-  return fit(problem, std::move(dense), report, judge);
+  return fit(problem, std::move(dense), report, piece_cost);
 }
 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
                                              NodesWithQuasiKeyframes dense,
                                              Report& report,
-                                             const PieceCost& judge) const {
+                                             const PieceCost& piece_cost) const {
   Nodes nodes(dense.nodes);
   Vector3 up = up_of(dense.nodes, options_);
   const SegmentRule& rule = options_.segment;
@@ -172,7 +174,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
       fit = fit_regression(nodes, runs, parts.spline, join.size);
     }
     if (!fit)
-      fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, judge));
+      fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, piece_cost));
     describe(*fit, report);
     describe(nodes, *fit, report);
     if (options_.report_coefficients) add_coefficient_notes(*fit, report);

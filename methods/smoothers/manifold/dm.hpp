@@ -32,10 +32,11 @@ class Dm final : public Smoother {
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
   /// Returns the same curve as pieces, or null for fewer than three nodes, in the axes of `problem`
-  /// for any `fit_axes` and `plane`. `judge`, if set, selects the family instead of `selection`.
+  /// for any `fit_axes` and `plane`. `piece_cost`, if set, selects the family instead of
+  /// `selection`.
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      Report& report,
-                                                     const manifold::PieceCost& judge) const;
+                                                     const manifold::PieceCost& piece_cost) const;
 
  private:
   std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem, Report& report) const;
@@ -45,7 +46,7 @@ class Dm final : public Smoother {
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      manifold::NodesWithQuasiKeyframes dense,
                                                      Report& report,
-                                                     const manifold::PieceCost& judge) const;
+                                                     const manifold::PieceCost& piece_cost) const;
 
   Options options_;
   std::vector<manifold::Family> families_;

@@ -18,7 +18,7 @@ struct Jet {
 
 using MotionJet = Jet<Vector3>;  ///< position, velocity, acceleration
 
-/// Result type of a point at a time of type T: Vector3 for a double, Moving for a Jet.
+/// Result type of a point at a time of type T: Vector3 for a double, MotionJet for a Jet.
 template <class T>
 using VectorOf = std::conditional_t<std::is_same_v<T, double>, Vector3, MotionJet>;
 

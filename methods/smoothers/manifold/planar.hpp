@@ -27,7 +27,7 @@ struct PlanarRule {
   std::vector<Family> families{Family::by_n};
   FamilyRule family = {};
   Selection selection = Selection::fixed;
-  PieceCost judge = {};  ///< selects the family instead of `selection`; used by an oracle only
+  PieceCost piece_cost = {};  ///< selects the family instead of `selection`; used by an oracle only
   Fallback fallback = Fallback::arc;
   std::size_t chords_below = 0;  ///< segments with fewer nodes become straight lines
 };

@@ -37,9 +37,9 @@ std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
     auto piece = fit(family, frame, node_indices);
     if (!piece) continue;
     if (rule.guarded && !is_polynomial(family) && !stays_near_spline(*piece, window)) continue;
-    if (rule.selection == Selection::fixed && !rule.judge) return piece;
-    const double cost = rule.judge ? rule.judge(*piece, window, nodes, spline)
-                                   : score(family, *piece, frame, node_indices);
+    if (rule.selection == Selection::fixed && !rule.piece_cost) return piece;
+    const double cost = rule.piece_cost ? rule.piece_cost(*piece, window, nodes, spline)
+                                        : score(family, *piece, frame, node_indices);
     if (best && !(cost < lowest)) continue;
     best = piece;
     lowest = cost;

@@ -7,8 +7,8 @@
 
 namespace loopbench::metrics {
 
-/// One pair of relative poses: moved = turned c + s way + k, with moved = R_C t_Q - t_Z, turned =
-/// R_Z - I and way = R_C t_Q.
+/// One pair of relative poses: difference = rotation_minus_identity c + s translation + k, with
+/// difference = R_C t_Q - t_Z, rotation_minus_identity = R_Z - I and translation = R_C t_Q.
 struct LeverArmEquation {
   Matrix3 rotation_minus_identity;
   Vector3 translation;

@@ -63,14 +63,14 @@ TumMotions paired_motions(const Paired& complete,
     }
   });
   TumMotions out;
-  std::vector<std::size_t> judged_index(estimate.size(), kUnmatched);  // index into `out`
+  std::vector<std::size_t> paired_index(estimate.size(), kUnmatched);  // index into `out`
   const auto taken = [&](std::size_t i) {
-    if (judged_index[i] == kUnmatched) {
-      judged_index[i] = out.poses.estimate.size();
+    if (paired_index[i] == kUnmatched) {
+      paired_index[i] = out.poses.estimate.size();
       out.poses.estimate.push_back(estimate[i]);
       out.poses.reference.push_back(reference[nearest[i]]);
     }
-    return judged_index[i];
+    return paired_index[i];
   };
   for (const auto& [i, j] : pairs) {
     if (nearest[i] == kUnmatched || nearest[j] == kUnmatched) continue;
