@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "datasets/core/error.hpp"
@@ -39,12 +40,15 @@ MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::si
   MethodVerdict out;
   out.method = all.methods[kept.methods[method_index]];
   std::vector<double> values;
+  double covered = 0.0;
   std::vector<std::string> reasons;
   for (const std::size_t run : kept.runs) {
     const Observed& one = all.values[kept.methods[method_index]][run];
     if (one.value) values.push_back(*one.value);
+    if (one.value) covered += one.coverage;
     if (!one.value) reasons.push_back(one.status);
   }
+  if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
   out.median = values.empty() ? std::nan("") : metrics::median(values);
   out.runs = values.size();
   out.fails = reasons.size();

@@ -38,6 +38,7 @@ struct MethodVerdict {
   std::size_t runs = 0;           ///< runs with a value
   std::size_t fails = 0;          ///< runs that count as a loss
   std::string why_fails;          ///< "failed 2, declined 1"
+  double coverage = 1.0;          ///< of the reference, mean over its values, 0..1
   std::optional<Interval> ratio;  ///< geometric mean of value / baseline over groups
   bool has_interval = false;      ///< ratio.low and ratio.high are valid
   std::string why_no_interval;    ///< reason for a ratio without an interval
@@ -94,6 +95,12 @@ std::vector<Comparison> compare(const RecordSource& records, const CompareOption
 
 /// Methods that use the reference on a run where another method does not.
 std::vector<std::string> oracle_methods(const std::vector<Record>& records);
+
+/// Methods that cover clearly less of the reference than another one.
+std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);
+
+/// "half covers 53 % of the reference, others up to 100 %"; empty for no methods.
+std::string coverage_text(const Comparison& comparison, const std::vector<std::string>& methods);
 
 /// "8 runs", "20 sequences", "6 groups (30 runs)": the observations of a comparison.
 std::string unit_text(const Comparison& comparison);

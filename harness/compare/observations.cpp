@@ -18,10 +18,15 @@ std::string score_key(const Record& r) {
   return out;
 }
 
+double coverage(const Record& r) {
+  if (r.possible == 0) return 1.0;
+  return std::min(r.span, static_cast<double>(r.pairs) / static_cast<double>(r.possible));
+}
+
 Observed observed(const Record& r, const std::string& value_name) {
   if (!r.metric.empty() && r.status == "ok") {
     const double number = value(r, value_name);
-    if (std::isfinite(number)) return {number, false, ""};
+    if (std::isfinite(number)) return {number, false, "", coverage(r)};
     return {std::nullopt, true, "not finite"};
   }
   return {std::nullopt, is_loss(r), r.status == "ok" ? "not evaluated" : r.status.text()};

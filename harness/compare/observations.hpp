@@ -28,6 +28,7 @@ struct Observed {
   std::optional<double> value;
   bool is_loss = false;
   SharedText status = kNotRun;  ///< "" with a value
+  double coverage = 1.0;        ///< the smaller share of possible pairs and of the time, 0..1
 };
 
 struct ObservedRun {

@@ -61,6 +61,10 @@ Lines about_methods(const Comparison& c) {
           fmt::format("{} lacks {} of {} runs: {}", gap.method, gap.missing, c.possible, gap.why));
     }
   }
+  const std::string coverage = coverage_text(c, methods_with_less_coverage(c));
+  if (!coverage.empty()) {
+    out.push_back(coverage + "; errors are over the parts that are covered");
+  }
   if (!c.oracles.empty()) {
     out.push_back("not ranked, use the reference (oracle): " + comma_list(c.oracles));
   }
@@ -72,7 +76,9 @@ Lines about_methods(const Comparison& c) {
 }
 
 Lines about_ratios(const Comparison& c) {
-  if (!c.is_ratio) return {"some values are negative: no ratio, tests on plain differences"};
+  if (!c.is_ratio) {
+    return {"some values are negative: no ratio; tests on plain differences decide alone"};
+  }
   Lines out;
   Lines zero;
   std::map<std::string, Lines> without;  // by reason
@@ -104,12 +110,14 @@ Lines remarks(const Comparison& c) {
   Lines out = conditions(c);
   if (c.methods.empty()) return out;
   const double level = 100.0 * (1.0 - c.options.alpha);
-  out.push_back(
-      fmt::format("ratio: geometric mean of value / {}, {:g} % interval (Student's, corrected for "
-                  "the skewness of the logarithms, each at this level); effect: rank-biserial, "
-                  "positive is better",
-                  c.options.baseline,
-                  level));
+  out.push_back(fmt::format(
+      "ratio: geometric mean of {} / {}, {:g} % interval (Student's, corrected for "
+      "the skewness of the logarithms, each at this level); effect: rank-biserial, "
+      "positive is better",
+      c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
+                                               : "value",
+      c.options.baseline,
+      level));
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
       "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "

@@ -25,7 +25,13 @@ const MethodVerdict* find(const Comparison& comparison, const std::string& metho
   return found == comparison.methods.end() ? nullptr : &*found;
 }
 
-/// Names of the methods, except the baseline, for which `holds`.
+double largest_coverage(const Comparison& c) {
+  double out = 0.0;
+  for (const MethodVerdict& m : c.methods) out = std::max(out, m.coverage);
+  return out;
+}
+
+/// Names of the methods for which `holds`.
 template <class Holds>
 std::vector<std::string> names_where(const Comparison& c, Holds holds) {
   std::vector<std::string> out;
@@ -41,20 +47,42 @@ std::string percent_text(double percent) {
                                                      : fmt::format("{:.2g}", percent);
 }
 
-/// "12.3 % below raw [8.1, 15.2]": difference of a method to the baseline.
-std::string distance(const MethodVerdict& method, const CompareOptions& options) {
-  if (!method.ratio) return "against " + options.baseline;
+/// "better than raw on 14 of 16 groups", where no ratio is defined.
+std::string without_ratio(const MethodVerdict& method, const Comparison& c) {
+  const bool is_better = method.wins > method.losses;
+  const std::size_t groups = method.wins + method.losses + method.ties;
+  if (method.wins == method.losses) {
+    return fmt::format("better than {} on as many groups as worse ({} of {})",
+                       c.options.baseline,
+                       method.wins,
+                       groups);
+  }
+  return fmt::format("{} than {} on {} of {} groups",
+                     is_better ? "better" : "worse",
+                     c.options.baseline,
+                     std::max(method.wins, method.losses),
+                     groups);
+}
+
+/// "12.3 % below raw [8.1, 15.2]": difference of a method to the baseline. For a score with a
+/// target "12.3 % closer to 1 than raw".
+std::string distance(const MethodVerdict& method, const Comparison& c) {
+  const CompareOptions& options = c.options;
   const bool is_tie = method.ties > 0 && method.wins + method.losses == 0;
   // A method that fails on some runs has losses although its values are equal.
-  const bool is_equal =
-      method.fails > 0 && std::abs(method.ratio->estimate - 1.0) <= options.relevant;
+  const bool is_equal = method.ratio && method.fails > 0 &&
+                        std::abs(method.ratio->estimate - 1.0) <= options.relevant;
   if (is_tie || is_equal) return "equal to " + options.baseline;
+  if (!method.ratio) return without_ratio(method, c);
   const double sign = method.ratio->estimate <= 1.0 ? -100.0 : 100.0;
   const auto percent = [&](double ratio) { return sign * (ratio - 1.0); };
-  std::string out = fmt::format("{} % {} {}",
-                                percent_text(percent(method.ratio->estimate)),
-                                sign < 0.0 ? "below" : "above",
-                                options.baseline);
+  const bool has_target = c.kind.better == metrics::Better::target;
+  const std::string relation =
+      !has_target
+          ? (sign < 0.0 ? "below" : "above")
+          : fmt::format("{} {:g} than", sign < 0.0 ? "closer to" : "farther from", c.kind.target);
+  std::string out = fmt::format(
+      "{} % {} {}", percent_text(percent(method.ratio->estimate)), relation, options.baseline);
   if (method.has_interval) {
     const double low = percent(method.ratio->low);
     const double high = percent(method.ratio->high);
@@ -72,7 +100,7 @@ std::string failures_text(const Comparison& c, const MethodVerdict& method) {
 
 /// distance() with p and the excluded runs.
 std::string result(const Comparison& c, const MethodVerdict& method) {
-  std::string out = distance(method, c.options);
+  std::string out = distance(method, c);
   if (method.p) out += ", " + p_sentence(*method.p);
   if (method.p && !method.beats_baseline) out += ", not proven";
   return out + failures_text(c, method);
@@ -93,7 +121,7 @@ std::string only_other(const Comparison& c) {
   if (c.methods.size() != 2) return "";
   const bool is_first = c.methods.front().method != c.options.baseline;
   const MethodVerdict& other = is_first ? c.methods.front() : c.methods.back();
-  return ": " + other.method + " is " + distance(other, c.options) +
+  return ": " + other.method + " is " + distance(other, c) +
          (other.p ? ", " + p_sentence(*other.p) : "") + failures_text(c, other);
 }
 
@@ -151,10 +179,29 @@ std::string unit_text(const Comparison& c) {
   return plural(c.runs, c.sequences == c.runs ? "sequence" : "run");
 }
 
+std::vector<std::string> methods_with_less_coverage(const Comparison& c) {
+  constexpr double kLess = 0.9;  // of the largest coverage
+  return names_where(
+      c, [&](const MethodVerdict& m) { return m.coverage < kLess * largest_coverage(c); });
+}
+
+std::string coverage_text(const Comparison& c, const std::vector<std::string>& methods) {
+  std::string out;
+  for (const std::string& method : methods) {
+    out += fmt::format(
+        "{}{} covers {:.0f} %", out.empty() ? "" : ", ", method, 100.0 * find(c, method)->coverage);
+  }
+  if (out.empty()) return "";
+  return out + fmt::format(" of the reference, others up to {:.0f} %", 100.0 * largest_coverage(c));
+}
+
 std::string verdict(const Comparison& c) {
   if (c.methods.empty()) return why_no_comparison(c);
   const auto leaders = names_where(c, [](const MethodVerdict& m) { return m.is_leader; });
-  const std::string over = "; over " + unit_text(c);
+  std::vector<std::string> partial = methods_with_less_coverage(c);
+  std::erase_if(partial, [&](const std::string& m) { return std::ranges::count(leaders, m) == 0; });
+  const std::string covered = coverage_text(c, partial);
+  const std::string over = (covered.empty() ? "" : "; but " + covered) + "; over " + unit_text(c);
   if (c.is_best_proven || leaders.size() == c.methods.size()) return best_text(c, leaders) + over;
   if (c.groups >= c.groups_needed) return undecided_text(c, leaders) + over;
   const MethodVerdict& first = c.methods.front();
@@ -163,9 +210,10 @@ std::string verdict(const Comparison& c) {
           ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
           : joined_names(leaders) + (leaders.size() == 1 ? " is " : " are ") + result(c, first);
   return fmt::format(
-      "nothing is proven: {}, but {} cannot prove a difference among {} methods at "
+      "nothing is proven: {}{}, but {} cannot prove a difference among {} methods at "
       "{:g} ({} are needed)",
       lead,
+      covered.empty() ? "" : ", and " + covered,
       unit_text(c),
       c.methods.size(),
       c.options.alpha,

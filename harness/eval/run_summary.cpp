@@ -120,6 +120,7 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
         scored.statistics = score.statistics;
         scored.pairs = static_cast<std::int64_t>(result.coverage.pairs);
         scored.possible = static_cast<std::int64_t>(result.coverage.possible);
+        scored.span = result.coverage.span;
         out.push_back(scored);
       }
     }

@@ -38,6 +38,7 @@ struct Record {
   metrics::Statistics statistics;
   std::int64_t pairs = 0;     ///< evaluated pose pairs
   std::int64_t possible = 0;  ///< possible pose pairs
+  double span = 1.0;          ///< evaluated share of the reference's time, 0..1
   SharedText status = "ok";
   SharedText why;
 };

@@ -212,6 +212,7 @@ void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
     r.statistics = values.statistics;
     r.pairs = values.pairs;
     r.possible = values.possible;
+    r.span = values.span;
     if (has_status) r.status = own.empty() ? kOk : SharedText(own[2 * number]);
     if (has_reason) r.why = own.empty() ? SharedText() : SharedText(own[2 * number + 1]);
   }

@@ -162,6 +162,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                                   {"median", m.median},
                                   {"with_value", m.runs},
                                   {"fails", m.fails},
+                                  {"coverage", m.coverage},
                                   {"ratio", ratio},
                                   {"interval", interval},
                                   {"why_no_interval", m.why_no_interval},

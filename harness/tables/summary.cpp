@@ -188,7 +188,10 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   add_column(out, "mean rank", rank_texts);
   const bool is_labelled = lead->metric == "ate" && metric_label(*lead) != "ate";
   const std::string gain = is_labelled ? "gain (" + metric_label(*lead) + ")" : "gain";
-  add_column(out, "gain [%]", derived_texts(records, gain, *lead, options.value));
+  // The gain is always that of the ATE.
+  add_column(out,
+             lead->metric == "ate" ? "gain [%]" : "ATE gain [%]",
+             derived_texts(records, gain, *lead, options.value));
   add_column(out, "time [ms]", derived_texts(records, "time", *lead, options.value));
 
   const auto rank_of = [&](const auto& line) {
