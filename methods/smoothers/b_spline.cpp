@@ -15,7 +15,17 @@ std::optional<std::string> BSplineThrough::declines(const Problem& problem) cons
 }
 
 std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Report& report) const {
-  const Trajectory& keyframes = problem.keyframes;
+  return smooth_segments(problem.keyframes,
+                         runs_without_short_intervals(problem.keyframes),
+                         kShortIntervals,
+                         report,
+                         [&](const Trajectory& keyframes, Report& part_report) {
+                           return smooth_segment(keyframes, part_report);
+                         });
+}
+
+std::unique_ptr<const Curve> BSplineThrough::smooth_segment(const Trajectory& keyframes,
+                                                            Report& report) const {
   if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
   const std::vector<double> sites = stamps(keyframes);
   const auto basis = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), sites);

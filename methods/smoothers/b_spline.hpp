@@ -22,9 +22,12 @@ class BSplineThrough final : public Smoother {
   std::optional<std::string> declines(const Problem& problem) const override;
 
   /// Counts: `iterations` of the rotation solve, and `great_arcs` with a note if there are any.
+  /// Short intervals (stretches.hpp) are bridged by chords, with a note.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
+  std::unique_ptr<const Curve> smooth_segment(const Trajectory& keyframes, Report& report) const;
+
   Options options_;
 };
 

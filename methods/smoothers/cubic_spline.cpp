@@ -75,7 +75,17 @@ std::optional<std::string> CubicSpline::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report& report) const {
-  const Trajectory& keyframes = problem.keyframes;
+  return smooth_segments(problem.keyframes,
+                         runs_without_short_intervals(problem.keyframes),
+                         kShortIntervals,
+                         report,
+                         [&](const Trajectory& keyframes, Report& part_report) {
+                           return smooth_segment(keyframes, part_report);
+                         });
+}
+
+std::unique_ptr<const Curve> CubicSpline::smooth_segment(const Trajectory& keyframes,
+                                                         Report& report) const {
   if (keyframes.size() < 2) return std::make_unique<Polyline>(keyframes);
   CubicBasis basis(stamps(keyframes));
   std::vector<Control> controls(basis.size());

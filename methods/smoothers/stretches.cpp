@@ -97,6 +97,13 @@ std::vector<PoseRun> runs_without_breaks(std::size_t poses,
   return out;
 }
 
+std::vector<PoseRun> runs_without_short_intervals(const Trajectory& poses) {
+  if (poses.size() < 2) return {{0, poses.size() - 1}};
+  const double shortest = kShortestInterval * median_interval(poses);
+  return runs_without_breaks(
+      poses.size(), [&](std::size_t i) { return poses[i + 1].stamp - poses[i].stamp < shortest; });
+}
+
 std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> parts) {
   std::vector<std::unique_ptr<const Curve>> pieces;
   std::optional<StampedPose> previous_end;

@@ -59,6 +59,31 @@ TEST(Stretches, AreSplitAtTheGivenIntervals) {
             (std::vector<PoseRun>{{0, 0}}));
 }
 
+// A spline through two poses 1 us and 1 cm apart would move at 10 km/s there.
+TEST(ShortInterval, IsBridgedByAChordInsteadOfOvershooting) {
+  Problem problem;
+  problem.keyframes = hand_held_truth(40);
+  StampedPose copy = problem.keyframes[20];
+  copy.stamp += 1e-6;
+  copy.world_from_body.translation.x() += 0.01;
+  problem.keyframes.insert(problem.keyframes.begin() + 21, copy);
+  const CubicSpline cubic({});
+  const BSplineThrough b_spline({});
+  const Dm dm({});
+  for (const Smoother* smoother : {static_cast<const Smoother*>(&cubic),
+                                   static_cast<const Smoother*>(&b_spline),
+                                   static_cast<const Smoother*>(&dm)}) {
+    Report report;
+    const auto curve = smoother->smooth(problem, report);
+    EXPECT_EQ(count(report, "chords"), 1.0);
+    ASSERT_GE(report.notes.size(), 1u);
+    EXPECT_NE(report.notes.back().find("0.01 times the median"), std::string::npos);
+    for (std::size_t i = 15; i < 25; ++i) {
+      EXPECT_LT(chord_deviation(*curve, problem.keyframes, i).first, 0.5) << i;
+    }
+  }
+}
+
 TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
   const Problem problem = with_gap(1000.0);
   for (const auto prior : kPriors) {

@@ -59,8 +59,8 @@ TEST(MotionDriftPosterior, HypothesisProbabilitiesFollowBayesRule) {
   OneGap two;
   two.prior.hypotheses[0].loadings[0][0].coefficient = 0.0;
   two.prior.hypotheses.push_back(two.prior.hypotheses[0]);
-  two.prior.hypotheses[0].chance = 0.25;
-  two.prior.hypotheses[1].chance = 0.75;
+  two.prior.hypotheses[0].probability = 0.25;
+  two.prior.hypotheses[1].probability = 0.75;
   two.prior.hypotheses[1].medians[0].value = 4.0;
   const double first = 0.25 * std::exp(-2.0);
   const double second = 0.75 * std::exp(-0.5) / 2.0;
@@ -80,7 +80,7 @@ TEST(MotionDriftPrior, AsStatedHasOneFactorAndTheLastHypothesisHasAllTerms) {
   const MotionPrior prior = prior_of(terms, {}, problem, motions(problem), gap);
   ASSERT_EQ(prior.hypotheses.size(), 6u);
   double probabilities = 0.0;
-  for (const MotionPrior::Hypothesis& one : prior.hypotheses) probabilities += one.chance;
+  for (const MotionPrior::Hypothesis& one : prior.hypotheses) probabilities += one.probability;
   EXPECT_NEAR(probabilities, 1.0, 1e-12);
   for (const Term& term : prior.hypotheses.back().medians) EXPECT_GT(term.value, 0.0);
 

@@ -105,14 +105,16 @@ std::unique_ptr<const Curve> Dm::smooth_in_axes(const Problem& problem, Report& 
   NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 2 || !options_.chord_above)
     return smooth(problem, std::move(dense), report);
-  const double longest = *options_.chord_above * median_interval(problem.keyframes);
+  const double median = median_interval(problem.keyframes);
   const auto separate = runs_without_breaks(dense.nodes.size(), [&](std::size_t i) {
-    return dense.nodes[i + 1].stamp - dense.nodes[i].stamp > longest;
+    const double interval = dense.nodes[i + 1].stamp - dense.nodes[i].stamp;
+    return interval > *options_.chord_above * median || interval < kShortestInterval * median;
   });
   if (separate.size() == 1) return smooth(problem, std::move(dense), report);
   return smooth_segments(dense.nodes,
                          separate,
-                         "intervals above chord_above without a tracked frame",
+                         "intervals above chord_above without a tracked frame, or below 0.01 times "
+                         "the median",
                          report,
                          [&](Trajectory part, Report& part_report) {
                            return smooth(problem, {std::move(part)}, part_report);

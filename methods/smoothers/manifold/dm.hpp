@@ -27,8 +27,8 @@ class Dm final : public Smoother {
   /// segments and, if the stage is enabled, windows, split_windows, fallbacks, refused_families,
   /// mean_window_nodes, spatial_windows, spatial_truncated, spatial_fallbacks; and the largest
   /// jumps at nodes (see Continuity). Fewer than three nodes give the polyline. Segments separated
-  /// by intervals above `chord_above` are smoothed separately and joined by chords
-  /// (smooth_segments()).
+  /// by intervals above `chord_above`, or short ones (stretches.hpp), are smoothed separately and
+  /// joined by chords (smooth_segments()).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
   /// Returns the same curve as pieces, or null for fewer than three nodes, in the axes of `problem`
