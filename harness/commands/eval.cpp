@@ -90,13 +90,14 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
 
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
-  const RecordedSweep stored =
-      store_runs(recorded_runs(file_pairs(a), a.sequence), a, a.store, source);
+  const std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
+  const RecordedSweep stored = store_runs(runs, a, a.store, source);
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
+  const std::string report = run_report(read_records(a.store), terminal_style());
   fmt::print("{}\n{} runs in {}{}{}{}\n",
-             printable(run_report(read_records(a.store), terminal_style())),
+             printable(report),
              stored.cells,
              printable((std::filesystem::path(a.store) / "results.sqlite").string()),
              stored.stored == 0 ? "" : fmt::format(" ({} stored before)", stored.stored),

@@ -6,6 +6,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "datasets/formats/kitti.hpp"
+#include "harness/eval/recorded_evaluation.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -125,6 +126,8 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     out.back().reference = reference_name;
     out.back().reference_body = a.reference_body.value_or("");
     out.back().estimate = estimate_name;
+    out.back().reference_content = input.reference_content;
+    out.back().content = input.content;
   }
   std::vector<std::string> remarks = doctor.get();
   if (!input.findings.damage.empty()) remarks.insert(remarks.begin(), input.findings.damage);
@@ -154,6 +157,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   Trajectory reference;
   ReadFindings repaired;  // this and `unstamped`: of the reference
   std::string unstamped;
+  std::string content;
   metrics::PrintedPoses printed;
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
@@ -163,6 +167,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       repaired = loaded.repaired;
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
+      if (files.size() > 1) content = reference_content(reference);
     }
     Loaded loaded;
     try {
@@ -183,7 +188,9 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
          loaded.repaired.damage},
         are_printed ? &printed : nullptr,
         unstamped,
-        loaded.unstamped};
+        loaded.unstamped,
+        content,
+        files.size() > 1 ? pair_content(reference, loaded.poses) : ""};
     for (EvaluationResult& result : evaluate_read(a, rules, input, is_alone)) {
       out.push_back(std::move(result));
     }

@@ -17,6 +17,8 @@ struct EvaluationInput {
   const metrics::PrintedPoses* printed = nullptr;
   std::string reference_unstamped = {};  ///< file and format if stamps were generated, or empty
   std::string estimate_unstamped = {};
+  std::string reference_content = {};  ///< see EvaluationResult, as is
+  std::string content = {};            ///< this
 };
 
 /// Returns one result for each protocol. Throws InputError if the evaluation fails and

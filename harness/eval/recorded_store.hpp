@@ -25,9 +25,10 @@ struct RecordedSweep {
 
 /// Evaluates the runs under all protocols of the arguments and writes them to
 /// FOLDER/results.sqlite. Runs that the store already has are kept; unchanged files are not
-/// evaluated again. Every run of a sequence is a group of its own, so that conclusions hold for
-/// other runs on these sequences. Throws InputError, also if the store is the result of a sweep.
-/// O(poses).
+/// evaluated again. Every run of a sequence is a group of its own, so
+/// that conclusions hold for other runs on these sequences; runs with the same number on equal
+/// references are one group, see recorded_group(). Throws InputError, also if the store is the
+/// result of a sweep. O(poses).
 RecordedSweep store_runs(const std::vector<RecordedRun>& runs,
                          const EvalArguments& arguments,
                          const std::filesystem::path& folder,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/recorded_runs.hpp"
@@ -15,10 +16,20 @@ namespace loopbench::harness {
 /// Dataset `files`, method `recorded` and all metrics.
 Catalogue recorded_catalogue();
 
-/// Reads the reference of a dataset of recorded_sweep(), and the sequence with a reference that was
-/// read before. Throw InputError.
-Trajectory recorded_reference(const Params& options);
-Sequence recorded_sequence(const Params& options, const Trajectory& reference);
+/// Poses of a file and the remarks of its reader.
+struct RecordedFile {
+  Trajectory poses;
+  ReadFindings findings = {};
+  std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
+};
+
+/// Read the files of a dataset of recorded_sweep(); the reference is in the body of the estimate.
+/// Throw InputError.
+RecordedFile recorded_reference(const Params& options);
+RecordedFile recorded_estimate(const Params& options);
+
+/// The sequence of these files.
+Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate);
 
 /// One dataset per run, with the sequence as label; the methods in the order of their first run.
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& arguments);

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "harness/model/recorded_run.hpp"
 #include "harness/statistics/mean_interval.hpp"
 #include "harness/text/wrap.hpp"
 
@@ -86,6 +87,16 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
     auto& known = repeats[run.sequence];
     known.emplace(run.run, static_cast<std::int64_t>(known.size()));
   }
+  using RunLabel = std::pair<std::string, std::string>;  // sequence and run
+  std::map<RunLabel, std::map<std::string, std::string>> contents;
+  std::map<std::string, std::string> references;  // file to content, unknown to failed evaluations
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const RecordedRun& run = runs[i / protocols];
+    contents[{run.sequence, run.run}][run.method] = results[i].content;
+    if (!results[i].reference_content.empty()) {
+      references[run.reference] = results[i].reference_content;
+    }
+  }
   for (std::size_t i = 0; i < results.size(); ++i) {
     const EvaluationResult& result = results[i];
     const RecordedRun& run = runs[i / protocols];
@@ -94,7 +105,8 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
     record.sequence = run.sequence;
     record.repeat = repeats[run.sequence][run.run];
     record.method = run.method;
-    record.group = "run " + run.run + " on " + run.sequence;
+    record.group = recorded_group(run.run, references[run.reference]);
+    record.content = recorded_content(contents.at({run.sequence, run.run}));
     record.times = "keyframes";
     if (!result.why_failed.empty()) {
       record.status = "failed";

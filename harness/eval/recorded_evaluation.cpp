@@ -1,0 +1,93 @@
+#include "harness/eval/recorded_evaluation.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "datasets/bags/bag_name.hpp"
+#include "datasets/core/parallel.hpp"
+#include "harness/execution/run/evaluation_notes.hpp"
+#include "harness/execution/run/run_cell.hpp"
+#include "harness/model/recorded_run.hpp"
+#include "harness/provenance/sequence_identity.hpp"
+#include "harness/provenance/summarise_sequence.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// The reference of several cells, read once.
+struct SharedReference {
+  RecordedFile read;
+  InputFile file;
+  std::string content;
+};
+
+/// `option`: of the dataset, by which the gate finds the reference among the inputs.
+InputFile hashed_input(const std::string& name, const std::string& option) {
+  return hashed_inputs({{file_of(name), option}}).front();
+}
+
+/// Identity of the run.
+SequenceMetadata metadata_of(const Params& options, const SharedReference& reference) {
+  SequenceMetadata out;
+  out.inputs = {reference.file, hashed_input(to_text(options.at("estimate")), "estimate")};
+  out.size.reference = static_cast<std::int64_t>(reference.read.poses.size());
+  out.source = "reference:" + reference.content;
+  out.group = recorded_group(to_text(options.at("run")), reference.content);
+  return out;
+}
+
+CellResult evaluated(const Cell& cell,
+                     const Sweep& sweep,
+                     const SharedReference& reference,
+                     const Catalogue& catalogue) {
+  const Params& options = sweep.datasets[cell.dataset].dataset.options;
+  CellResult out;
+  try {
+    RecordedFile estimate = recorded_estimate(options);
+    const Sequence sequence =
+        recorded_sequence(options, reference.read.poses, std::move(estimate.poses));
+    out = run_cell(cell, sweep, sequence, catalogue);
+    SequenceMetadata metadata = metadata_of(options, reference);
+    metadata.size.keyframes = static_cast<std::int64_t>(sequence.problem.keyframes.size());
+    metadata.content = content_of(sequence);
+    metadata.notes = evaluation_notes(sequence, sweep);
+    metadata.trace = sequence_trace(sequence);
+    out.metadata = std::make_shared<const SequenceMetadata>(std::move(metadata));
+  } catch (const InputError& error) {
+    out = CellResult{};
+    out.cell = cell;
+    out.status = Status::failed;
+    out.why = error.what();
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string reference_content(const Trajectory& reference) { return pair_content(reference, {}); }
+
+std::string pair_content(const Trajectory& reference, const Trajectory& estimate) {
+  Sequence sequence;
+  sequence.reference = reference;
+  sequence.problem.keyframes = estimate;
+  return content_of(sequence);
+}
+
+std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
+                                          const Sweep& sweep,
+                                          const Catalogue& catalogue) {
+  const Params& first = sweep.datasets[cells.front().dataset].dataset.options;
+  SharedReference reference{
+      recorded_reference(first), hashed_input(to_text(first.at("reference")), "reference"), ""};
+  reference.content = reference_content(reference.read.poses);
+  std::vector<CellResult> out(cells.size());
+  const std::size_t threads = std::min(hardware_threads(), cells.size());
+  parallel_invoke(threads, [&](std::size_t thread) {
+    for (std::size_t i = thread; i < cells.size(); i += threads) {
+      out[i] = evaluated(cells[i], sweep, reference, catalogue);
+    }
+  });
+  return out;
+}
+
+}  // namespace loopbench::harness
