@@ -174,8 +174,11 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       loaded = reader.read(pair.estimate, a.format);
     } catch (const InputError& error) {
       if (is_alone) throw;
-      for (const metrics::NamedProtocol& each : rules)
+      for (const metrics::NamedProtocol& each : rules) {
         out.push_back(failure(a, pair, each, error.what()));
+        out.back().reference_content = content;
+        out.back().content = unreadable_content(content, pair.estimate);
+      }
       continue;
     }
     printed.estimate = std::move(loaded.matrices);

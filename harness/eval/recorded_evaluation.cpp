@@ -26,7 +26,8 @@ InputFile hashed_input(const std::string& name, const std::string& option) {
   return hashed_inputs({{file_of(name), option}}).front();
 }
 
-/// Identity of the run.
+/// Identity of the run, also if the estimate could not be read: whether two failures are copies,
+/// and whether the file has changed since, is decided as for other runs.
 SequenceMetadata metadata_of(const Params& options, const SharedReference& reference) {
   SequenceMetadata out;
   out.inputs = {reference.file, hashed_input(to_text(options.at("estimate")), "estimate")};
@@ -34,6 +35,17 @@ SequenceMetadata metadata_of(const Params& options, const SharedReference& refer
   out.source = "reference:" + reference.content;
   out.group = recorded_group(to_text(options.at("run")), reference.content);
   return out;
+}
+
+std::shared_ptr<const SequenceMetadata> metadata_of_failure(const Params& options,
+                                                            const SharedReference& reference) {
+  try {
+    SequenceMetadata out = metadata_of(options, reference);
+    out.content = unreadable_content(reference.content, to_text(options.at("estimate")));
+    return std::make_shared<const SequenceMetadata>(std::move(out));
+  } catch (const InputError&) {
+    return nullptr;  // the file exists, but cannot be hashed either
+  }
 }
 
 CellResult evaluated(const Cell& cell,
@@ -58,6 +70,7 @@ CellResult evaluated(const Cell& cell,
     out.cell = cell;
     out.status = Status::failed;
     out.why = error.what();
+    out.metadata = metadata_of_failure(options, reference);
   }
   return out;
 }
@@ -71,6 +84,15 @@ std::string pair_content(const Trajectory& reference, const Trajectory& estimate
   sequence.reference = reference;
   sequence.problem.keyframes = estimate;
   return content_of(sequence);
+}
+
+std::string unreadable_content(const std::string& reference_content, const std::string& estimate) {
+  try {
+    const std::string hash = hashed_input(estimate, "estimate").hash;
+    return Fields().add("unreadable").add(reference_content).add(hash).hashed();
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,

@@ -66,7 +66,8 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
   CellKeys keys(sweep, known, DataRoot{}, build_id(source.code));
   std::filesystem::create_directories(folder);
   Store store(file, keys, provenance(source, sweep, known));
-  const Resumed resumed = store.resume(cells, cells, Retry::none);
+  // A failure can be repaired without a change of the estimate, for example by its permissions.
+  const Resumed resumed = store.resume(cells, cells, Retry::failed);
   RecordedSweep out{cells.size(), resumed.there, resumed.failed, resumed.incomplete, {}};
   std::map<std::string, std::vector<Cell>> by_reference;
   for (const Cell& cell : resumed.missing)

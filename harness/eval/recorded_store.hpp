@@ -25,7 +25,7 @@ struct RecordedSweep {
 
 /// Evaluates the runs under all protocols of the arguments and writes them to
 /// FOLDER/results.sqlite. Runs that the store already has are kept; unchanged files are not
-/// evaluated again. Every run of a sequence is a group of its own, so
+/// evaluated again, except those that failed. Every run of a sequence is a group of its own, so
 /// that conclusions hold for other runs on these sequences; runs with the same number on equal
 /// references are one group, see recorded_group(). Throws InputError, also if the store is the
 /// result of a sweep. O(poses).

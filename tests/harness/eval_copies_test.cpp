@@ -101,5 +101,22 @@ TEST_F(EvalCopies, AMethodThatIsAddedLaterSeparatesRunsThatWereEqual) {
   EXPECT_EQ(compared("store").groups, 10u);
 }
 
+TEST_F(EvalCopies, FailuresOnCopiesAreOneObservation) {
+  std::vector<std::string> arguments{path("truths/office.txt")};
+  for (int run = 0; run < 10; ++run) {
+    write_run("copies/good", "office", run, 0.01);
+    write_run("copies/bad", "office", run, 0.03);
+    const std::string number = std::to_string(run);
+    if (run > 0) std::ofstream(path("copies/bad/office/" + number + ".txt")) << "1 2 3\n";
+    for (const char* const method : {"good", "bad"}) {
+      arguments.push_back(path("copies/" + std::string(method) + "/office/" + number + ".txt"));
+    }
+  }
+  const std::string expected = "8 runs repeat the data of another";
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed), HasSubstr(expected));
+  arguments.insert(arguments.end(), {"--store", path("store")});
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed), HasSubstr(expected));
+}
+
 }  // namespace
 }  // namespace loopbench::eval_copies_test

@@ -79,6 +79,20 @@ TEST_F(EvalStore, ARunThatCannotBeReadIsAFailure) {
   EXPECT_THAT(out, HasSubstr("1 failed"));
 }
 
+TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
+  const std::string broken = path("systems/bad/office/3.txt");
+  std::ofstream(broken) << "1 2 3\n";
+  const std::vector<std::string> arguments{path("truths"), path("systems"), "--store", path("s")};
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
+              HasSubstr("1 failed"));
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
+              HasSubstr("1 failed"));
+  write_run("systems/bad", "office", 3, 0.034);
+  const std::string out = test::eval(arguments);
+  EXPECT_THAT(out, HasSubstr("(39 stored before)"));
+  EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
+}
+
 TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {
   std::vector<std::string> arguments{path("truths/office.txt")};
   for (int run = 0; run < 10; ++run) {
