@@ -5,6 +5,7 @@
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/model/recorded_run.hpp"
@@ -48,6 +49,29 @@ std::shared_ptr<const SequenceMetadata> metadata_of_failure(const Params& option
   }
 }
 
+/// Notes of the readers, the doctor and the evaluation.
+std::vector<std::string> notes_of(const Sequence& sequence,
+                                  const Sweep& sweep,
+                                  const RecordedFile& reference,
+                                  const RecordedFile& estimate,
+                                  const std::string& estimate_name) {
+  std::vector<std::string> out;
+  for (const RecordedFile* file : {&reference, &estimate}) {
+    if (!file->findings.damage.empty()) out.push_back("damaged file: " + file->findings.damage);
+  }
+  const bool has_stamps = reference.unstamped.empty() && estimate.unstamped.empty();
+  const std::vector<std::string> findings = doctor_notes({sequence.reference,
+                                                          sequence.problem.keyframes,
+                                                          sequence.provenance.reference.string(),
+                                                          estimate_name,
+                                                          has_stamps},
+                                                         sweep.protocols);
+  out.insert(out.end(), findings.begin(), findings.end());
+  const std::vector<std::string> of_evaluation = evaluation_notes(sequence, sweep);
+  out.insert(out.end(), of_evaluation.begin(), of_evaluation.end());
+  return out;
+}
+
 CellResult evaluated(const Cell& cell,
                      const Sweep& sweep,
                      const SharedReference& reference,
@@ -62,7 +86,8 @@ CellResult evaluated(const Cell& cell,
     SequenceMetadata metadata = metadata_of(options, reference);
     metadata.size.keyframes = static_cast<std::int64_t>(sequence.problem.keyframes.size());
     metadata.content = content_of(sequence);
-    metadata.notes = evaluation_notes(sequence, sweep);
+    metadata.notes =
+        notes_of(sequence, sweep, reference.read, estimate, to_text(options.at("estimate")));
     metadata.trace = sequence_trace(sequence);
     out.metadata = std::make_shared<const SequenceMetadata>(std::move(metadata));
   } catch (const InputError& error) {

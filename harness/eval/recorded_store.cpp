@@ -1,12 +1,11 @@
 #include "harness/eval/recorded_store.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "datasets/core/error.hpp"
+#include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/store/store.hpp"
@@ -72,19 +71,17 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
   std::map<std::string, std::vector<Cell>> by_reference;
   for (const Cell& cell : resumed.missing)
     by_reference[runs[cell.dataset].reference].push_back(cell);
-  std::map<std::string, std::size_t> notes;
+  NoteSummary notes;
   for (const auto& [reference, missing] : by_reference) {
     for (const CellResult& result : evaluate_recorded(missing, sweep, known)) {
+      const std::string& estimate = runs[result.cell.dataset].estimate;
       store.write(result);
       out.failed += is_failure(result.status) ? 1 : 0;
       out.incomplete += result.status == Status::incomplete ? 1 : 0;
-      if (!result.metadata) continue;
-      for (const std::string& note : result.metadata->notes) ++notes[note];
+      if (result.metadata) notes.add(estimate, result.metadata->notes);
     }
   }
-  for (const auto& [note, count] : notes) {
-    out.notes.push_back(count == 1 ? note : fmt::format("{} ({} runs)", note, count));
-  }
+  out.notes = notes.lines();
   return out;
 }
 

@@ -20,7 +20,7 @@ struct RecordedSweep {
   std::size_t stored = 0;  ///< of those, stored before
   std::size_t failed = 0;
   std::size_t incomplete = 0;
-  std::vector<std::string> notes;  ///< each once, with the number of runs
+  std::vector<std::string> notes;  ///< of the files evaluated now, see NoteSummary
 };
 
 /// Evaluates the runs under all protocols of the arguments and writes them to
