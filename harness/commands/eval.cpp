@@ -12,6 +12,7 @@
 #include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_store.hpp"
+#include "harness/eval/recorded_sweep.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/text.hpp"
@@ -88,9 +89,23 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   }
 }
 
+/// Rejects options that have no effect on a store, before anything is evaluated.
+void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const std::string store = a.store + ": --store writes results only; for ";
+  if (!a.report.empty()) {
+    throw InputError(store + "--report use `loopbench report " + a.store + " -o " + a.report +
+                     "` afterwards");
+  }
+  if (!a.plot.empty()) {
+    throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
+  }
+  if (!a.times.empty() && !has_kitti_poses(a, runs)) throw unused_times(a);
+}
+
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
   const std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
+  check_store_options(a, runs);
   const RecordedSweep stored = store_runs(runs, a, a.store, source);
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));

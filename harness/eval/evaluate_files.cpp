@@ -67,8 +67,15 @@ struct Reader {
   }
 };
 
-/// Returns an error if only one file has stamps, since numbers and stamps would be paired by
-/// chance. `one`, `other`: Loaded::unstamped.
+std::vector<std::filesystem::path> all_files(const EvalArguments& a,
+                                             const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> out{a.times};
+  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
+  return out;
+}
+
+}  // namespace
+
 std::string why_two_clocks(const EvalArguments& a,
                            const metrics::Protocol& protocol,
                            const std::string& one,
@@ -79,15 +86,6 @@ std::string why_two_clocks(const EvalArguments& a,
          ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
          "--period S or --association index";
 }
-
-std::vector<std::filesystem::path> all_files(const EvalArguments& a,
-                                             const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> out{a.times};
-  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
-  return out;
-}
-
-}  // namespace
 
 std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
                                             const std::vector<metrics::NamedProtocol>& rules,
@@ -136,6 +134,10 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     result.notes.insert(result.notes.end(), remarks.begin(), remarks.end());
   }
   return out;
+}
+
+InputError unused_times(const EvalArguments& a) {
+  return InputError(a.times + ": is a times file, but no file has KITTI poses");
 }
 
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
@@ -198,9 +200,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       out.push_back(std::move(result));
     }
   }
-  if (!a.times.empty() && !reader.has_used_times) {
-    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
-  }
+  if (!a.times.empty() && !reader.has_used_times) throw unused_times(a);
   return out;
 }
 

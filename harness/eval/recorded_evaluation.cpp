@@ -5,6 +5,7 @@
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/eval/evaluate_files.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"
@@ -72,14 +73,27 @@ std::vector<std::string> notes_of(const Sequence& sequence,
   return out;
 }
 
+void check_clocks(const EvalArguments& a,
+                  const Sweep& sweep,
+                  const RecordedFile& reference,
+                  const RecordedFile& estimate) {
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
+    const std::string why =
+        why_two_clocks(a, protocol.rules, reference.unstamped, estimate.unstamped);
+    if (!why.empty()) throw InputError(why);
+  }
+}
+
 CellResult evaluated(const Cell& cell,
                      const Sweep& sweep,
                      const SharedReference& reference,
-                     const Catalogue& catalogue) {
+                     const Catalogue& catalogue,
+                     const EvalArguments& a) {
   const Params& options = sweep.datasets[cell.dataset].dataset.options;
   CellResult out;
   try {
     RecordedFile estimate = recorded_estimate(options);
+    check_clocks(a, sweep, reference.read, estimate);
     const Sequence sequence =
         recorded_sequence(options, reference.read.poses, std::move(estimate.poses));
     out = run_cell(cell, sweep, sequence, catalogue);
@@ -122,7 +136,8 @@ std::string unreadable_content(const std::string& reference_content, const std::
 
 std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
                                           const Sweep& sweep,
-                                          const Catalogue& catalogue) {
+                                          const Catalogue& catalogue,
+                                          const EvalArguments& a) {
   const Params& first = sweep.datasets[cells.front().dataset].dataset.options;
   SharedReference reference{
       recorded_reference(first), hashed_input(to_text(first.at("reference")), "reference"), ""};
@@ -131,7 +146,7 @@ std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
   const std::size_t threads = std::min(hardware_threads(), cells.size());
   parallel_invoke(threads, [&](std::size_t thread) {
     for (std::size_t i = thread; i < cells.size(); i += threads) {
-      out[i] = evaluated(cells[i], sweep, reference, catalogue);
+      out[i] = evaluated(cells[i], sweep, reference, catalogue, a);
     }
   });
   return out;

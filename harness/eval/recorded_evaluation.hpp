@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/eval/arguments.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/model/result.hpp"
 
@@ -22,6 +23,7 @@ std::string unreadable_content(const std::string& reference_content, const std::
 /// of the metadata are those of `eval` for the same files. Throws InputError for the reference.
 std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
                                           const Sweep& sweep,
-                                          const Catalogue& catalogue);
+                                          const Catalogue& catalogue,
+                                          const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

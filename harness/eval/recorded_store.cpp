@@ -73,7 +73,7 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
     by_reference[runs[cell.dataset].reference].push_back(cell);
   NoteSummary notes;
   for (const auto& [reference, missing] : by_reference) {
-    for (const CellResult& result : evaluate_recorded(missing, sweep, known)) {
+    for (const CellResult& result : evaluate_recorded(missing, sweep, known, a)) {
       const std::string& estimate = runs[result.cell.dataset].estimate;
       store.write(result);
       out.failed += is_failure(result.status) ? 1 : 0;

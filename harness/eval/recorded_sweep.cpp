@@ -127,6 +127,21 @@ Catalogue recorded_catalogue() {
           metrics::metrics()};
 }
 
+bool has_kitti_poses(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const auto is_kitti = [](const std::string& file, const std::string& word) {
+    Format format = Format::automatic;
+    FieldType<Format>::assign("format", format, word);
+    if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
+      return format == Format::kitti;
+    }
+    return detect_format(file) == Format::kitti;
+  };
+  const std::string& reference = a.reference_format.empty() ? a.format : a.reference_format;
+  return std::ranges::any_of(runs, [&](const RecordedRun& run) {
+    return is_kitti(run.reference, reference) || is_kitti(run.estimate, a.format);
+  });
+}
+
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& a) {
   Sweep out;
   out.name = "eval";

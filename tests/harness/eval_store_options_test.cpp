@@ -12,6 +12,7 @@
 namespace loopbench::eval_store_options_test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace harness;
@@ -50,6 +51,47 @@ TEST(NoteSummary, HasOneLineOfEachKindAndAtMostFive) {
   notes.add("c", {"k1: x", "k2: x", "k3: x"});  // six kinds: four, and a line on the other two
   ASSERT_EQ(notes.lines().size(), 5u);
   EXPECT_THAT(notes.lines().back(), HasSubstr("2 other kinds"));
+}
+
+TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
+  const std::vector<std::string> files{path("truths"), path("systems"), "--store", path("store")};
+  const auto error = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> arguments = files;
+    arguments.insert(arguments.end(), {option, value});
+    return test::refusal<InputError>(arguments);
+  };
+  EXPECT_THAT(error("--report", "out.html"),
+              HasSubstr("loopbench report " + path("store") + " -o out.html"));
+  EXPECT_THAT(error("--plot", "out"), HasSubstr("loopbench plot " + path("store") + " -o FOLDER"));
+  std::ofstream(path("times.txt")) << "0\n";
+  EXPECT_THAT(error("--times", path("times.txt")), HasSubstr("no file has KITTI poses"));
+  EXPECT_FALSE(std::filesystem::exists(path("store")));
+}
+
+TEST_F(EvalStoreOptions, PrintsATableAndAVerdictForEachProtocol) {
+  const std::string out = test::eval(
+      {path("truths"), path("systems"), "--protocol", "evo,tum", "--store", path("store")});
+  for (const char* const protocol : {"evo", "tum"}) {
+    EXPECT_THAT(out, HasSubstr("mean ate (" + std::string(protocol) + ") [m]"));
+    EXPECT_THAT(out, HasSubstr("verdict on ate (" + std::string(protocol) + "): "));
+  }
+}
+
+TEST_F(EvalStoreOptions, PrintsTheRequestedScoreIfThereIsNoAte) {
+  const std::string out =
+      test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("store")});
+  EXPECT_THAT(out, HasSubstr("verdict on ape"));
+  EXPECT_THAT(out, ContainsRegex("mean ape[^|]* \\[m\\]"));
+}
+
+TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
+  std::ofstream kitti(path("kitti.txt"));
+  for (int i = 0; i < 60; ++i) kitti << "1 0 0 " << i << " 0 1 0 0 0 0 1 0\n";
+  kitti.close();
+  const std::string out =
+      test::eval({path("truths/office.txt"), path("kitti.txt"), "--store", path("store")},
+                 kExitSomeCellsFailed);
+  EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
 }
 
 }  // namespace
