@@ -92,6 +92,13 @@ Params options_of(const RecordedRun& run, const EvalArguments& a) {
   return echo(o);
 }
 
+/// The options that all files share, as text.
+std::string common_options(const EvalArguments& a) {
+  Params out = options_of({}, a);
+  for (const char* own : {"sequence", "method", "run", "reference", "estimate"}) out.erase(own);
+  return to_text(out);
+}
+
 std::vector<MetricChoice> metrics_of(const EvalArguments& a,
                                      const std::vector<metrics::NamedProtocol>& protocols) {
   std::vector<MetricChoice> out;
@@ -145,7 +152,7 @@ bool has_kitti_poses(const EvalArguments& a, const std::vector<RecordedRun>& run
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& a) {
   Sweep out;
   out.name = "eval";
-  out.text = manifest(runs);
+  out.text = manifest(runs, common_options(a));
   out.protocols = protocols(a);
   out.metrics = metrics_of(a, out.protocols);
   out.times = {metrics::Times::keyframes};
@@ -189,8 +196,9 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
   return out;
 }
 
-std::string manifest(const std::vector<RecordedRun>& runs) {
+std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options) {
   std::string out = std::string(kRecordedTitle) + "\n";
+  if (!options.empty()) out += std::string(kRecordedOptions) + options + "\n";
   for (const RecordedRun& run : runs) {
     const nlohmann::ordered_json line{{"sequence", run.sequence},
                                       {"method", run.method},

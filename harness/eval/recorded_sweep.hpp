@@ -41,8 +41,9 @@ Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& 
 /// among all runs of the sequence, in natural order, so that runs of equal names are paired.
 std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Sweep& sweep);
 
-/// The runs as text, for the store, and back. Other texts have no runs.
-std::string manifest(const std::vector<RecordedRun>& runs);
+/// The runs as text, for the store, and back. Other texts have no runs. `options`: those that all
+/// files share, for recorded_options().
+std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options = "");
 std::vector<RecordedRun> runs_of_manifest(const std::string& text);
 
 }  // namespace loopbench::harness

@@ -14,7 +14,18 @@ namespace loopbench::harness {
 inline constexpr std::string_view kRecordedTitle =
     "# estimates evaluated by loopbench eval --store";
 
+/// Start of its line with the options of reading that all files share.
+inline constexpr std::string_view kRecordedOptions = "# options: ";
+
 inline bool is_recorded(std::string_view config) { return config.starts_with(kRecordedTitle); }
+
+/// The options in the config text: "format=auto, period=0.1, ..."; empty if it has none.
+inline std::string recorded_options(std::string_view config) {
+  const std::size_t line = config.find(kRecordedOptions);
+  if (line == std::string_view::npos) return "";
+  const std::size_t begin = line + kRecordedOptions.size();
+  return std::string(config.substr(begin, config.find('\n', begin) - begin));
+}
 
 /// Record::group of a run. The reference is identified by its poses, because the same recording
 /// under several names is not several independent sequences.

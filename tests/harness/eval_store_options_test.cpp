@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "harness/eval/note_summary.hpp"
+#include "harness/gate/check.hpp"
+#include "harness/gate/snapshot.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
 
@@ -92,6 +94,32 @@ TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
       test::eval({path("truths/office.txt"), path("kitti.txt"), "--store", path("store")},
                  kExitSomeCellsFailed);
   EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
+}
+
+TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {
+  const auto gate = [&](double change, const std::string& store) {
+    for (const char* const sequence : {"office", "street"}) {
+      for (int run = 0; run < 10; ++run) {
+        write_run("new/good", sequence, run, (0.01 + 0.0005 * run) * change);
+        write_run("new/bad", sequence, run, (0.03 + 0.0013 * run) * change);
+      }
+    }
+    test::eval({path("truths"), path("new"), "--store", path(store)});
+    Baseline baseline;
+    baseline.limits = {Tolerance{}};
+    baseline.limits.front().where = {"metric=ate"};
+    baseline.snapshot = snapshot(path("old"), baseline.limits);
+    return check(baseline, snapshot(path(store), baseline.limits));
+  };
+  test::eval({path("truths"), path("systems"), "--store", path("old")});
+  EXPECT_TRUE(gate(1.0, "equal").findings.empty());
+  const GateReport better = gate(0.5, "better");
+  EXPECT_TRUE(better.passes());
+  EXPECT_GT(better.count(Finding::Kind::improvement), 0u);
+  EXPECT_FALSE(gate(2.0, "worse").passes());
+  // Another reference is another sequence.
+  write_tum(path("truths/office.txt"), path_of(0.005));
+  EXPECT_THROW(gate(1.0, "moved"), InputError);
 }
 
 }  // namespace
