@@ -102,6 +102,21 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
   if (!a.times.empty() && !has_kitti_poses(a, runs)) throw unused_times(a);
 }
 
+/// Summary of the failed files, at most five of them.
+std::string failures_text(const RecordedSweep& stored, const std::string& store) {
+  constexpr std::size_t kMost = 5;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(stored.failures.size(), kMost); ++i) {
+    out += "failed: " + stored.failures[i] + "\n";
+  }
+  if (stored.failures.size() > kMost) {
+    out += fmt::format("failed: {} more, listed by `loopbench report {}`\n",
+                       stored.failures.size() - kMost,
+                       store);
+  }
+  return out;
+}
+
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
   const std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
@@ -111,7 +126,7 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
   const std::string report = run_report(read_records(a.store), terminal_style());
-  fmt::print("{}\n{} runs in {}{}{}{}\n",
+  fmt::print("{}\n{} runs in {}{}{}{}\n{}",
              printable(report),
              stored.cells,
              printable((std::filesystem::path(a.store) / "results.sqlite").string()),
@@ -120,7 +135,8 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
              stored.incomplete == 0 ? ""
                                     : fmt::format(", {} with coverage below {:g}",
                                                   stored.incomplete,
-                                                  a.min_coverage.value_or(kUsualMinCoverage)));
+                                                  a.min_coverage.value_or(kUsualMinCoverage)),
+             printable(failures_text(stored, a.store)));
   return stored.failed == 0 ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -67,7 +67,7 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
   Store store(file, keys, provenance(source, sweep, known));
   // A failure can be repaired without a change of the estimate, for example by its permissions.
   const Resumed resumed = store.resume(cells, cells, Retry::failed);
-  RecordedSweep out{cells.size(), resumed.there, resumed.failed, resumed.incomplete, {}};
+  RecordedSweep out{cells.size(), resumed.there, resumed.failed, resumed.incomplete, {}, {}};
   std::map<std::string, std::vector<Cell>> by_reference;
   for (const Cell& cell : resumed.missing)
     by_reference[runs[cell.dataset].reference].push_back(cell);
@@ -76,7 +76,11 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
     for (const CellResult& result : evaluate_recorded(missing, sweep, known, a)) {
       const std::string& estimate = runs[result.cell.dataset].estimate;
       store.write(result);
-      out.failed += is_failure(result.status) ? 1 : 0;
+      if (is_failure(result.status)) {
+        ++out.failed;
+        const bool names_file = result.why.find(estimate) != std::string::npos;
+        out.failures.push_back(names_file ? result.why : estimate + ": " + result.why);
+      }
       out.incomplete += result.status == Status::incomplete ? 1 : 0;
       if (result.metadata) notes.add(estimate, result.metadata->notes);
     }

@@ -20,7 +20,8 @@ struct RecordedSweep {
   std::size_t stored = 0;  ///< of those, stored before
   std::size_t failed = 0;
   std::size_t incomplete = 0;
-  std::vector<std::string> notes;  ///< of the files evaluated now, see NoteSummary
+  std::vector<std::string> notes;     ///< of the files evaluated now, see NoteSummary
+  std::vector<std::string> failures;  ///< "FILE: reason"
 };
 
 /// Evaluates the runs under all protocols of the arguments and writes them to

@@ -96,6 +96,18 @@ TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
   EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
 }
 
+TEST_F(EvalStoreOptions, RejectsAFolderOfRunsWithTheAcceptedLayouts) {
+  const std::string folder = path("systems/good/office");
+  for (const bool is_stored : {false, true}) {
+    std::vector<std::string> arguments{path("truths/office.txt"), folder};
+    if (is_stored) arguments.insert(arguments.end(), {"--store", path("store")});
+    const std::string error = test::refusal<InputError>(arguments);
+    EXPECT_THAT(error, HasSubstr(folder + ": is a folder"));
+    EXPECT_THAT(error, HasSubstr(folder + "/*.txt"));
+    EXPECT_THAT(error, HasSubstr("ALGORITHM/DATASET/RUN.txt"));
+  }
+}
+
 TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {
   const auto gate = [&](double change, const std::string& store) {
     for (const char* const sequence : {"office", "street"}) {

@@ -84,9 +84,9 @@ TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
   std::ofstream(broken) << "1 2 3\n";
   const std::vector<std::string> arguments{path("truths"), path("systems"), "--store", path("s")};
   EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
-              HasSubstr("1 failed"));
+              HasSubstr("1 failed\nfailed: " + broken));
   EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
-              HasSubstr("1 failed"));
+              HasSubstr("1 failed\nfailed: " + broken));
   write_run("systems/bad", "office", 3, 0.034);
   const std::string out = test::eval(arguments);
   EXPECT_THAT(out, HasSubstr("(39 stored before)"));
