@@ -12,6 +12,7 @@
 #include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_store.hpp"
+#include "harness/eval/recorded_sweep.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/text.hpp"
@@ -88,15 +89,45 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   }
 }
 
+/// Rejects options that have no effect on a store, before anything is evaluated.
+void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const std::string store = a.store + ": --store writes results only; for ";
+  if (!a.report.empty()) {
+    throw InputError(store + "--report use `loopbench report " + a.store + " -o " + a.report +
+                     "` afterwards");
+  }
+  if (!a.plot.empty()) {
+    throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
+  }
+  if (!a.times.empty() && !has_kitti_poses(a, runs)) throw unused_times(a);
+}
+
+/// Summary of the failed files, at most five of them.
+std::string failures_text(const RecordedSweep& stored, const std::string& store) {
+  constexpr std::size_t kMost = 5;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(stored.failures.size(), kMost); ++i) {
+    out += "failed: " + stored.failures[i] + "\n";
+  }
+  if (stored.failures.size() > kMost) {
+    out += fmt::format("failed: {} more, listed by `loopbench report {}`\n",
+                       stored.failures.size() - kMost,
+                       store);
+  }
+  return out;
+}
+
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
-  const RecordedSweep stored =
-      store_runs(recorded_runs(file_pairs(a), a.sequence), a, a.store, source);
+  const std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
+  check_store_options(a, runs);
+  const RecordedSweep stored = store_runs(runs, a, a.store, source);
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
-  fmt::print("{}\n{} runs in {}{}{}{}\n",
-             printable(run_report(read_records(a.store), terminal_style())),
+  const std::string report = run_report(read_records(a.store), terminal_style());
+  fmt::print("{}\n{} runs in {}{}{}{}\n{}",
+             printable(report),
              stored.cells,
              printable((std::filesystem::path(a.store) / "results.sqlite").string()),
              stored.stored == 0 ? "" : fmt::format(" ({} stored before)", stored.stored),
@@ -104,7 +135,8 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
              stored.incomplete == 0 ? ""
                                     : fmt::format(", {} with coverage below {:g}",
                                                   stored.incomplete,
-                                                  a.min_coverage.value_or(kUsualMinCoverage)));
+                                                  a.min_coverage.value_or(kUsualMinCoverage)),
+             printable(failures_text(stored, a.store)));
   return stored.failed == 0 ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -71,6 +71,7 @@ struct Comparison {
   std::size_t possible = 0;            ///< runs that any method has, or should have
   std::size_t copies = 0;              ///< runs with the same content as another, not counted
   std::size_t sequences = 0;           ///< sequences of the runs used
+  std::size_t possible_sequences = 0;  ///< sequences of the possible runs
   std::size_t known_groups = 0;        ///< groups of the runs, for any options.over
   std::vector<MethodVerdict> methods;  ///< best first
   std::vector<Gap> gaps;

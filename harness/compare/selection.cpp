@@ -75,9 +75,11 @@ std::string counted(const std::vector<std::string>& reasons) {
 CommonRuns select_common(const Observations& all, Comparison& out) {
   CommonRuns kept{ranked_methods(all, out), {}, {}};
   std::set<std::string> sequences;
+  std::set<std::string> possible_sequences;
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
     const auto at = [&](std::size_t m) -> const Observed& { return all.values[m][run]; };
+    possible_sequences.insert(all.runs[run].sequence);
     const bool is_known = std::ranges::all_of(
         kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
     const bool is_judged =
@@ -99,6 +101,7 @@ CommonRuns select_common(const Observations& all, Comparison& out) {
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
   out.sequences = sequences.size();
+  out.possible_sequences = possible_sequences.size();
   out.oracle_closures.assign(measured.begin(), measured.end());
   return kept;
 }

@@ -176,7 +176,10 @@ std::string unit_text(const Comparison& c) {
     return plural(c.groups, "sequence") + " (" + plural(c.runs, "run") + ")";
   }
   if (c.groups < c.runs) return plural(c.groups, "group") + " (" + plural(c.runs, "run") + ")";
-  return plural(c.runs, c.sequences == c.runs ? "sequence" : "run");
+  // Two runs of one sequence, of which one counts, are not "1 sequence of 2 possible".
+  const bool has_one_run_each =
+      c.sequences == c.runs && (c.runs == c.possible || c.possible_sequences == c.possible);
+  return plural(c.runs, has_one_run_each ? "sequence" : "run");
 }
 
 std::vector<std::string> methods_with_less_coverage(const Comparison& c) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "datasets/bags/bag_name.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
@@ -70,6 +71,18 @@ Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   if (a.all_pairs) out["pairs"] = std::string("all");
   if (a.pairs_from_reference) out["pairs_from"] = std::string("reference");
   return out;
+}
+
+/// Rejects a folder where a file is expected.
+void reject_folder(const std::string& estimate, const EvalArguments& a) {
+  if (names_bag(estimate) || !std::filesystem::is_directory(estimate)) return;
+  const std::string folder = (std::filesystem::path(estimate) / "").lexically_normal().string();
+  throw InputError(estimate + ": is a folder, expected trajectory files, for example `eval " +
+                   a.reference + " " + folder +
+                   "*.txt`; a folder is accepted as the only EST if it contains "
+                   "ALGORITHM/DATASET/RUN.txt and REF is a folder with DATASET.txt, or as REF "
+                   "without EST if it contains stamped_groundtruth.txt and "
+                   "stamped_traj_estimate*.txt");
 }
 
 /// Maps evo's words to ours.
@@ -156,7 +169,10 @@ std::vector<FilePair> file_pairs(const EvalArguments& a) {
   const bool is_folder = std::filesystem::is_directory(a.reference);
   if (is_folder && a.estimates.size() == 1) return ov_eval_layout(a.reference, a.estimates[0]);
   std::vector<FilePair> out;
-  for (const std::string& estimate : a.estimates) out.push_back({a.reference, estimate});
+  for (const std::string& estimate : a.estimates) {
+    reject_folder(estimate, a);
+    out.push_back({a.reference, estimate});
+  }
   return out;
 }
 

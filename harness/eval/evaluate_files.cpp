@@ -6,6 +6,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "datasets/formats/kitti.hpp"
+#include "harness/eval/recorded_evaluation.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -66,8 +67,15 @@ struct Reader {
   }
 };
 
-/// Returns an error if only one file has stamps, since numbers and stamps would be paired by
-/// chance. `one`, `other`: Loaded::unstamped.
+std::vector<std::filesystem::path> all_files(const EvalArguments& a,
+                                             const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> out{a.times};
+  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
+  return out;
+}
+
+}  // namespace
+
 std::string why_two_clocks(const EvalArguments& a,
                            const metrics::Protocol& protocol,
                            const std::string& one,
@@ -78,15 +86,6 @@ std::string why_two_clocks(const EvalArguments& a,
          ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
          "--period S or --association index";
 }
-
-std::vector<std::filesystem::path> all_files(const EvalArguments& a,
-                                             const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> out{a.times};
-  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
-  return out;
-}
-
-}  // namespace
 
 std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
                                             const std::vector<metrics::NamedProtocol>& rules,
@@ -125,6 +124,8 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     out.back().reference = reference_name;
     out.back().reference_body = a.reference_body.value_or("");
     out.back().estimate = estimate_name;
+    out.back().reference_content = input.reference_content;
+    out.back().content = input.content;
   }
   std::vector<std::string> remarks = doctor.get();
   if (!input.findings.damage.empty()) remarks.insert(remarks.begin(), input.findings.damage);
@@ -133,6 +134,10 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& a,
     result.notes.insert(result.notes.end(), remarks.begin(), remarks.end());
   }
   return out;
+}
+
+InputError unused_times(const EvalArguments& a) {
+  return InputError(a.times + ": is a times file, but no file has KITTI poses");
 }
 
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
@@ -154,6 +159,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   Trajectory reference;
   ReadFindings repaired;  // this and `unstamped`: of the reference
   std::string unstamped;
+  std::string content;
   metrics::PrintedPoses printed;
   for (const FilePair& pair : files) {
     if (read_last != pair.reference) {
@@ -163,14 +169,18 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
       repaired = loaded.repaired;
       printed.reference = std::move(loaded.matrices);
       read_last = pair.reference;
+      if (files.size() > 1) content = reference_content(reference);
     }
     Loaded loaded;
     try {
       loaded = reader.read(pair.estimate, a.format);
     } catch (const InputError& error) {
       if (is_alone) throw;
-      for (const metrics::NamedProtocol& each : rules)
+      for (const metrics::NamedProtocol& each : rules) {
         out.push_back(failure(a, pair, each, error.what()));
+        out.back().reference_content = content;
+        out.back().content = unreadable_content(content, pair.estimate);
+      }
       continue;
     }
     printed.estimate = std::move(loaded.matrices);
@@ -183,14 +193,14 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
          loaded.repaired.damage},
         are_printed ? &printed : nullptr,
         unstamped,
-        loaded.unstamped};
+        loaded.unstamped,
+        content,
+        files.size() > 1 ? pair_content(reference, loaded.poses) : ""};
     for (EvaluationResult& result : evaluate_read(a, rules, input, is_alone)) {
       out.push_back(std::move(result));
     }
   }
-  if (!a.times.empty() && !reader.has_used_times) {
-    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
-  }
+  if (!a.times.empty() && !reader.has_used_times) throw unused_times(a);
   return out;
 }
 

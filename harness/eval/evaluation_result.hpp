@@ -52,6 +52,8 @@ struct EvaluationResult {
   std::string reference;
   std::string reference_body;  ///< body_from_reference as given; empty: identity
   std::string estimate;
+  std::string reference_content;  ///< reference_content() and
+  std::string content;            ///< pair_content(), to compare files; empty: unknown
   std::size_t reference_poses = 0;
   std::size_t estimate_poses = 0;
   metrics::NamedProtocol protocol;

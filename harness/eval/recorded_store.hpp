@@ -20,14 +20,16 @@ struct RecordedSweep {
   std::size_t stored = 0;  ///< of those, stored before
   std::size_t failed = 0;
   std::size_t incomplete = 0;
-  std::vector<std::string> notes;  ///< each once, with the number of runs
+  std::vector<std::string> notes;     ///< of the files evaluated now, see NoteSummary
+  std::vector<std::string> failures;  ///< "FILE: reason"
 };
 
 /// Evaluates the runs under all protocols of the arguments and writes them to
 /// FOLDER/results.sqlite. Runs that the store already has are kept; unchanged files are not
-/// evaluated again. Every run of a sequence is a group of its own, so that conclusions hold for
-/// other runs on these sequences. Throws InputError, also if the store is the result of a sweep.
-/// O(poses).
+/// evaluated again, except those that failed. Every run of a sequence is a group of its own, so
+/// that conclusions hold for other runs on these sequences; runs with the same number on equal
+/// references are one group, see recorded_group(). Throws InputError, also if the store is the
+/// result of a sweep. O(poses).
 RecordedSweep store_runs(const std::vector<RecordedRun>& runs,
                          const EvalArguments& arguments,
                          const std::filesystem::path& folder,

@@ -9,12 +9,11 @@
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/polyline.hpp"
 #include "harness/eval/recorded_store.hpp"
+#include "harness/model/recorded_run.hpp"
 #include "methods/correctors/raw.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-constexpr const char* kManifestTitle = "# estimates evaluated by loopbench eval --store";
 
 struct RecordedOptions {
   std::string sequence, method, run, reference, estimate;
@@ -40,38 +39,43 @@ void fields(RecordedOptions& o, Visit visit) {
   visit("period", o.period, "time between poses without stamps [s]", GreaterThan{0.0});
 }
 
-Trajectory read_recorded(const RecordedOptions& o, const std::string& file, Format format) {
+RecordedFile read_recorded(const RecordedOptions& o, const std::string& file, Format format) {
   ReadOptions options;
-  options.format = format;
+  options.format = format == Format::automatic ? detect_format(file) : format;
   options.period = o.period;
   options.repeats = o.repeats;
-  const bool is_kitti = format == Format::kitti ||
-                        (format == Format::automatic && detect_format(file) == Format::kitti);
+  const bool is_kitti = options.format == Format::kitti;
   if (is_kitti && !o.times.empty()) options.times = o.times;
-  Trajectory out = read_trajectory(file, options);
-  if (out.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+  RecordedFile out;
+  options.findings = &out.findings;
+  out.poses = read_trajectory(file, options);
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+  if (options.format == Format::g2o || (is_kitti && !options.times)) {
+    out.unstamped = file + ": is " + to_text(options.format);
+  }
   return out;
 }
 
-Trajectory read_reference(const RecordedOptions& o) {
+RecordedFile read_reference(const RecordedOptions& o) {
   EvalArguments offset;
   if (!o.reference_body.empty()) offset.reference_body = o.reference_body;
-  return to_estimate_body(read_recorded(o, o.reference, o.reference_format),
-                          reference_body(offset));
+  RecordedFile out = read_recorded(o, o.reference, o.reference_format);
+  out.poses = to_estimate_body(std::move(out.poses), reference_body(offset));
+  return out;
 }
 
-Sequence read_sequence(const RecordedOptions& o, Trajectory reference) {
+Sequence sequence_of(const RecordedOptions& o, Trajectory reference, Trajectory estimate) {
   Sequence out;
   out.name = o.sequence;
   out.reference = std::move(reference);
-  out.problem.keyframes = read_recorded(o, o.estimate, o.format);
+  out.problem.keyframes = std::move(estimate);
   out.provenance.inputs = {{file_of(o.reference)}, {file_of(o.estimate)}};
   out.provenance.reference = file_of(o.reference);
   return out;
 }
 
 Sequence load_recorded(const RecordedOptions& o, const DataRoot&) {
-  return read_sequence(o, read_reference(o));
+  return sequence_of(o, read_reference(o).poses, read_recorded(o, o.estimate, o.format).poses);
 }
 
 Params options_of(const RecordedRun& run, const EvalArguments& a) {
@@ -86,6 +90,13 @@ Params options_of(const RecordedRun& run, const EvalArguments& a) {
   o.reference_body = a.reference_body.value_or("");
   if (a.period) o.period = *a.period;
   return echo(o);
+}
+
+/// The options that all files share, as text.
+std::string common_options(const EvalArguments& a) {
+  Params out = options_of({}, a);
+  for (const char* own : {"sequence", "method", "run", "reference", "estimate"}) out.erase(own);
+  return to_text(out);
 }
 
 std::vector<MetricChoice> metrics_of(const EvalArguments& a,
@@ -104,12 +115,17 @@ std::vector<MetricChoice> metrics_of(const EvalArguments& a,
 
 }  // namespace
 
-Trajectory recorded_reference(const Params& options) {
+RecordedFile recorded_reference(const Params& options) {
   return read_reference(with(RecordedOptions{}, options));
 }
 
-Sequence recorded_sequence(const Params& options, const Trajectory& reference) {
-  return read_sequence(with(RecordedOptions{}, options), reference);
+RecordedFile recorded_estimate(const Params& options) {
+  const RecordedOptions o = with(RecordedOptions{}, options);
+  return read_recorded(o, o.estimate, o.format);
+}
+
+Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate) {
+  return sequence_of(with(RecordedOptions{}, options), std::move(reference), std::move(estimate));
 }
 
 Catalogue recorded_catalogue() {
@@ -118,18 +134,32 @@ Catalogue recorded_catalogue() {
           metrics::metrics()};
 }
 
+bool has_kitti_poses(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const auto is_kitti = [](const std::string& file, const std::string& word) {
+    Format format = Format::automatic;
+    FieldType<Format>::assign("format", format, word);
+    if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
+      return format == Format::kitti;
+    }
+    return detect_format(file) == Format::kitti;
+  };
+  const std::string& reference = a.reference_format.empty() ? a.format : a.reference_format;
+  return std::ranges::any_of(runs, [&](const RecordedRun& run) {
+    return is_kitti(run.reference, reference) || is_kitti(run.estimate, a.format);
+  });
+}
+
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& a) {
   Sweep out;
   out.name = "eval";
-  out.text = manifest(runs);
+  out.text = manifest(runs, common_options(a));
   out.protocols = protocols(a);
   out.metrics = metrics_of(a, out.protocols);
   out.times = {metrics::Times::keyframes};
   out.min_coverage = a.min_coverage.value_or(kUsualMinCoverage);
   out.table.split = {"sequence"};
   for (const RecordedRun& run : runs) {
-    out.datasets.push_back(
-        {run.sequence, {"files", options_of(run, a)}, "run " + run.run + " on " + run.sequence});
+    out.datasets.push_back({run.sequence, {"files", options_of(run, a)}});
     const bool is_known = std::ranges::any_of(
         out.methods, [&](const MethodChoice& m) { return m.label == run.method; });
     if (!is_known) out.methods.push_back({run.method, {{"recorded", {}}}});
@@ -166,8 +196,9 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
   return out;
 }
 
-std::string manifest(const std::vector<RecordedRun>& runs) {
-  std::string out = std::string(kManifestTitle) + "\n";
+std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options) {
+  std::string out = std::string(kRecordedTitle) + "\n";
+  if (!options.empty()) out += std::string(kRecordedOptions) + options + "\n";
   for (const RecordedRun& run : runs) {
     const nlohmann::ordered_json line{{"sequence", run.sequence},
                                       {"method", run.method},
@@ -183,7 +214,7 @@ std::vector<RecordedRun> runs_of_manifest(const std::string& text) {
   std::vector<RecordedRun> out;
   std::istringstream lines(text);
   std::string line;
-  if (!std::getline(lines, line) || line != kManifestTitle) return out;
+  if (!std::getline(lines, line) || line != kRecordedTitle) return out;
   while (std::getline(lines, line)) {
     const nlohmann::json json = nlohmann::json::parse(line.substr(2), nullptr, false);
     if (!json.is_object()) continue;

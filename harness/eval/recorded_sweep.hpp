@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/recorded_runs.hpp"
@@ -15,10 +16,23 @@ namespace loopbench::harness {
 /// Dataset `files`, method `recorded` and all metrics.
 Catalogue recorded_catalogue();
 
-/// Reads the reference of a dataset of recorded_sweep(), and the sequence with a reference that was
-/// read before. Throw InputError.
-Trajectory recorded_reference(const Params& options);
-Sequence recorded_sequence(const Params& options, const Trajectory& reference);
+/// Poses of a file and the remarks of its reader.
+struct RecordedFile {
+  Trajectory poses;
+  ReadFindings findings = {};
+  std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
+};
+
+/// Read the files of a dataset of recorded_sweep(); the reference is in the body of the estimate.
+/// Throw InputError.
+RecordedFile recorded_reference(const Params& options);
+RecordedFile recorded_estimate(const Params& options);
+
+/// The sequence of these files.
+Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate);
+
+/// Whether any file is in KITTI format, by the arguments or its content; the others have stamps.
+bool has_kitti_poses(const EvalArguments& arguments, const std::vector<RecordedRun>& runs);
 
 /// One dataset per run, with the sequence as label; the methods in the order of their first run.
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& arguments);
@@ -27,8 +41,9 @@ Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& 
 /// among all runs of the sequence, in natural order, so that runs of equal names are paired.
 std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Sweep& sweep);
 
-/// The runs as text, for the store, and back. Other texts have no runs.
-std::string manifest(const std::vector<RecordedRun>& runs);
+/// The runs as text, for the store, and back. Other texts have no runs. `options`: those that all
+/// files share, for recorded_options().
+std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options = "");
 std::vector<RecordedRun> runs_of_manifest(const std::string& text);
 
 }  // namespace loopbench::harness

@@ -6,15 +6,39 @@
 #include <map>
 #include <set>
 
+#include "harness/model/recorded_run.hpp"
 #include "harness/statistics/mean_interval.hpp"
 #include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-bool is_run_score(const Record& r, const std::string& metric, const std::string& protocol) {
-  return r.protocol == protocol && metric_label(r) == metric && r.relation == "translation" &&
-         (r.axis == "3d" || r.axis.empty());
+bool is_total(const Record& r) { return r.axis.empty() || r.axis == "3d" || r.axis == "all"; }
+
+/// The score of a protocol that summarises runs.
+std::optional<Record> run_score(const std::vector<Record>& records, const SharedText& protocol) {
+  std::optional<Record> first;
+  for (const Record& r : records) {
+    if (r.metric.empty() || r.protocol != protocol || !is_total(r)) continue;
+    if (metric_label(r) == "ate" && r.relation == "translation") return r;
+    if (!first && r.better != metrics::Better::neither) first = r;
+  }
+  return first;
+}
+
+bool is_score(const Record& r, const Record& score) {
+  return !r.metric.empty() && r.protocol == score.protocol &&
+         metric_label(r) == metric_label(score) && r.relation == score.relation &&
+         r.axis == score.axis && r.unit == score.unit;
+}
+
+/// The protocols in order of appearance.
+std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
+  std::vector<SharedText> out;
+  for (const Record& r : records) {
+    if (!r.protocol.empty() && std::ranges::count(out, r.protocol) == 0) out.push_back(r.protocol);
+  }
+  return out;
 }
 
 RunSummary summary(const std::string& sequence,
@@ -60,14 +84,15 @@ std::string lines_of(const std::string& text, const std::optional<TerminalStyle>
 }
 
 std::string table_of(const std::vector<RunSummary>& all,
-                     const std::string& metric,
+                     const std::string& subject,
+                     const std::string& unit,
                      const std::optional<TerminalStyle>& style) {
   TableView view{"",
                  {"sequence / method",
                   "successful runs",
-                  "mean " + metric + " [m]",
+                  "mean " + subject + " [" + unit + "]",
                   "95 % interval",
-                  "median [m]",
+                  "median [" + unit + "]",
                   "range [m]"},
                  {},
                  {}};
@@ -86,6 +111,16 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
     auto& known = repeats[run.sequence];
     known.emplace(run.run, static_cast<std::int64_t>(known.size()));
   }
+  using RunLabel = std::pair<std::string, std::string>;  // sequence and run
+  std::map<RunLabel, std::map<std::string, std::string>> contents;
+  std::map<std::string, std::string> references;  // file to content, unknown to failed evaluations
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const RecordedRun& run = runs[i / protocols];
+    contents[{run.sequence, run.run}][run.method] = results[i].content;
+    if (!results[i].reference_content.empty()) {
+      references[run.reference] = results[i].reference_content;
+    }
+  }
   for (std::size_t i = 0; i < results.size(); ++i) {
     const EvaluationResult& result = results[i];
     const RecordedRun& run = runs[i / protocols];
@@ -94,7 +129,8 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
     record.sequence = run.sequence;
     record.repeat = repeats[run.sequence][run.run];
     record.method = run.method;
-    record.group = "run " + run.run + " on " + run.sequence;
+    record.group = recorded_group(run.run, references[run.reference]);
+    record.content = recorded_content(contents.at({run.sequence, run.run}));
     record.times = "keyframes";
     if (!result.why_failed.empty()) {
       record.status = "failed";
@@ -128,21 +164,16 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
   return out;
 }
 
-std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
-                                       const std::string& metric) {
+std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const Record& score) {
   using Key = std::pair<std::string, std::string>;
   std::vector<Key> order;
   std::map<Key, std::set<std::int64_t>> runs;
   std::map<Key, std::vector<double>> values;
-  std::string protocol;
   for (const Record& r : records) {
-    if (protocol.empty()) protocol = r.protocol;
     const Key key{r.sequence, r.method};
     if (runs[key].empty()) order.push_back(key);
     runs[key].insert(r.repeat);
-    if (r.status == "ok" && is_run_score(r, metric, protocol)) {
-      values[key].push_back(r.statistics.rmse);
-    }
+    if (r.status == "ok" && is_score(r, score)) values[key].push_back(r.statistics.rmse);
   }
   std::vector<RunSummary> out;
   for (const Key& key : order) {
@@ -151,10 +182,14 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
   return out;
 }
 
-std::string run_report(const std::vector<Record>& records,
-                       const std::optional<TerminalStyle>& style) {
-  const std::string metric = "ate";
-  const std::vector<RunSummary> all = summarise_runs(records, metric);
+namespace {
+
+/// Table and verdict of one score; `subject` names it.
+std::string report_of(const std::vector<Record>& records,
+                      const Record& score,
+                      const std::string& subject,
+                      const std::optional<TerminalStyle>& style) {
+  const std::vector<RunSummary> all = summarise_runs(records, score);
   std::set<std::string> methods;
   for (const RunSummary& each : all) methods.insert(each.method);
   const bool has_repeats =
@@ -163,17 +198,12 @@ std::string run_report(const std::vector<Record>& records,
       std::ranges::any_of(all, [](const RunSummary& each) { return each.successes > 0; });
   if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
   std::string out;
-  if (has_repeats) out += "\n" + table_of(all, metric, style);
+  if (has_repeats) out += "\n" + table_of(all, subject, score.unit, style);
   if (methods.size() < 2) return out;
   std::vector<Record> scores;
-  std::string protocol;
   for (const Record& r : records) {
-    if (protocol.empty()) protocol = r.protocol;
-    if (r.metric.empty() || is_run_score(r, metric, protocol)) scores.push_back(r);
+    if (r.metric.empty() || is_score(r, score)) scores.push_back(r);
   }
-  const bool has_others = std::ranges::any_of(
-      records, [&](const Record& r) { return !r.protocol.empty() && r.protocol != protocol; });
-  const std::string subject = metric + (has_others ? " (" + protocol + ")" : "");
   CompareOptions options;
   options.baseline = records.front().method;
   for (const Comparison& comparison : compare(scores, options)) {
@@ -183,6 +213,22 @@ std::string run_report(const std::vector<Record>& records,
     for (std::size_t i = uses_all ? 1 : 0; i < limits.size(); ++i) {  // the verdict has the first
       out += lines_of("- " + limits[i], style);
     }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string run_report(const std::vector<Record>& records,
+                       const std::optional<TerminalStyle>& style) {
+  const std::vector<SharedText> protocols = protocols_of(records);
+  std::string out;
+  for (const SharedText& protocol : protocols) {
+    const std::optional<Record> score = run_score(records, protocol);
+    if (!score) continue;
+    std::string subject = metric_label(*score);
+    if (protocols.size() > 1) subject += " (" + protocol + ")";
+    out += report_of(records, *score, subject, style);
   }
   return out;
 }

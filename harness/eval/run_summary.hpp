@@ -30,13 +30,14 @@ struct RunSummary {
 std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
                                const std::vector<RecordedRun>& runs);
 
-/// Summaries of one score ("ate") under the first protocol, by sequence and method in the order of
-/// the records.
-std::vector<RunSummary> summarise_runs(const std::vector<Record>& records,
-                                       const std::string& metric = "ate");
+/// Summaries of the score with the protocol, label, relation, axis and unit of `score`, by sequence
+/// and method in the order of the records.
+std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const Record& score);
 
-/// Table of the summaries, and the verdict over all runs: which method is better, and whether that
-/// is proven. Empty below two methods and two runs. Markdown without a style.
+/// For each protocol the table of the summaries and the verdict over all runs: which method is
+/// better, and whether that is proven. The score is the translational ATE or, if it was not
+/// requested, the first one with a direction. Empty below two methods and two runs. Markdown
+/// without a style.
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style = std::nullopt);
 

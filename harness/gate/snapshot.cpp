@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "datasets/core/error.hpp"
+#include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
 #include "harness/store/sources.hpp"
@@ -49,6 +50,21 @@ std::string text_of(const std::map<std::string, std::string>& run,
   if (found != run.end()) return found->second;
   throw InputError(store.string() + ": does not contain the " + key +
                    " of its config in full; `run` with the same config adds them");
+}
+
+/// Sequences of a store of evaluated files: the reference and the options of reading. The estimates
+/// are the results that are checked, so neither their files nor the contents of the runs belong to
+/// the definition.
+void add_recorded_sequences(StoreSources& sources, const std::string& options, Snapshot& out) {
+  const auto inputs = sources.inputs();
+  for (const GateCell& cell : out.cells) {
+    const std::string label = sequence_name(cell);
+    const auto files = inputs.find(label);
+    if (files == inputs.end() || out.sequences.contains(label)) continue;
+    const auto reference = std::ranges::find(files->second, "reference", &InputFile::option);
+    if (reference == files->second.end()) continue;
+    out.sequences[label] = "files: " + options + inputs_of({*reference});
+  }
 }
 
 void add_sequences(const std::filesystem::path& store, StoreSources& sources, Snapshot& out) {
@@ -110,7 +126,11 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
-  add_sequences(store, sources, out);
+  if (const auto config = run.find("config"); config != run.end() && is_recorded(config->second)) {
+    add_recorded_sequences(sources, recorded_options(config->second), out);
+  } else {
+    add_sequences(store, sources, out);
+  }
   return out;
 }
 

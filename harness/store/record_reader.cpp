@@ -7,6 +7,7 @@
 
 #include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/recorded_contents.hpp"
 #include "harness/store/row_bytes.hpp"
 
 namespace loopbench::harness {
@@ -82,6 +83,7 @@ RecordReader::RecordReader(const std::filesystem::path& file)
   }
   require_intact(sequences_, file_);
   order_ = in_order(rows_);
+  join_recorded_contents(database_, rows_, order_, sequences_);
   can_fail_ = std::ranges::any_of(lists_.all(), [](const auto& entry) {
     return std::ranges::any_of(entry.second, can_be_failed_metric);
   });

@@ -2,56 +2,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "datasets/formats/formats.hpp"
+#include <fstream>
+
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/store/read.hpp"
-#include "harness/tables/all_records.hpp"
 #include "tests/support/eval_command.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/recorded_files.hpp"
 
 namespace loopbench::eval_store_test {
 namespace {
 
 using testing::ContainsRegex;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace harness;
 
-/// METHOD/SEQUENCE/RUN.txt with an error of `size` times the run, and truths/SEQUENCE.txt.
-class EvalStore : public testing::Test {
- protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  static Trajectory path_of(double error) {
-    Trajectory out;
-    for (int i = 0; i < 60; ++i) {
-      const double a = 0.1 * i;
-      const double e = error * std::sin(7.0 * a);
-      out.push_back({a, {exp_so3({0, 0, a}), {3 * std::cos(a) + e, 3 * std::sin(a), 0.2 * a + e}}});
-    }
-    return out;
-  }
-
-  void write_run(const std::string& method, const std::string& sequence, int run, double error) {
-    const std::filesystem::path folder = folder_.path() / method / sequence;
-    std::filesystem::create_directories(folder);
-    write_tum(folder / (std::to_string(run) + ".txt"), path_of(error));
-  }
-
-  void SetUp() override {
-    std::filesystem::create_directories(folder_.path() / "truths");
-    for (const char* const sequence : {"office", "street"}) {
-      write_tum(folder_.path() / "truths" / (std::string(sequence) + ".txt"), path_of(0.0));
-      for (int run = 0; run < 10; ++run) {
-        write_run("systems/good", sequence, run, 0.01 + 0.0005 * run);
-        write_run("systems/bad", sequence, run, 0.03 + 0.0013 * run);
-      }
-    }
-  }
-
-  TemporaryFolder folder_;
-};
+class EvalStore : public test::RecordedFiles {};
 
 TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
   const std::string out = test::eval({path("truths"), path("systems"), "--store", path("store")});
@@ -111,6 +77,20 @@ TEST_F(EvalStore, ARunThatCannotBeReadIsAFailure) {
       test::eval({path("truths"), path("systems"), "--store", path("store")}, kExitSomeCellsFailed);
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +9 of 10 \\|"));
   EXPECT_THAT(out, HasSubstr("1 failed"));
+}
+
+TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
+  const std::string broken = path("systems/bad/office/3.txt");
+  std::ofstream(broken) << "1 2 3\n";
+  const std::vector<std::string> arguments{path("truths"), path("systems"), "--store", path("s")};
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
+              HasSubstr("1 failed\nfailed: " + broken));
+  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
+              HasSubstr("1 failed\nfailed: " + broken));
+  write_run("systems/bad", "office", 3, 0.034);
+  const std::string out = test::eval(arguments);
+  EXPECT_THAT(out, HasSubstr("(39 stored before)"));
+  EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
 }
 
 TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {

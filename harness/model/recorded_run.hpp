@@ -1,0 +1,48 @@
+/// Identity of the runs in a store of evaluated files (`eval --store`), where every file is a
+/// sequence of its own and the estimates are results, not inputs of methods.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "harness/text/hash.hpp"
+
+namespace loopbench::harness {
+
+/// First line of the config text of such a store.
+inline constexpr std::string_view kRecordedTitle =
+    "# estimates evaluated by loopbench eval --store";
+
+/// Start of its line with the options of reading that all files share.
+inline constexpr std::string_view kRecordedOptions = "# options: ";
+
+inline bool is_recorded(std::string_view config) { return config.starts_with(kRecordedTitle); }
+
+/// The options in the config text: "format=auto, period=0.1, ..."; empty if it has none.
+inline std::string recorded_options(std::string_view config) {
+  const std::size_t line = config.find(kRecordedOptions);
+  if (line == std::string_view::npos) return "";
+  const std::size_t begin = line + kRecordedOptions.size();
+  return std::string(config.substr(begin, config.find('\n', begin) - begin));
+}
+
+/// Record::group of a run. The reference is identified by its poses, because the same recording
+/// under several names is not several independent sequences.
+inline std::string recorded_group(const std::string& run, const std::string& reference_hash) {
+  return "run " + run + " on reference:" + reference_hash;
+}
+
+/// Record::content of a run from the content (estimate and reference) of each of its methods: two
+/// runs are one observation only if the outputs of all methods are equal. A method that is added
+/// later, or only to some runs, changes it. Empty if a method's content is unknown.
+inline std::string recorded_content(const std::map<std::string, std::string>& content_by_method) {
+  Fields fields;
+  for (const auto& [method, content] : content_by_method) {
+    if (content.empty()) return "";
+    fields.add(method).add(content);
+  }
+  return fields.hashed();
+}
+
+}  // namespace loopbench::harness

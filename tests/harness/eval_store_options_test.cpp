@@ -1,0 +1,138 @@
+// `eval --store`: notes, options, layouts and the gate.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "harness/eval/note_summary.hpp"
+#include "harness/gate/check.hpp"
+#include "harness/gate/snapshot.hpp"
+#include "tests/support/eval_command.hpp"
+#include "tests/support/recorded_files.hpp"
+
+namespace loopbench::eval_store_options_test {
+namespace {
+
+using testing::ContainsRegex;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using namespace harness;
+
+class EvalStoreOptions : public test::RecordedFiles {};
+
+TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
+  for (int run = 0; run < 10; ++run) {  // stamps 0.35 s late
+    Trajectory late = long_path(0.001 * run);
+    for (StampedPose& pose : late) pose.stamp += 0.35;
+    std::filesystem::create_directories(path("late"));
+    write_tum(path("late/" + std::to_string(run) + ".txt"), late);
+  }
+  write_tum(path("reference.txt"), long_path(0.0));
+  std::vector<std::string> arguments{path("reference.txt")};
+  for (int run = 0; run < 10; ++run) {
+    arguments.push_back(path("late/" + std::to_string(run) + ".txt"));
+  }
+  arguments.insert(arguments.end(), {"--store", path("store")});
+  testing::internal::CaptureStderr();
+  test::eval(arguments);
+  const std::string notes = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(notes, HasSubstr(path("late/0.txt") + ": doctor: time_offset: "));
+  EXPECT_THAT(notes, HasSubstr("(and 9 more runs)"));
+  EXPECT_LE(std::ranges::count(notes, '\n'), 5);
+}
+
+TEST(NoteSummary, HasOneLineOfEachKindAndAtMostFive) {
+  NoteSummary notes;
+  notes.add("a", {"few pairs: 4", "doctor: scale: 2; fix", "few pairs: 5"});
+  notes.add("b", {"doctor: scale: 3; fix", "doctor: time_offset: 1; fix"});
+  EXPECT_THAT(notes.lines(),
+              ElementsAre("a: doctor: scale: 2; fix (and 1 more run)",
+                          "b: doctor: time_offset: 1; fix",
+                          "a: few pairs: 4"));
+  notes.add("c", {"k1: x", "k2: x", "k3: x"});  // six kinds: four, and a line on the other two
+  ASSERT_EQ(notes.lines().size(), 5u);
+  EXPECT_THAT(notes.lines().back(), HasSubstr("2 other kinds"));
+}
+
+TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
+  const std::vector<std::string> files{path("truths"), path("systems"), "--store", path("store")};
+  const auto error = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> arguments = files;
+    arguments.insert(arguments.end(), {option, value});
+    return test::refusal<InputError>(arguments);
+  };
+  EXPECT_THAT(error("--report", "out.html"),
+              HasSubstr("loopbench report " + path("store") + " -o out.html"));
+  EXPECT_THAT(error("--plot", "out"), HasSubstr("loopbench plot " + path("store") + " -o FOLDER"));
+  std::ofstream(path("times.txt")) << "0\n";
+  EXPECT_THAT(error("--times", path("times.txt")), HasSubstr("no file has KITTI poses"));
+  EXPECT_FALSE(std::filesystem::exists(path("store")));
+}
+
+TEST_F(EvalStoreOptions, PrintsATableAndAVerdictForEachProtocol) {
+  const std::string out = test::eval(
+      {path("truths"), path("systems"), "--protocol", "evo,tum", "--store", path("store")});
+  for (const char* const protocol : {"evo", "tum"}) {
+    EXPECT_THAT(out, HasSubstr("mean ate (" + std::string(protocol) + ") [m]"));
+    EXPECT_THAT(out, HasSubstr("verdict on ate (" + std::string(protocol) + "): "));
+  }
+}
+
+TEST_F(EvalStoreOptions, PrintsTheRequestedScoreIfThereIsNoAte) {
+  const std::string out =
+      test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("store")});
+  EXPECT_THAT(out, HasSubstr("verdict on ape"));
+  EXPECT_THAT(out, ContainsRegex("mean ape[^|]* \\[m\\]"));
+}
+
+TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
+  std::ofstream kitti(path("kitti.txt"));
+  for (int i = 0; i < 60; ++i) kitti << "1 0 0 " << i << " 0 1 0 0 0 0 1 0\n";
+  kitti.close();
+  const std::string out =
+      test::eval({path("truths/office.txt"), path("kitti.txt"), "--store", path("store")},
+                 kExitSomeCellsFailed);
+  EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
+}
+
+TEST_F(EvalStoreOptions, RejectsAFolderOfRunsWithTheAcceptedLayouts) {
+  const std::string folder = path("systems/good/office");
+  for (const bool is_stored : {false, true}) {
+    std::vector<std::string> arguments{path("truths/office.txt"), folder};
+    if (is_stored) arguments.insert(arguments.end(), {"--store", path("store")});
+    const std::string error = test::refusal<InputError>(arguments);
+    EXPECT_THAT(error, HasSubstr(folder + ": is a folder"));
+    EXPECT_THAT(error, HasSubstr(folder + "/*.txt"));
+    EXPECT_THAT(error, HasSubstr("ALGORITHM/DATASET/RUN.txt"));
+  }
+}
+
+TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {
+  const auto gate = [&](double change, const std::string& store) {
+    for (const char* const sequence : {"office", "street"}) {
+      for (int run = 0; run < 10; ++run) {
+        write_run("new/good", sequence, run, (0.01 + 0.0005 * run) * change);
+        write_run("new/bad", sequence, run, (0.03 + 0.0013 * run) * change);
+      }
+    }
+    test::eval({path("truths"), path("new"), "--store", path(store)});
+    Baseline baseline;
+    baseline.limits = {Tolerance{}};
+    baseline.limits.front().where = {"metric=ate"};
+    baseline.snapshot = snapshot(path("old"), baseline.limits);
+    return check(baseline, snapshot(path(store), baseline.limits));
+  };
+  test::eval({path("truths"), path("systems"), "--store", path("old")});
+  EXPECT_TRUE(gate(1.0, "equal").findings.empty());
+  const GateReport better = gate(0.5, "better");
+  EXPECT_TRUE(better.passes());
+  EXPECT_GT(better.count(Finding::Kind::improvement), 0u);
+  EXPECT_FALSE(gate(2.0, "worse").passes());
+  // Another reference is another sequence.
+  write_tum(path("truths/office.txt"), path_of(0.005));
+  EXPECT_THROW(gate(1.0, "moved"), InputError);
+}
+
+}  // namespace
+}  // namespace loopbench::eval_store_options_test
