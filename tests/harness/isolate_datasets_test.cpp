@@ -1,0 +1,90 @@
+/// Datasets of plugins that change their worker: only their own cells fail.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <functional>
+
+#include "harness/execution/isolate/worker.hpp"
+#include "tests/support/isolated_fixture.hpp"
+
+namespace loopbench::isolate_datasets_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+class IsolatedDatasets : public isolated::IsolatedFixture {};
+
+using Load = std::function<void()>;
+
+/// `line`, after a deed of the dataset.
+DatasetEntry line_after(const std::string& name, const Load& deed) {
+  return dataset<tiny::LineOptions>(
+      name, "", [=](const tiny::LineOptions& options, const DataRoot& root) {
+        deed();
+        return tiny::load_line(options, root);
+      });
+}
+
+/// Calls `work` with every socket of this process above the standard streams.
+void for_sockets(const std::function<void(int)>& work) {
+  for (int descriptor = 3; descriptor < 4096; ++descriptor) {
+    int kind = 0;
+    socklen_t size = sizeof kind;
+    if (getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &kind, &size) == 0) work(descriptor);
+  }
+}
+
+template <class T>
+void write_to_sockets(const T& bytes) {
+  for_sockets([&](int socket) { send(socket, &bytes, sizeof bytes, MSG_NOSIGNAL); });
+}
+
+TEST_F(IsolatedDatasets, ADatasetThatWritesToTheSocketCostsItsCells) {
+  std::array<char, 4096> stray;
+  stray.fill('x');
+  const Load strays = [=] { write_to_sockets(stray); };
+  const Load one_byte = [] { write_to_sockets('\0'); };
+  const Load waits_for_more = [] {
+    write_to_sockets(Header{Header::Kind::loaded, 0, std::uint64_t{1} << 20});
+  };
+  const Load is_too_large = [] {
+    write_to_sockets(Header{Header::Kind::loaded, 0, ~std::uint64_t{0}});
+  };
+  int number = 0;
+  for (const Load& deed : {strays, one_byte, waits_for_more, is_too_large}) {
+    const std::string name = "writes" + std::to_string(number++);
+    known_.datasets.push_back(line_after(name, deed));
+    const std::vector<CellResult> results =
+        run("datasets: [" + name + ", line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
+    ASSERT_EQ(results.size(), 4u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(results[i].status, Status::crashed) << name;
+      EXPECT_TRUE(results[i].why.starts_with("its worker process sent a damaged message"))
+          << name << ": " << results[i].why;
+      EXPECT_EQ(results[2 + i].status, Status::ok) << name << ": " << results[2 + i].why;
+    }
+  }
+}
+
+TEST_F(IsolatedDatasets, AWorkerThatStopsAnsweringIsEnded) {
+  known_.datasets.push_back(line_after("deaf", [] {
+    static std::array<int, 2> ends;
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    for_sockets([&](int socket) {
+      if (socket != ends[0] && socket != ends[1]) dup2(ends[0], socket);
+    });
+  }));
+  const std::vector<CellResult> results =
+      run("datasets: [deaf, line]\nmethods: [straight]\nmetrics: [ate]\nlimits: {seconds: 1}\n", 1);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].status, Status::crashed);
+  EXPECT_TRUE(results[0].why.starts_with("its worker process stopped answering")) << results[0].why;
+  EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
+}
+
+}  // namespace
+}  // namespace loopbench::isolate_datasets_test
