@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/catalogue/floating_point_guard.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -24,6 +26,12 @@ bool decides(const OptionInfo& seed, const Params& options) {
   const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");
   if (share == options.end()) return true;
   return share->second != Param{0.0} && share->second != Param{std::int64_t{0}};
+}
+
+/// What a dataset does to the floating-point mode must not change the results of methods.
+Sequence loaded(const DatasetEntry& entry, const Params& options, const DataRoot& root) {
+  const FloatingPointGuard guard;
+  return entry.load(options, root);
 }
 
 }  // namespace
@@ -59,7 +67,7 @@ Sequence load_sequence(const Cell& cell,
   for (const OptionInfo& option : entry.options) {
     if (is_seed(option)) options[option.name] = full.at(option.name);
   }
-  Sequence sequence = entry.load(options, root);
+  Sequence sequence = loaded(entry, options, root);
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference");
   return sequence;

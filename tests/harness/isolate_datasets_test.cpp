@@ -1,10 +1,17 @@
 /// Datasets of plugins that change their worker: only their own cells fail.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <array>
+#include <cfenv>
+#include <clocale>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 
+#include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/isolate/worker.hpp"
 #include "tests/support/isolated_fixture.hpp"
 
@@ -84,6 +91,55 @@ TEST_F(IsolatedDatasets, AWorkerThatStopsAnsweringIsEnded) {
   EXPECT_EQ(results[0].status, Status::crashed);
   EXPECT_TRUE(results[0].why.starts_with("its worker process stopped answering")) << results[0].why;
   EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
+}
+
+/// Reports the state of its process.
+struct ReportsState final : Corrector {
+  struct Options {};
+  explicit ReportsState(const Options&) {}
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    sigset_t blocked;
+    sigprocmask(SIG_SETMASK, nullptr, &blocked);
+    report.count("rounding", std::fegetround());
+    report.count("file mode mask", umask(0));
+    report.count("blocked", sigismember(&blocked, SIGUSR1));
+    report.count("ignored", std::signal(SIGUSR2, SIG_DFL) == SIG_IGN ? 1 : 0);
+    report.count("variable", std::getenv("LOOPBENCH_TEST_STATE") != nullptr ? 1 : 0);
+    report.notes = {std::filesystem::current_path().string(), std::setlocale(LC_ALL, nullptr)};
+    return problem.keyframes;
+  }
+};
+template <class Visit>
+void fields(ReportsState::Options&, Visit) {}
+
+TEST_F(IsolatedDatasets, ADatasetDoesNotChangeTheStateOfLaterCells) {
+  known_.methods.push_back(method<ReportsState>("reports_state", ""));
+  known_.datasets.push_back(line_after("meddles", [] {
+    std::fesetround(FE_UPWARD);
+    umask(0123);
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);
+    std::signal(SIGUSR2, SIG_IGN);
+    setenv("LOOPBENCH_TEST_STATE", "1", 1);
+    std::filesystem::current_path("/");
+    std::setlocale(LC_ALL, "C.UTF-8");
+  }));
+  const auto states = [&](const std::string& datasets) {
+    std::vector<std::string> out;
+    const std::string config =
+        "datasets: [" + datasets + "]\nmethods: [reports_state]\nmetrics: [ate]\n";
+    for (const CellResult& result : run(config, 1)) {
+      EXPECT_EQ(result.status, Status::ok) << result.why;
+      Packer pack;
+      pack(result.report.counts)(result.report.notes)(result.scores);
+      out.push_back(pack.bytes());
+    }
+    return out;
+  };
+  const std::vector<std::string> alone = states("line");
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(states("meddles, line"), (std::vector{alone[0], alone[0]}));
 }
 
 }  // namespace

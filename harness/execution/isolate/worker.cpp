@@ -12,6 +12,7 @@
 #include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/process_state.hpp"
 #include "harness/execution/isolate/process_tree.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
@@ -80,7 +81,10 @@ void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
 /// While it loads, the worker ends with the sweep; while a cell runs, it ends the cell first.
 const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const LoadedSequences::Entry& out = loaded.load(cell);
+  const LoadedSequences::Entry& out = [&]() -> const LoadedSequences::Entry& {
+    const ProcessState state;
+    return loaded.load(cell);
+  }();
   prctl(PR_SET_PDEATHSIG, 0);
   malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
   return out;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
@@ -138,7 +139,10 @@ void score(CellResult& result,
   row.coverage = evaluation.coverage;
   catch_errors(row, [&] {
     const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
+    std::vector<metrics::Score> scores = [&] {
+      const FloatingPointGuard guard;  // for the metrics after it
+      return metric.score(evaluation, choice.metric.options);
+    }();
     check_scores(scores);
     for (metrics::Score& score : scores) {
       result.scores.push_back(row);
