@@ -246,6 +246,17 @@ TEST_F(CheckOutput, AnExceptionWithoutAMessageHasAReason) {
             "threw an exception without a message");
 }
 
+TEST_F(CheckOutput, ACurveIsCheckedWheneverItIsSampled) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              const auto calls = std::make_shared<int>(0);
+              return std::make_unique<Changed>(problem.keyframes, [=](auto, auto poses) {
+                if (++*calls <= 3) return;
+                for (Pose& p : poses) p.rotation.coeffs() *= 5.0;
+              });
+            }),
+            "the curve at 0.0 s: the quaternion has norm 5.0, expected 1 within 1e-6");
+}
+
 struct NoOptions {};
 template <class Visit>
 void fields(NoOptions&, Visit) {}

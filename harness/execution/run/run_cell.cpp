@@ -9,6 +9,7 @@
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
+#include "harness/execution/run/checked_curve.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/incomplete.hpp"
@@ -265,24 +266,31 @@ CellResult run_cell(const Cell& cell,
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
+    const CheckedCurve checked(*curve);
     const std::string unmoved = movement_note(sequence.problem,
-                                              curve->sample(stamps(sequence.problem.keyframes)),
+                                              checked.sample(stamps(sequence.problem.keyframes)),
                                               result.report,
                                               uses_closures(choice, catalogue));
     if (!unmoved.empty()) result.report.notes.push_back(unmoved);
-    save_estimate(cell, sweep, sequence, *curve);
+    save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
-      add_scores_without_reference(result, sweep, sequence, *curve, catalogue);
+      add_scores_without_reference(result, sweep, sequence, checked, catalogue);
+      checked.require_valid_so_far();
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
-        add_scores(result, row, sweep, sequence, *curve, catalogue);
+        add_scores(result, row, sweep, sequence, checked, catalogue);
       }
     }
+    checked.require_valid_so_far();
   });
+  if (is_failure(result.status)) {  // scores of an invalid curve have no meaning
+    result.scores.clear();
+    result.trace = {};
+  }
   return result;
 }
 
