@@ -246,6 +246,11 @@ TEST_F(CheckOutput, AnExceptionWithoutAMessageHasAReason) {
             "threw an exception without a message");
 }
 
+TEST_F(CheckOutput, AnEmptyMessageIsReplaced) {
+  EXPECT_EQ(why([](Trajectory&, Report&) { throw std::runtime_error(""); }),
+            "threw an exception without a message");
+}
+
 TEST_F(CheckOutput, ACurveIsCheckedWheneverItIsSampled) {
   EXPECT_EQ(why_smoothed([](const Problem& problem) {
               const auto calls = std::make_shared<int>(0);

@@ -11,8 +11,10 @@
 #include <filesystem>
 #include <functional>
 
+#include "harness/execution/isolate/cell_output.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/isolate/worker.hpp"
+#include "harness/execution/run/check_output.hpp"
 #include "tests/support/isolated_fixture.hpp"
 
 namespace loopbench::isolate_datasets_test {
@@ -140,6 +142,47 @@ TEST_F(IsolatedDatasets, ADatasetDoesNotChangeTheStateOfLaterCells) {
   const std::vector<std::string> alone = states("line");
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_EQ(states("meddles, line"), (std::vector{alone[0], alone[0]}));
+}
+
+TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "talks", "", [](const tiny::LineOptions& options, const DataRoot& root) {
+        Sequence out = tiny::load_line(options, root);
+        out.provenance.notes.assign(2 * kMostItems, std::string(100'000, 'n'));
+        return out;
+      }));
+  testing::internal::CaptureStderr();
+  const std::vector<CellResult> results =
+      run("datasets: [talks]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+  EXPECT_LT(testing::internal::GetCapturedStderr().size(), 3'000'000u);
+  ASSERT_EQ(results.size(), 1u);
+  ASSERT_TRUE(results[0].metadata);
+  ASSERT_EQ(results[0].metadata->notes.size(), kMostItems + 1);
+  EXPECT_TRUE(results[0].metadata->notes[0].ends_with("nn ... (98000 more bytes)"));
+}
+
+TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {
+  const auto message = [&](const std::string& name, const std::string& text) -> std::string {
+    known_.datasets.push_back(line_after(name, [=] { throw std::runtime_error(text); }));
+    try {
+      run("datasets: [" + name + "]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_TRUE(
+      message("long", std::string(20'000'000, 'z')).ends_with("z ... (19990000 more bytes)"));
+  EXPECT_EQ(message("empty", ""), "empty: loading threw an exception without a message");
+  EXPECT_EQ(message("usual", "why"), "why");
+}
+
+TEST(CellOutput, ControlCharactersDoNotReachTheTerminal) {
+  std::string text = "a\x1b[2J\tb\r\n\x7f\xc3\xa9\xc2\x9b";
+  char previous = '\0';
+  make_printable(text, previous);
+  EXPECT_EQ(text, "a?[2J\tb\r\n?\xc3\xa9\xc2?");
+  EXPECT_EQ(previous, '\x9b');
 }
 
 }  // namespace

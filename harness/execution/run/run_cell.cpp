@@ -39,9 +39,10 @@ metrics::Context context_of(const Sequence& sequence,
 
 using Clock = std::chrono::steady_clock;
 
-/// what() of a plugin's exception can be null.
+/// what() of a plugin's exception can be null or empty.
 const char* message_of(const std::exception& error) {
-  return error.what() != nullptr ? error.what() : "threw an exception without a message";
+  const char* out = error.what();
+  return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
 }
 
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
@@ -260,7 +261,7 @@ CellResult run_cell(const Cell& cell,
     const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
-      result.why = stored_reason(*why);
+      result.why = why->empty() ? "declined without a reason" : stored_reason(*why);
       return;
     }
     const std::unique_ptr<const Curve> curve =
