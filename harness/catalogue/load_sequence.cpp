@@ -1,6 +1,11 @@
 #include "harness/catalogue/load_sequence.hpp"
 
 #include <algorithm>
+#include <string_view>
+
+#include "datasets/core/error.hpp"
+#include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/text/shortened.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -24,6 +29,24 @@ bool decides(const OptionInfo& seed, const Params& options) {
   const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");
   if (share == options.end()) return true;
   return share->second != Param{0.0} && share->second != Param{std::int64_t{0}};
+}
+
+/// What a dataset does to the floating-point mode must not change the results of methods. Replaces
+/// messages of exceptions that are empty or too long to print; others keep their type.
+Sequence loaded(const DatasetEntry& entry,
+                const Params& options,
+                const DataRoot& root,
+                const std::string& label) {
+  constexpr std::size_t kLongestMessage = 10'000;  // [bytes]
+  const FloatingPointGuard guard;
+  try {
+    return entry.load(options, root);
+  } catch (const std::exception& error) {
+    const std::string_view text = error.what() != nullptr ? error.what() : "";
+    if (!text.empty() && text.size() <= kLongestMessage) throw;
+    if (text.empty()) throw InputError(label + ": loading threw an exception without a message");
+    throw InputError(shortened(text, kLongestMessage));
+  }
 }
 
 }  // namespace
@@ -59,7 +82,7 @@ Sequence load_sequence(const Cell& cell,
   for (const OptionInfo& option : entry.options) {
     if (is_seed(option)) options[option.name] = full.at(option.name);
   }
-  Sequence sequence = entry.load(options, root);
+  Sequence sequence = loaded(entry, options, root, choice.label);
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference");
   return sequence;

@@ -47,15 +47,17 @@ CommandSetting command_setting(const Sweep& sweep) {
   return {folder.empty() ? "." : folder, sweep.limits.memory};
 }
 
+bool runs_programs(const MethodChoice& choice) {
+  return std::ranges::any_of(
+      choice.stages, [](const Choice& stage) { return find_external(stage.name) != nullptr; });
+}
+
 bool uses_programs(const Sweep& sweep) {
   const auto runs_program = [](const DatasetChoice& choice) {
     return choice.dataset.name == kCommandDataset;
   };
   if (std::ranges::any_of(sweep.datasets, runs_program)) return true;
-  return std::ranges::any_of(sweep.methods, [](const MethodChoice& choice) {
-    return std::ranges::any_of(
-        choice.stages, [](const Choice& stage) { return find_external(stage.name) != nullptr; });
-  });
+  return std::ranges::any_of(sweep.methods, runs_programs);
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {

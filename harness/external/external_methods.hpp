@@ -28,6 +28,9 @@ const ExternalMethod* find_external(const std::string& name);
 /// Programs of a sweep run in the folder of its config, under its memory limit.
 CommandSetting command_setting(const Sweep& sweep);
 
+/// Whether any stage of the method runs a program.
+bool runs_programs(const MethodChoice& choice);
+
 /// Whether any of its methods or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
 

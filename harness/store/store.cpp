@@ -80,6 +80,20 @@ void check_size(Database& database, const std::filesystem::path& file) {
       whole));
 }
 
+/// SQLite follows symbolic links, also dangling ones: it would write a file elsewhere.
+void reject_links(const std::filesystem::path& file) {
+  for (const char* tail : {"", "-wal", "-shm", "-journal"}) {
+    const std::filesystem::path part = file.string() + tail;
+    std::error_code none;
+    const std::filesystem::file_status status = std::filesystem::symlink_status(part, none);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) continue;
+    const bool is_link = std::filesystem::is_symlink(status);
+    throw InputError(part.string() +
+                     (is_link ? ": is a symbolic link" : ": is not a regular file") +
+                     ", expected a store of results; remove it, or use another --out");
+  }
+}
+
 /// Whether the process was killed between creating the file and its tables.
 bool is_empty(Database& database) {
   Statement count = database.prepare("SELECT count(*) FROM sqlite_master");
@@ -137,6 +151,7 @@ Store::Store(std::filesystem::path file,
              std::map<std::string, std::string> provenance,
              bool fresh)
     : file_(std::move(file)), keys_(keys), provenance_(std::move(provenance)), fresh_(fresh) {
+  reject_links(file_);
   const std::filesystem::path folder = folder_of(file_);
   if (std::filesystem::is_directory(folder)) lock_ = std::make_unique<FolderLock>(folder);
   if (fresh_ || !std::filesystem::exists(file_)) return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "tests/support/tiny_store.hpp"
 
@@ -243,6 +244,43 @@ TEST_F(CheckOutput, AnExceptionWithoutAMessageHasAReason) {
   };
   EXPECT_EQ(why([](Trajectory&, Report&) { throw Silent(); }),
             "threw an exception without a message");
+}
+
+TEST_F(CheckOutput, AnEmptyMessageIsReplaced) {
+  EXPECT_EQ(why([](Trajectory&, Report&) { throw std::runtime_error(""); }),
+            "threw an exception without a message");
+}
+
+TEST_F(CheckOutput, ACurveIsCheckedWheneverItIsSampled) {
+  EXPECT_EQ(why_smoothed([](const Problem& problem) {
+              const auto calls = std::make_shared<int>(0);
+              return std::make_unique<Changed>(problem.keyframes, [=](auto, auto poses) {
+                if (++*calls <= 3) return;
+                for (Pose& p : poses) p.rotation.coeffs() *= 5.0;
+              });
+            }),
+            "the curve at 0.0 s: the quaternion has norm 5.0, expected 1 within 1e-6");
+}
+
+struct NoOptions {};
+template <class Visit>
+void fields(NoOptions&, Visit) {}
+
+TEST_F(CheckOutput, AScoreWithoutADirectionOrTargetFailsAndItsCellIsStored) {
+  const auto add_metric = [&](const char* name, const Score& score) {
+    known_.metrics.push_back(metric<NoOptions>(
+        name, "", [=](const Evaluation&, const NoOptions&) { return std::vector{score}; }));
+  };
+  Score score = single("x", "", "1", 1.0);
+  add_metric("no_target", directed(score, Better::target, kNan));
+  add_metric("no_direction", directed(score, static_cast<Better>(77)));
+  run("datasets: [line]\nmethods: [straight]\nmetrics: [no_target, no_direction, ate]\n");
+  std::map<std::string, std::string> why;
+  for (const Record& record : read_records(file_)) why[record.metric] = record.why;
+  EXPECT_EQ(why["no_target"], "score 1 has the target nan, expected a finite number");
+  EXPECT_EQ(why["no_direction"],
+            "score 1 has no direction: better is 77, expected lower, higher, target or neither");
+  EXPECT_EQ(why.at("ate"), "");
 }
 
 TEST(StoredReason, IsOneLineAndKeepsWholeCharacters) {

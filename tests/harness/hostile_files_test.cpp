@@ -143,6 +143,24 @@ TEST_F(HostileFiles, NoCommandWaitsForAPipeInPlaceOfAStore) {
             "loopbench: pipe: is not a regular file, expected a store of results\n");
 }
 
+TEST_F(HostileFiles, AStoreIsNotWrittenThroughALink) {
+  fs::create_directory(folder_.path() / "l");
+  folder_.file("empty", "");
+  for (const char* target : {"absent", "empty"}) {
+    for (const char* part : {"results.sqlite", "results.sqlite-wal"}) {
+      fs::create_symlink(folder_.path() / target, folder_.path() / "l" / part);
+      EXPECT_EQ(run("run s.yaml --out l", ">/dev/null").exit_code, 2) << target;
+      EXPECT_EQ(read_all(folder_.path() / "err"),
+                std::string("loopbench: l/") + part + ": is a symbolic link, expected a store of " +
+                    "results; remove it, or use another --out\n");
+      EXPECT_EQ(run("run s.yaml --out l --fresh", ">/dev/null").exit_code, 2) << target;
+      fs::remove(folder_.path() / "l" / part);
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder_.path() / "absent"));
+  EXPECT_EQ(fs::file_size(folder_.path() / "empty"), 0u);
+}
+
 TEST_F(HostileFiles, LinksInAFolderOfResultsAreReplacedAndNotFollowed) {
   const fs::path mine = folder_.file("mine", "precious");
   fs::create_directory(folder_.path() / "r");

@@ -3,12 +3,21 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/msg.h>
+#include <sys/sem.h>
+#include <sys/shm.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <functional>
+#include <initializer_list>
+#include <thread>
 
 #include "harness/execution/sandbox/landlock.hpp"
 #include "harness/execution/sandbox/seccomp.hpp"
@@ -21,11 +30,13 @@ using namespace harness;
 namespace {
 
 /// Exit code of `work` in a sandbox, in a process of its own.
-int in_sandbox(const SandboxOptions& options, const std::function<int()>& work) {
+int in_sandbox(const SandboxOptions& options,
+               const std::function<int()>& work,
+               FileAttributes attributes = FileAttributes::changeable) {
   const Sandbox sandbox(options, {getpid()});
   const pid_t child = fork();
   if (child == 0) {
-    sandbox.enter();
+    sandbox.enter(attributes);
     _exit(work());
   }
   int status = 0;
@@ -85,6 +96,52 @@ TEST_F(Sandboxed, NetworkSocketsAreRefusedAndLocalOnesAreNot) {
     EXPECT_EQ(in_sandbox({}, [&] { return error_of(socket(family, SOCK_DGRAM, 0)); }), EPERM);
   }
   EXPECT_EQ(in_sandbox({}, [] { return error_of(socket(AF_UNIX, SOCK_STREAM, 0)); }), 0);
+}
+
+TEST_F(Sandboxed, MemoryAndMessagesThatOutliveACellAreRefused) {
+  if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
+  const auto shared_memory = [] { return error_of(shmget(IPC_PRIVATE, 4096, IPC_CREAT | 0600)); };
+  EXPECT_EQ(in_sandbox({}, shared_memory), EPERM);
+  EXPECT_EQ(in_sandbox({}, [] { return error_of(msgget(IPC_PRIVATE, IPC_CREAT)); }), EPERM);
+  EXPECT_EQ(in_sandbox({}, [] { return error_of(semget(IPC_PRIVATE, 1, IPC_CREAT)); }), EPERM);
+  const auto queue = [] {
+    return error_of(syscall(SYS_mq_open, "loopbench_test", O_CREAT | O_RDWR, 0600, nullptr));
+  };
+  EXPECT_EQ(in_sandbox({}, queue), EPERM);
+}
+
+TEST_F(Sandboxed, NewNamespacesAreRefusedAndThreadsAreNot) {
+  if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
+  EXPECT_EQ(in_sandbox({}, [] { return error_of(unshare(CLONE_NEWUSER)); }), EPERM);
+  const auto cloned = [] {
+    const long child = syscall(SYS_clone, CLONE_NEWUSER | SIGCHLD, nullptr, nullptr, nullptr, 0);
+    if (child == 0) _exit(0);
+    return error_of(child);
+  };
+  EXPECT_EQ(in_sandbox({}, cloned), EPERM);
+  EXPECT_EQ(in_sandbox({}, [] { return error_of(syscall(SYS_clone3, nullptr, 0)); }), ENOSYS);
+  const auto thread = [] {
+    int out = 1;
+    std::thread([&] { out = 0; }).join();
+    return out;
+  };
+  EXPECT_EQ(in_sandbox({}, thread), 0);
+}
+
+TEST_F(Sandboxed, OnlyProgramsChangeModesAndTimesOfFiles) {
+  if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
+  const std::string reference = file("reference.txt");
+  const auto mode = [&] { return error_of(chmod(reference.c_str(), 0600)); };
+  const auto times = [&] { return error_of(utimensat(AT_FDCWD, reference.c_str(), nullptr, 0)); };
+  const auto owner = [&] { return error_of(chown(reference.c_str(), getuid(), getgid())); };
+  const auto attribute = [&] { return error_of(setxattr(reference.c_str(), "user.x", "x", 1, 0)); };
+  const auto open_file = [&] { return error_of(fchmod(open(reference.c_str(), O_RDONLY), 0600)); };
+  for (const std::function<int()>& change :
+       std::initializer_list<std::function<int()>>{mode, times, owner, attribute, open_file}) {
+    EXPECT_EQ(in_sandbox({}, change, FileAttributes::fixed), EPERM);
+  }
+  EXPECT_EQ(in_sandbox({}, mode), 0);
+  EXPECT_EQ(in_sandbox({}, times), 0);
 }
 
 TEST_F(Sandboxed, GuardedProcessesCannotBeSignalled) {

@@ -100,6 +100,8 @@ const Fate kFates[] = {
     {"trace_parent", "failed", "ptrace: "},
     {"read_file", "failed", "open: Permission denied"},
     {"write_file", "failed", "create: Permission denied"},
+    {"share_memory", "failed", "shmget: Operation not permitted"},
+    {"change_mode", "failed", "chmod: Operation not permitted"},
 };
 constexpr std::size_t kBetween = 8;  ///< beasts between two honest cells
 
@@ -133,7 +135,7 @@ class Zoo : public testing::Test {
         methods += "  - {method: " + kHonest + ", label: honest" + std::to_string(beasts) + "}\n";
       }
       methods += std::string("  - {method: ") + fate.method + ", label: " + fate.method;
-      if (fate.method == std::string("read_file")) {
+      if (fate.method == std::string("read_file") || fate.method == std::string("change_mode")) {
         methods += ", path: " + (folder_.path() / "truth.txt").string();
       }
       if (fate.method == std::string("write_file")) {

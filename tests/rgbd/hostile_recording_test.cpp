@@ -67,6 +67,20 @@ TEST_F(HostileRecording, ReadsRegularFilesOnlyAlsoBehindLinks) {
   EXPECT_TRUE(why.ends_with("rgb/0001.png: is a folder, expected an image")) << why;
 }
 
+TEST_F(HostileRecording, DoesNotWaitForPipesInItsFolder) {
+  for (const char* name : {"camera.yaml", "groundtruth.txt", "depth.txt", "rgb.txt"}) {
+    const std::filesystem::path file = folder_.path() / name;
+    const std::filesystem::path kept = folder_.path() / "kept";
+    const bool exists = std::filesystem::exists(file);
+    if (exists) std::filesystem::rename(file, kept);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    EXPECT_TRUE(refuses_with(std::string(name) + ": is not a regular file, expected a text file"));
+    std::filesystem::remove(file);
+    if (exists) std::filesystem::rename(kept, file);
+  }
+  EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(HostileRecording, HasOwnContentForEveryReasonThatAFileCannotBeRead) {
   const std::filesystem::path image = folder_.path() / "rgb" / "0001.png";
   const auto source = open();

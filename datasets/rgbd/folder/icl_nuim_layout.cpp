@@ -50,10 +50,10 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
   out.camera = icl_nuim_camera();
   const fs::path camera = folder / "camera.yaml";
   if (fs::exists(camera)) {
-    out.camera = read_camera(camera);
+    out.camera = read_camera(regular(camera));
     out.lists.push_back(camera);
   }
-  TextFile list(folder / "associations.txt");
+  TextFile list(regular(folder / "associations.txt"));
   out.lists.push_back(folder / "associations.txt");
   Line line;
   double previous = -1.0;
@@ -85,7 +85,7 @@ Recording read_icl_nuim_layout(const fs::path& folder, const FolderOptions& opti
   out.reference_file = truth;
   ReadOptions read_options;
   read_options.format = Format::tum;
-  for (const StampedPose& pose : read_trajectory(truth, read_options)) {
+  for (const StampedPose& pose : read_trajectory(regular(truth), read_options)) {
     out.reference.push_back({pose.stamp / options.rate, with_y_down(pose.world_from_body)});
   }
   return out;

@@ -13,8 +13,15 @@ void require_inside(const TextFile& list, const Line& line, const std::string& f
                    "'" + file + "' is outside of the folder of the list, expected a path below it");
 }
 
+std::filesystem::path regular(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(file, none);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return file;
+  throw input_error(file.string(), 0, "is not a regular file, expected a text file");
+}
+
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list) {
-  TextFile file(list);
+  TextFile file(regular(list));
   std::vector<ListedImage> out;
   Line line;
   while (file.next(line)) {

@@ -18,6 +18,10 @@ struct ListedImage {
 /// the folder of the list. Symbolic links in that folder can still lead elsewhere.
 void require_inside(const TextFile& list, const Line& line, const std::string& file);
 
+/// Returns the file. Throws InputError if it exists and is no regular file: nobody named it, so a
+/// pipe is a mistake, and its reader would wait for a writer. Follows symbolic links.
+std::filesystem::path regular(const std::filesystem::path& file);
+
 /// Reads lines of `stamp file` (rgb.txt of TUM RGB-D). Throws InputError `file:line: what` for
 /// another number of columns, a stamp that does not increase, a path outside of the list's folder,
 /// and a list without images.

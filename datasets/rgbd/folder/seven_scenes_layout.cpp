@@ -17,7 +17,7 @@ fs::path frame_file(const fs::path& folder, std::size_t index, const char* suffi
 
 /// Reads world_from_camera as a 4 x 4 matrix.
 Pose read_pose(const fs::path& path) {
-  TextFile file(path);
+  TextFile file(regular(path));
   Eigen::Matrix4d T;
   Line line;
   for (int row = 0; row < 4; ++row) {
@@ -44,7 +44,7 @@ Recording read_seven_scenes_layout(const fs::path& folder, const FolderOptions& 
   out.camera = unregistered_kinect().depth;
   const fs::path camera = folder / "camera.yaml";
   if (fs::exists(camera)) {
-    out.camera = read_camera(camera);
+    out.camera = read_camera(regular(camera));
     out.lists.push_back(camera);
   }
   std::size_t poses = 0;

@@ -26,7 +26,7 @@ Camera camera_for(const fs::path& folder, CameraChoice choice, std::vector<fs::p
   const fs::path file = folder / "camera.yaml";
   if (choice == CameraChoice::file || fs::exists(file)) {
     lists.push_back(file);
-    return read_camera(file);
+    return read_camera(regular(file));
   }
   if (const int k = freiburg_in(folder)) return tum_camera(k);
   throw input_error(
@@ -64,7 +64,7 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
     ReadOptions read_options;
     read_options.format = Format::tum;
     read_options.repeats = Repeats::keep_first;
-    out.reference = read_trajectory(truth, read_options);
+    out.reference = read_trajectory(regular(truth), read_options);
     out.reference_file = truth;
   } else {
     out.notes.emplace_back("no groundtruth.txt: no evaluation against a reference");

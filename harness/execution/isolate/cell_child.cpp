@@ -17,6 +17,7 @@
 #include "harness/execution/run/process_usage.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/execution/sandbox/system_file.hpp"
+#include "harness/external/external_methods.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -94,9 +95,10 @@ void run_cell_and_exit(const CellChild& child) {
   limit_memory(child.context.sweep.limits.memory);
   set_freshly_forked();
   warm_heap();
-  child.sandbox.enter();
-  connect_streams(child.input, child.output, child.kept);
   const Sweep& sweep = child.context.sweep;
+  child.sandbox.enter(runs_programs(sweep.methods[child.cell.method]) ? FileAttributes::changeable
+                                                                      : FileAttributes::fixed);
+  connect_streams(child.input, child.output, child.kept);
   CellResult result = run_cell(child.cell, sweep, child.sequence, child.context.catalogue);
   result.worker = {true, sweep.serial, is_pinned};
   apply_memory_limit(sweep.limits, result);

@@ -8,6 +8,16 @@
 
 namespace loopbench::harness {
 
+void make_printable(std::span<char> text, char& previous) {
+  for (char& each : text) {
+    const auto byte = static_cast<unsigned char>(each);
+    const bool is_space = each == '\n' || each == '\t' || each == '\r';
+    const bool is_c1 = previous == '\xc2' && byte >= 0x80 && byte <= 0x9f;
+    previous = each;
+    if ((byte < 0x20 && !is_space) || byte == 0x7f || is_c1) each = '?';
+  }
+}
+
 CellOutput::CellOutput() {
   if (pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error("cannot create a pipe");
   fcntl(ends_[0], F_SETFL, O_NONBLOCK);
@@ -36,6 +46,7 @@ bool CellOutput::forward() {
     if (size == 0) close_read_end();
     const std::int64_t shown = std::clamp<std::int64_t>(kForwarded - total_, 0, size);
     if (shown > 0) {
+      make_printable({buffer, static_cast<std::size_t>(shown)}, last_);
       [[maybe_unused]] const ssize_t written =
           write(STDERR_FILENO, buffer, static_cast<std::size_t>(shown));
     }

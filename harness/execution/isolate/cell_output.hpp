@@ -2,8 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace loopbench::harness {
+
+/// Replaces control characters (C0 except newline, tab and carriage return, DEL, C1 in UTF-8) by
+/// '?', so that a method cannot send escape sequences to the terminal. `previous`: the byte before
+/// the text, and after the call its last byte.
+void make_printable(std::span<char> text, char& previous);
 
 /// Forwards the beginning of what a cell prints to standard error and counts the rest.
 class CellOutput {
@@ -28,6 +34,7 @@ class CellOutput {
 
   int ends_[2] = {-1, -1};
   std::int64_t total_ = 0;
+  char last_ = '\0';  ///< forwarded
 };
 
 }  // namespace loopbench::harness

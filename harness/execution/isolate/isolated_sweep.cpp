@@ -89,6 +89,7 @@ class IsolatedSweep {
         slot.step = 0;
         slot.ended_by_limit = 0;
       }
+      if (slot.jobs.empty()) slot.clock.restart();
       slot.jobs.push_back(*job);
       slot.process->send(*job);
     }
@@ -118,27 +119,27 @@ class IsolatedSweep {
   }
 
   void read_answers(WorkerSlot& slot) {
+    constexpr const char* kDamage = "its worker process sent a damaged message";
+    if (slot.is_lost) return slot.bytes.clear();
     std::size_t at = 0;
     for (;;) {
       Header header;
       if (slot.bytes.size() - at < sizeof header) break;
       std::memcpy(&header, slot.bytes.data() + at, sizeof header);
+      const bool is_expected =
+          header.is_valid() && !slot.jobs.empty() && header.cell == slot.jobs.front().cell;
+      if (!is_expected || slot.process->has_stray_bytes()) return give_up(slot, kDamage);
       if (header.size > slot.bytes.size() - at - sizeof header) break;
       const std::string_view body(slot.bytes.data() + at + sizeof header, header.size);
-      if (!take(slot, header, body)) {
-        // It has corrupted its own memory, so its other answers are not reliable.
-        slot.process->kill();
-        at = slot.bytes.size();
-        break;
-      }
+      if (!take(slot, header, body)) return give_up(slot, kDamage);
       at += sizeof header + header.size;
     }
     slot.bytes.erase(0, at);
+    if (slot.process->has_stray_bytes()) give_up(slot, kDamage);
   }
 
-  /// False for invalid messages, which only a corrupted worker sends.
+  /// Takes an answer to the first job. False for invalid ones, which only a corrupted worker sends.
   bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
-    if (slot.jobs.empty() || header.cell != slot.jobs.front().cell) return false;
     if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
     if (header.kind == Header::Kind::cannot_run) {
       throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
@@ -203,6 +204,7 @@ class IsolatedSweep {
 
   /// Handles the end of a worker: sets the result of what it did and requeues its other jobs.
   void reap(WorkerSlot& slot) {
+    const bool is_lost = std::exchange(slot.is_lost, false);
     const bool idle = slot.is_idle();
     const bool loading = slot.is_loading();
     const bool by_limit = !loading && slot.process->ended_by_limit() > slot.ended_by_limit;
@@ -214,15 +216,18 @@ class IsolatedSweep {
     std::optional<CellResult> result = std::exchange(slot.verdict, std::nullopt);
     if (jobs.empty()) return;
     const Job first = jobs.front();
-    if (!idle || !result) jobs.pop_front();  // otherwise it was killed after its last answer
+    // Otherwise it was killed after its last answer, or lost before it got the job.
+    const bool is_to_blame = is_lost ? result.has_value() : !idle || !result;
+    if (is_to_blame) jobs.pop_front();
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
-    if (idle && result) return;
+    if (!is_to_blame) return;
     if (!result) {
       result = crash_of_worker(end, loading, by_limit);
       if (!by_limit && killed_.runs_again(first.cell, result->signal)) return requeue(first);
     }
     set_conditions(*result, first.cell);
-    if (loading) load_failures_[queue_.group_of(first.cell)] = *result;
+    if (loading || (is_lost && first.only_load))
+      load_failures_[queue_.group_of(first.cell)] = *result;
     if (!first.only_load) finish(*result, first.cell);
   }
 

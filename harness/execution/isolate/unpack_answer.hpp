@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -30,7 +31,8 @@ inline bool is_valid(const CellResult& result, const Sweep& sweep) {
   return is_choice(result.status) && is_choice(result.trace.times) &&
          std::ranges::all_of(result.scores, [&](const ScoreResult& score) {
            return score.protocol < sweep.protocols.size() && is_choice(score.times) &&
-                  is_choice(score.status);
+                  is_choice(score.status) && is_choice(score.score.better) &&
+                  std::isfinite(score.score.target);
          });
 }
 

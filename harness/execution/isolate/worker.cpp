@@ -12,6 +12,7 @@
 #include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/process_state.hpp"
 #include "harness/execution/isolate/process_tree.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
@@ -47,10 +48,17 @@ bool receive_all(int socket, void* data, std::size_t size) {
   return true;
 }
 
-bool answer(int socket, Header::Kind kind, std::uint64_t cell, const std::string& bytes) {
-  const Header header{kind, cell, bytes.size()};
-  return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
-}
+/// Messages to the sweep.
+struct Answers {
+  int socket;
+  SharedStatus& shared_status;
+
+  bool send(Header::Kind kind, std::uint64_t cell, const std::string& bytes) const {
+    const Header header{kind, cell, bytes.size()};
+    shared_status.sent += sizeof header + bytes.size();
+    return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
+  }
+};
 
 /// Temporary files of programs. Programs end before their files are removed.
 struct Programs {
@@ -73,7 +81,10 @@ void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
 /// While it loads, the worker ends with the sweep; while a cell runs, it ends the cell first.
 const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const LoadedSequences::Entry& out = loaded.load(cell);
+  const LoadedSequences::Entry& out = [&]() -> const LoadedSequences::Entry& {
+    const ProcessState state;
+    return loaded.load(cell);
+  }();
   prctl(PR_SET_PDEATHSIG, 0);
   malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
   return out;
@@ -90,6 +101,7 @@ void run_worker(const WorkerContext& context,
   keep_heap_compact();
   std::optional<Programs> programs;
   if (uses_programs(context.sweep)) programs.emplace();
+  const Answers answers{socket, shared_status};
   LoadedSequences loaded(context);
   const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
   CellProcesses cell_processes(context, socket, core, scratch, group);
@@ -103,16 +115,16 @@ void run_worker(const WorkerContext& context,
       try {
         entry = &load(loaded, cell);
       } catch (const std::exception& error) {
-        answer(socket, Header::Kind::cannot_load, job.cell, error.what());
+        answers.send(Header::Kind::cannot_load, job.cell, error.what());
         return;
       }
       Packer metadata;
       metadata(entry->metadata);
-      if (!answer(socket, Header::Kind::loaded, job.cell, metadata.bytes())) return;
+      if (!answers.send(Header::Kind::loaded, job.cell, metadata.bytes())) return;
     }
     if (job.only_load) {
       set_status(shared_status, SharedStatus::kIdle, false);
-      if (!answer(socket, Header::Kind::only_loaded, job.cell, "")) return;
+      if (!answers.send(Header::Kind::only_loaded, job.cell, "")) return;
       continue;
     }
     set_status(shared_status, job.cell, false);
@@ -120,11 +132,11 @@ void run_worker(const WorkerContext& context,
     try {
       result = cell_processes.run(cell, *entry);
     } catch (const std::exception& error) {
-      answer(socket, Header::Kind::cannot_run, job.cell, error.what());
+      answers.send(Header::Kind::cannot_run, job.cell, error.what());
       return;
     }
     set_status(shared_status, SharedStatus::kIdle, false);
-    if (!answer(socket, Header::Kind::result, job.cell, result)) return;
+    if (!answers.send(Header::Kind::result, job.cell, result)) return;
   }
 }
 

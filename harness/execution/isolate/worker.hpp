@@ -21,6 +21,7 @@ struct SharedStatus {
   std::atomic<bool> loading = false;       ///< loading the sequence, before the cell itself
   std::atomic<std::int64_t> memory = 0;    ///< of the worker when it began to load [bytes]
   std::atomic<std::uint64_t> step = 0;     ///< number of changes
+  std::atomic<std::uint64_t> sent = 0;     ///< by the worker, at least what it has sent [bytes]
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
@@ -41,6 +42,10 @@ struct Header {
   Kind kind = Kind::result;
   std::uint64_t cell = 0;
   std::uint64_t size = 0;
+
+  static constexpr std::uint64_t kMost = std::uint64_t{1} << 30;  ///< of `size` [bytes]
+
+  bool is_valid() const { return kind <= Kind::only_loaded && size <= kMost; }
 };
 
 /// Data shared by all workers of a sweep; must outlive them.

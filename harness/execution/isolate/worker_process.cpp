@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -26,6 +27,16 @@ namespace {
 std::runtime_error creation_error(const std::string& what) {
   return std::runtime_error("cannot create a worker process: " + what + ": " +
                             std::strerror(errno));
+}
+
+/// The socket of a worker: far from the lowest descriptors, which careless code writes to or
+/// closes, but so low that the table of descriptors that each cell copies is small.
+int high_descriptor(int socket) {
+  constexpr rlim_t kHighest = 1023;
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  const auto wanted = static_cast<int>(std::min(files.rlim_cur - 1, kHighest));
+  return dup3(socket, wanted, O_CLOEXEC) == wanted ? wanted : socket;
 }
 
 /// Returns the worker's number to the sweep, in an own process, and 0 in the worker. An
@@ -92,17 +103,17 @@ void WorkerProcess::release() {
 void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
   group_.enter();
   // Close the sweep's files: the store, its lock and the other workers' sockets.
-  constexpr int kSocket = 3;
-  if (socket != kSocket) dup2(socket, kSocket);
-  fcntl(kSocket, F_SETFD, FD_CLOEXEC);
-  close_range(kSocket + 1, ~0u, 0);
+  const int own = high_descriptor(socket);
+  const auto number = static_cast<unsigned>(own);
+  close_range(STDERR_FILENO + 1, number - 1, 0);
+  close_range(number + 1, ~0u, 0);
   madvise(shared_status_, sizeof(SharedStatus), MADV_DONTFORK);  // not for cells
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   // If the system runs out of memory, it should kill the worker, not the sweep.
   write_system_file("/proc/self/oom_score_adj", "500");
-  run_worker(context, kSocket, *shared_status_, core, group_);
+  run_worker(context, own, *shared_status_, core, group_);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }
@@ -113,12 +124,15 @@ void WorkerProcess::send(const Job& job) {
 }
 
 void WorkerProcess::receive(std::string& bytes) {
+  constexpr std::size_t kMost = std::size_t{4} << 20;  // [bytes], more than a socket holds
   char buffer[1 << 16];
-  for (;;) {
+  for (std::size_t count = 0; count < kMost;) {
     const ssize_t got = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return;
     bytes.append(buffer, static_cast<std::size_t>(got));
+    count += static_cast<std::size_t>(got);
+    received_ += static_cast<std::uint64_t>(got);
   }
 }
 

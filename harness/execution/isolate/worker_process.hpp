@@ -21,8 +21,11 @@ class WorkerProcess {
   /// Does not block: a few jobs fit into the socket buffer. Errors are reported by receive().
   void send(const Job& job);
 
-  /// Appends received bytes to `bytes`.
+  /// Appends received bytes to `bytes`, a few megabytes at most.
   void receive(std::string& bytes);
+
+  /// Whether more was received than the worker has sent: code in its process wrote to the socket.
+  bool has_stray_bytes() const { return received_ > shared_status_->sent; }
 
   void kill() const;
 
@@ -51,6 +54,7 @@ class WorkerProcess {
   ControlGroup group_;
   SharedStatus* shared_status_ = nullptr;  ///< in shared memory
   int socket_ = -1;
+  std::uint64_t received_ = 0;  ///< [bytes]
   int descriptor_ = -1;
   pid_t process_ = -1;
 };

@@ -10,12 +10,34 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr double kGrace = 5.0;  // [s], for the worker to end a cell at its limit
+constexpr double kGrace = 5.0;            // [s], for the worker to end a cell at its limit
+constexpr double kLongestSilence = 60.0;  // [s], of a worker that has a job and is idle
+
+/// Code in its process can have read the job from the socket.
+void limit_silence(WorkerSlot& slot, double most) {
+  if (slot.seconds() > most + kGrace) give_up(slot, "its worker process stopped answering");
+}
 
 }  // namespace
 
+void give_up(WorkerSlot& slot, const std::string& why) {
+  if (!slot.jobs.empty()) {
+    slot.verdict.emplace();
+    slot.verdict->status = Status::crashed;
+    slot.verdict->signal = "SIGKILL";
+    slot.verdict->why =
+        why + ": code in it, of a dataset or a library, used descriptors that it did not open";
+  }
+  slot.is_lost = true;
+  slot.process->kill();
+}
+
 void apply_limits(WorkerSlot& slot, const Limits& limits) {
-  if (slot.verdict || slot.is_idle()) return;
+  if (slot.verdict || slot.is_lost || slot.jobs.empty()) return;
+  if (slot.is_idle()) {
+    const bool is_limited = limits.seconds > 0.0 && limits.seconds < kLongestSilence;
+    return limit_silence(slot, is_limited ? limits.seconds : kLongestSilence);
+  }
   const bool loading = slot.is_loading();
   const double seconds = slot.seconds();
   CellResult verdict;

@@ -20,7 +20,8 @@ struct WorkerSlot {
   std::string bytes;
   std::optional<std::size_t> group;   ///< of its last cell, see CellQueue
   std::optional<CellResult> verdict;  ///< the reason why the sweep killed it, without its cell
-  std::uint64_t step = 0;             ///< of the shared status, when the clock started
+  bool is_lost = false;    ///< killed because its messages or silence cannot be explained
+  std::uint64_t step = 0;  ///< of the shared status, when the clock started
   ActiveClock clock;
   std::int64_t ended_by_limit = 0;  ///< WorkerProcess::ended_by_limit() before the running cell
 
@@ -34,9 +35,12 @@ struct WorkerSlot {
   bool is_loading() const { return !is_idle() && process->shared_status().loading; }
 };
 
-/// Kills a worker that exceeds a limit while loading, or that does not end a cell that does. Sets
-/// the verdict.
+/// Kills a worker that exceeds a limit while loading, that does not end a cell that does, or that
+/// does not begin its job. Sets the verdict.
 void apply_limits(WorkerSlot& slot, const Limits& limits);
+
+/// Kills a worker whose messages cannot be used: of damaged ones, no later one is reliable.
+void give_up(WorkerSlot& slot, const std::string& why);
 
 /// Result of the cell or sequence of a worker that ended by itself or was killed; `by_limit`: by
 /// the memory limit of its control group.

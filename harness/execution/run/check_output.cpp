@@ -132,6 +132,14 @@ void check_scores(const std::vector<metrics::Score>& scores) {
       check_text(*text, kLongestName, name);
     }
     check_text(score.why_undefined, kLongestNote, name);
+    const auto directions = metrics::choices(score.better);
+    if (std::ranges::none_of(directions, [&](const auto& c) { return c.second == score.better; })) {
+      reject("score {} has no direction: better is {}, expected lower, higher, target or neither",
+             i + 1,
+             static_cast<int>(score.better));
+    }
+    if (std::isfinite(score.target)) continue;
+    reject("score {} has the target {}, expected a finite number", i + 1, score.target);
   }
 }
 

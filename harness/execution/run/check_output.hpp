@@ -32,7 +32,8 @@ void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& swee
 void check_report(const methods::Report& report);
 
 /// Throws std::runtime_error if a score cannot be stored or displayed: more scores or longer texts
-/// than the limits, texts that are not UTF-8 or contain control characters.
+/// than the limits, texts that are not UTF-8 or contain control characters, a direction that is
+/// none of Better, a target that is not finite.
 void check_scores(const std::vector<metrics::Score>& scores);
 
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote

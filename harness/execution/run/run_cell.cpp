@@ -6,8 +6,10 @@
 #include <exception>
 #include <new>
 
+#include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/check_output.hpp"
+#include "harness/execution/run/checked_curve.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/incomplete.hpp"
@@ -37,9 +39,10 @@ metrics::Context context_of(const Sequence& sequence,
 
 using Clock = std::chrono::steady_clock;
 
-/// what() of a plugin's exception can be null.
+/// what() of a plugin's exception can be null or empty.
 const char* message_of(const std::exception& error) {
-  return error.what() != nullptr ? error.what() : "threw an exception without a message";
+  const char* out = error.what();
+  return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
 }
 
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
@@ -138,7 +141,10 @@ void score(CellResult& result,
   row.coverage = evaluation.coverage;
   catch_errors(row, [&] {
     const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
+    std::vector<metrics::Score> scores = [&] {
+      const FloatingPointGuard guard;  // for the metrics after it
+      return metric.score(evaluation, choice.metric.options);
+    }();
     check_scores(scores);
     for (metrics::Score& score : scores) {
       result.scores.push_back(row);
@@ -255,30 +261,37 @@ CellResult run_cell(const Cell& cell,
     const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
     if (auto why = method->declines(sequence.problem)) {
       result.status = Status::declined;
-      result.why = stored_reason(*why);
+      result.why = why->empty() ? "declined without a reason" : stored_reason(*why);
       return;
     }
     const std::unique_ptr<const Curve> curve =
         timed(result, *method, sequence.problem, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
+    const CheckedCurve checked(*curve);
     const std::string unmoved = movement_note(sequence.problem,
-                                              curve->sample(stamps(sequence.problem.keyframes)),
+                                              checked.sample(stamps(sequence.problem.keyframes)),
                                               result.report,
                                               uses_closures(choice, catalogue));
     if (!unmoved.empty()) result.report.notes.push_back(unmoved);
-    save_estimate(cell, sweep, sequence, *curve);
+    save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
-      add_scores_without_reference(result, sweep, sequence, *curve, catalogue);
+      add_scores_without_reference(result, sweep, sequence, checked, catalogue);
+      checked.require_valid_so_far();
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
-        add_scores(result, row, sweep, sequence, *curve, catalogue);
+        add_scores(result, row, sweep, sequence, checked, catalogue);
       }
     }
+    checked.require_valid_so_far();
   });
+  if (is_failure(result.status)) {  // scores of an invalid curve have no meaning
+    result.scores.clear();
+    result.trace = {};
+  }
   return result;
 }
 

@@ -1,12 +1,28 @@
 #include "harness/execution/run/sequences.hpp"
 
+#include <algorithm>
+
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/catalogue/loading.hpp"
+#include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
 #include "harness/provenance/summarise_sequence.hpp"
+#include "harness/text/shortened.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+/// A dataset of a plugin can return any text, which would be printed and stored for every cell.
+void limit_texts(SequenceMetadata& metadata) {
+  metadata.closures = shortened(metadata.closures, kLongestNote);
+  const std::size_t omitted = metadata.notes.size() - std::min(metadata.notes.size(), kMostItems);
+  metadata.notes.resize(metadata.notes.size() - omitted);
+  for (std::string& note : metadata.notes) note = shortened(note, kLongestNote);
+  if (omitted > 0) metadata.notes.push_back(std::to_string(omitted) + " more notes");
+}
+
+}  // namespace
 
 Sequences::Sequences(const Sweep& sweep,
                      const Catalogue& catalogue,
@@ -48,6 +64,7 @@ SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const S
   for (const auto& notes : {evaluation_notes(sequence, sweep), doctor_notes(sequence, sweep)}) {
     out.notes.insert(out.notes.end(), notes.begin(), notes.end());
   }
+  limit_texts(out);
   return out;
 }
 

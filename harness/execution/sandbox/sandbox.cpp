@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "harness/execution/sandbox/landlock.hpp"
-#include "harness/execution/sandbox/seccomp.hpp"
 #include "harness/execution/sandbox/system_file.hpp"
 #include "harness/execution/sandbox/try_in_child.hpp"
 
@@ -20,23 +19,27 @@ Sandbox::~Sandbox() {
   if (landlock_ >= 0) close(landlock_);
 }
 
-void Sandbox::enter() const {
+void Sandbox::enter(FileAttributes attributes) const {
   if (!enabled_) return;
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   if (landlock_ >= 0) landlock_restrict(landlock_);
   drop_capabilities();
   prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);  // hides /proc/PID/mem from programs that it starts
-  restrict_system_calls(guarded_);
+  restrict_system_calls(guarded_, attributes);
 }
 
 bool enter_pid_namespace() {
-  if (unshare(CLONE_NEWPID) == 0) return true;
+  if (unshare(CLONE_NEWPID) == 0) {
+    unshare(CLONE_NEWIPC);
+    return true;
+  }
   const std::string user = std::to_string(geteuid());
   const std::string group = std::to_string(getegid());
   if (unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) return false;
   write_system_file("/proc/self/setgroups", "deny");
   write_system_file("/proc/self/uid_map", user + " " + user + " 1");
   write_system_file("/proc/self/gid_map", group + " " + group + " 1");
+  unshare(CLONE_NEWIPC);
   return true;
 }
 

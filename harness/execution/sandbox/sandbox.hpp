@@ -3,10 +3,13 @@
 ///
 /// Three parts, each used if the system has it:
 /// - a PID namespace for each worker: nothing outside can be signalled, and its end ends all of it;
+///   with it, an IPC namespace, which removes the shared memory of datasets;
 /// - Landlock: files can be read except `unreachable`, and written only in `writable`; no TCP;
 /// - seccomp: no sockets but local ones, no ptrace, no access to the memory of other processes, no
-///   io_uring, no mounts; capabilities are dropped, and core files and the process's memory in
-///   /proc, which may hold the reference, are switched off until it executes a program.
+///   io_uring, no mounts, no new namespaces, no System V IPC and POSIX message queues, no changes
+///   of modes, owners and times of files except by programs; capabilities are dropped, and core
+///   files and the process's memory in /proc, which may hold the reference, are switched off until
+///   it executes a program.
 /// Programs that a method starts inherit the restrictions. A method may start programs and read
 /// shared libraries and data anywhere else, so a method that runs an external program only needs a
 /// folder of its own in `writable`.
@@ -19,6 +22,7 @@
 #include <vector>
 
 #include "harness/execution/sandbox/control_group.hpp"
+#include "harness/execution/sandbox/seccomp.hpp"
 
 namespace loopbench::harness {
 
@@ -39,8 +43,9 @@ class Sandbox {
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
-  /// Restricts the calling thread and all its later threads and processes for ever.
-  void enter() const;
+  /// Restricts the calling thread and all its later threads and processes for ever. File attributes
+  /// are fixed for methods of this process and changeable for programs.
+  void enter(FileAttributes attributes = FileAttributes::changeable) const;
 
  private:
   bool enabled_;
@@ -49,7 +54,7 @@ class Sandbox {
 };
 
 /// Moves the later children of this process to a new PID namespace, whose init is the first of
-/// them. False if that is not permitted.
+/// them, and if possible to a new IPC namespace. False if the first is not permitted.
 bool enter_pid_namespace();
 
 /// Which parts the system has, for example "PID namespace on, Landlock on, seccomp off, cgroup

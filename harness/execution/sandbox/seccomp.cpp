@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace loopbench::harness {
 namespace {
@@ -61,7 +62,53 @@ constexpr std::array kDenied{
     SYS_sethostname,
     SYS_setdomainname,
     SYS_open_by_handle_at,
+    // memory and messages that outlive a cell and that no memory limit counts
+    SYS_shmget,
+    SYS_shmat,
+    SYS_shmctl,
+    SYS_msgget,
+    SYS_msgsnd,
+    SYS_msgrcv,
+    SYS_msgctl,
+    SYS_semget,
+    SYS_semop,
+    SYS_semtimedop,
+    SYS_semctl,
+    SYS_mq_open,
+    SYS_mq_unlink,
 };
+
+/// Owners, modes, times and attributes of files, which Landlock does not cover. Older headers have
+/// no names for the last three: fchmodat2, setxattrat, removexattrat.
+constexpr std::array kFileAttributes{
+    SYS_fchmod,
+    SYS_fchmodat,
+    SYS_fchown,
+    SYS_fchownat,
+    SYS_utimensat,
+    SYS_setxattr,
+    SYS_lsetxattr,
+    SYS_fsetxattr,
+    SYS_removexattr,
+    SYS_lremovexattr,
+    SYS_fremovexattr,
+    452,
+    463,
+    466,
+};
+
+#if defined(__x86_64__)
+constexpr std::array kOlderFileAttributes{
+    SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat};
+constexpr std::uint32_t kX32 = 0x40000000;  ///< a second table of calls, not in the lists
+#else
+constexpr std::array<int, 0> kOlderFileAttributes{};
+constexpr std::uint32_t kX32 = 0;
+#endif
+
+/// Flags of clone() for new namespaces, which would restore capabilities: mount, cgroup, UTS, IPC,
+/// user, PID, network.
+constexpr std::uint32_t kNewNamespaces = 0x7e020000;
 
 /// System calls whose first argument is a process.
 constexpr std::array kSignals{
@@ -69,6 +116,7 @@ constexpr std::array kSignals{
 
 constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW;
 constexpr std::uint32_t kRefuse = SECCOMP_RET_ERRNO | EPERM;
+constexpr std::uint32_t kUnknown = SECCOMP_RET_ERRNO | ENOSYS;
 
 class Filter {
  public:
@@ -82,6 +130,11 @@ class Filter {
   }
   void if_not_equal(std::uint32_t value, std::uint32_t action) {
     jump(value, 1, 0);
+    add(BPF_RET | BPF_K, action);
+  }
+  /// Ends with `action` if the loaded value has any of the bits.
+  void if_any(std::uint32_t bits, std::uint32_t action) {
+    code_.push_back({BPF_JMP | BPF_JSET | BPF_K, 0, 1, bits});
     add(BPF_RET | BPF_K, action);
   }
   /// Skips `count` instructions unless the loaded value is equal to `value`.
@@ -106,12 +159,25 @@ class Filter {
 constexpr std::size_t kNumber = offsetof(seccomp_data, nr);
 constexpr std::size_t kFirstArgument = offsetof(seccomp_data, args);  // low half, little endian
 
-Filter filter_for(std::span<const pid_t> guarded) {
+std::uint32_t to_value(long number) { return static_cast<std::uint32_t>(number); }
+
+Filter filter_for(std::span<const pid_t> guarded, FileAttributes attributes) {
   Filter filter;
   filter.load(offsetof(seccomp_data, arch));
   filter.if_not_equal(kArchitecture, kRefuse);
   filter.load(kNumber);
-  for (const long number : kDenied) filter.if_equal(static_cast<std::uint32_t>(number), kRefuse);
+  filter.if_any(kX32, kRefuse);
+  for (const long number : kDenied) filter.if_equal(to_value(number), kRefuse);
+  if (attributes == FileAttributes::fixed) {
+    for (const long number : kFileAttributes) filter.if_equal(to_value(number), kRefuse);
+    for (const long number : kOlderFileAttributes) filter.if_equal(to_value(number), kRefuse);
+  }
+  // Its flags are in memory, out of reach of a filter; the C library then uses clone().
+  filter.if_equal(SYS_clone3, kUnknown);
+  filter.skip_unless(SYS_clone, 4);
+  filter.load(kFirstArgument);
+  filter.if_any(kNewNamespaces, kRefuse);
+  filter.end(kAllow);
   filter.skip_unless(SYS_socket, 4);
   filter.load(kFirstArgument);
   filter.if_equal(AF_UNIX, kAllow);
@@ -122,7 +188,7 @@ Filter filter_for(std::span<const pid_t> guarded) {
   filter.end(kRefuse);
   for (const long number : kSignals) {
     if (guarded.empty()) break;
-    filter.skip_unless(static_cast<std::uint32_t>(number), 2 + 2 * guarded.size());
+    filter.skip_unless(to_value(number), 2 + 2 * guarded.size());
     filter.load(kFirstArgument);
     for (const pid_t process : guarded) {
       filter.if_equal(static_cast<std::uint32_t>(process), kRefuse);
@@ -137,9 +203,9 @@ Filter filter_for(std::span<const pid_t> guarded) {
 
 bool has_seccomp() { return kArchitecture != 0 && prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0; }
 
-bool restrict_system_calls(const std::vector<pid_t>& guarded) {
+bool restrict_system_calls(const std::vector<pid_t>& guarded, FileAttributes attributes) {
   if (!has_seccomp()) return false;
-  Filter filter = filter_for(guarded);
+  Filter filter = filter_for(guarded, attributes);
   const sock_fprog program = filter.program();
   // Without the flag, some systems would switch off speculation and slow the method down.
   return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW, &program) ==

@@ -1,6 +1,8 @@
 #include <fcntl.h>
 #include <sys/ptrace.h>
+#include <sys/shm.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/plugin/zoo/beast.hpp"
@@ -17,13 +19,18 @@ void write_file(const Scene& scene) {
   require(open((scene.path + ".zoo").c_str(), O_WRONLY | O_CREAT, 0600), "create");
 }
 
+void share_memory(const Scene&) { require(shmget(IPC_PRIVATE, 4096, IPC_CREAT | 0600), "shmget"); }
+void change_mode(const Scene& scene) { require(chmod(scene.path.c_str(), 0), "chmod"); }
+
 }  // namespace
 
 std::vector<methods::MethodEntry> breaking_out() {
   return {beast<open_socket>("open_socket"),
           beast<trace_parent>("trace_parent"),
           beast<read_file>("read_file"),
-          beast<write_file>("write_file")};
+          beast<write_file>("write_file"),
+          beast<share_memory>("share_memory"),
+          beast<change_mode>("change_mode")};
 }
 
 }  // namespace loopbench::zoo

@@ -1,0 +1,189 @@
+/// Datasets of plugins that change their worker: only their own cells fail.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cfenv>
+#include <clocale>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+
+#include "harness/execution/isolate/cell_output.hpp"
+#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/worker.hpp"
+#include "harness/execution/run/check_output.hpp"
+#include "tests/support/isolated_fixture.hpp"
+
+namespace loopbench::isolate_datasets_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+class IsolatedDatasets : public isolated::IsolatedFixture {};
+
+using Load = std::function<void()>;
+
+/// `line`, after a deed of the dataset.
+DatasetEntry line_after(const std::string& name, const Load& deed) {
+  return dataset<tiny::LineOptions>(
+      name, "", [=](const tiny::LineOptions& options, const DataRoot& root) {
+        deed();
+        return tiny::load_line(options, root);
+      });
+}
+
+/// Calls `work` with every socket of this process above the standard streams.
+void for_sockets(const std::function<void(int)>& work) {
+  for (int descriptor = 3; descriptor < 4096; ++descriptor) {
+    int kind = 0;
+    socklen_t size = sizeof kind;
+    if (getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &kind, &size) == 0) work(descriptor);
+  }
+}
+
+template <class T>
+void write_to_sockets(const T& bytes) {
+  for_sockets([&](int socket) { send(socket, &bytes, sizeof bytes, MSG_NOSIGNAL); });
+}
+
+TEST_F(IsolatedDatasets, ADatasetThatWritesToTheSocketCostsItsCells) {
+  std::array<char, 4096> stray;
+  stray.fill('x');
+  const Load strays = [=] { write_to_sockets(stray); };
+  const Load one_byte = [] { write_to_sockets('\0'); };
+  const Load waits_for_more = [] {
+    write_to_sockets(Header{Header::Kind::loaded, 0, std::uint64_t{1} << 20});
+  };
+  const Load is_too_large = [] {
+    write_to_sockets(Header{Header::Kind::loaded, 0, ~std::uint64_t{0}});
+  };
+  int number = 0;
+  for (const Load& deed : {strays, one_byte, waits_for_more, is_too_large}) {
+    const std::string name = "writes" + std::to_string(number++);
+    known_.datasets.push_back(line_after(name, deed));
+    const std::vector<CellResult> results =
+        run("datasets: [" + name + ", line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
+    ASSERT_EQ(results.size(), 4u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(results[i].status, Status::crashed) << name;
+      EXPECT_TRUE(results[i].why.starts_with("its worker process sent a damaged message"))
+          << name << ": " << results[i].why;
+      EXPECT_EQ(results[2 + i].status, Status::ok) << name << ": " << results[2 + i].why;
+    }
+  }
+}
+
+TEST_F(IsolatedDatasets, AWorkerThatStopsAnsweringIsEnded) {
+  known_.datasets.push_back(line_after("deaf", [] {
+    static std::array<int, 2> ends;
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    for_sockets([&](int socket) {
+      if (socket != ends[0] && socket != ends[1]) dup2(ends[0], socket);
+    });
+  }));
+  const std::vector<CellResult> results =
+      run("datasets: [deaf, line]\nmethods: [straight]\nmetrics: [ate]\nlimits: {seconds: 1}\n", 1);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].status, Status::crashed);
+  EXPECT_TRUE(results[0].why.starts_with("its worker process stopped answering")) << results[0].why;
+  EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
+}
+
+/// Reports the state of its process.
+struct ReportsState final : Corrector {
+  struct Options {};
+  explicit ReportsState(const Options&) {}
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    sigset_t blocked;
+    sigprocmask(SIG_SETMASK, nullptr, &blocked);
+    report.count("rounding", std::fegetround());
+    report.count("file mode mask", umask(0));
+    report.count("blocked", sigismember(&blocked, SIGUSR1));
+    report.count("ignored", std::signal(SIGUSR2, SIG_DFL) == SIG_IGN ? 1 : 0);
+    report.count("variable", std::getenv("LOOPBENCH_TEST_STATE") != nullptr ? 1 : 0);
+    report.notes = {std::filesystem::current_path().string(), std::setlocale(LC_ALL, nullptr)};
+    return problem.keyframes;
+  }
+};
+template <class Visit>
+void fields(ReportsState::Options&, Visit) {}
+
+TEST_F(IsolatedDatasets, ADatasetDoesNotChangeTheStateOfLaterCells) {
+  known_.methods.push_back(method<ReportsState>("reports_state", ""));
+  known_.datasets.push_back(line_after("meddles", [] {
+    std::fesetround(FE_UPWARD);
+    umask(0123);
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);
+    std::signal(SIGUSR2, SIG_IGN);
+    setenv("LOOPBENCH_TEST_STATE", "1", 1);
+    std::filesystem::current_path("/");
+    std::setlocale(LC_ALL, "C.UTF-8");
+  }));
+  const auto states = [&](const std::string& datasets) {
+    std::vector<std::string> out;
+    const std::string config =
+        "datasets: [" + datasets + "]\nmethods: [reports_state]\nmetrics: [ate]\n";
+    for (const CellResult& result : run(config, 1)) {
+      EXPECT_EQ(result.status, Status::ok) << result.why;
+      Packer pack;
+      pack(result.report.counts)(result.report.notes)(result.scores);
+      out.push_back(pack.bytes());
+    }
+    return out;
+  };
+  const std::vector<std::string> alone = states("line");
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(states("meddles, line"), (std::vector{alone[0], alone[0]}));
+}
+
+TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "talks", "", [](const tiny::LineOptions& options, const DataRoot& root) {
+        Sequence out = tiny::load_line(options, root);
+        out.provenance.notes.assign(2 * kMostItems, std::string(100'000, 'n'));
+        return out;
+      }));
+  testing::internal::CaptureStderr();
+  const std::vector<CellResult> results =
+      run("datasets: [talks]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+  EXPECT_LT(testing::internal::GetCapturedStderr().size(), 3'000'000u);
+  ASSERT_EQ(results.size(), 1u);
+  ASSERT_TRUE(results[0].metadata);
+  ASSERT_EQ(results[0].metadata->notes.size(), kMostItems + 1);
+  EXPECT_TRUE(results[0].metadata->notes[0].ends_with("nn ... (98000 more bytes)"));
+}
+
+TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {
+  const auto message = [&](const std::string& name, const std::string& text) -> std::string {
+    known_.datasets.push_back(line_after(name, [=] { throw std::runtime_error(text); }));
+    try {
+      run("datasets: [" + name + "]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_TRUE(
+      message("long", std::string(20'000'000, 'z')).ends_with("z ... (19990000 more bytes)"));
+  EXPECT_EQ(message("empty", ""), "empty: loading threw an exception without a message");
+  EXPECT_EQ(message("usual", "why"), "why");
+}
+
+TEST(CellOutput, ControlCharactersDoNotReachTheTerminal) {
+  std::string text = "a\x1b[2J\tb\r\n\x7f\xc3\xa9\xc2\x9b";
+  char previous = '\0';
+  make_printable(text, previous);
+  EXPECT_EQ(text, "a?[2J\tb\r\n?\xc3\xa9\xc2?");
+  EXPECT_EQ(previous, '\x9b');
+}
+
+}  // namespace
+}  // namespace loopbench::isolate_datasets_test
