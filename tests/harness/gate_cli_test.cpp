@@ -12,10 +12,13 @@ class GateCli : public testing::Test {
  protected:
   CommandResult call(const std::string& arguments) { return loopbench_command(arguments, folder_); }
 
-  void sweep(const std::string& uniform, const std::string& rpe = "rpe, delta: 1") {
+  void sweep(const std::string& uniform,
+             const std::string& rpe = "rpe, delta: 1",
+             const std::string& group = "") {
     folder_.file("quick.yaml",
-                 "datasets: [{dataset: simulated, label: room, keyframes: 40}]\n"
-                 "methods: [raw, {method: " +
+                 "datasets: [{dataset: simulated, label: room, keyframes: 40" + group +
+                     "}]\n"
+                     "methods: [raw, {method: " +
                      uniform +
                      ", label: mine}]\n"
                      "metrics: [ate, {metric: " +
@@ -61,6 +64,12 @@ TEST_F(GateCli, NamesAMetricThatIsAnotherUnderItsLabel) {
   sweep("uniform", "ape");
   EXPECT_NE(refused().find("defines the metric 'motion' differently"), std::string::npos)
       << refused();
+}
+
+// One group for all runs would leave no test that can fail.
+TEST_F(GateCli, NamesASequenceWhoseRunsAreInAnotherGroup) {
+  sweep("uniform", "rpe, delta: 1", ", group: all");
+  EXPECT_NE(refused().find("these results have 'group:all'"), std::string::npos) << refused();
 }
 
 TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
