@@ -137,7 +137,7 @@ void add_plot(CLI::App& app, int& exit_code) {
                    "Comma-separated panels: trajectories in xy, xz, yz and in space (xyz), errors "
                    "in x, y, z and angle")
       ->delimiter(',')
-      ->check(CLI::IsMember(kPanelNames))
+      ->check(CLI::IsMember(panel_names()))
       ->type_name("WORDS")
       ->default_str("xy,xyz,x,y,z,angle");
   command->add_option("--format", arguments->formats, "File formats: svg, pdf, png or several")

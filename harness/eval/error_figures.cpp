@@ -180,7 +180,7 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
 
 std::vector<std::string> write_error_figures(const std::string& prefix,
                                              const std::vector<DrawnEvaluation>& all) {
-  constexpr FigureSize kColumn{3.5, 2.8, 8.0, true};  // one column of a paper
+  const FigureSize kColumn{3.5, 2.8, 8.0, true};  // one column of a paper
   std::vector<std::string> out;
   for (const NamedFigure& figure : error_figures(all)) {
     for (const char* const extension : {".svg", ".pdf", ".png"}) {
