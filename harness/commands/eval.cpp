@@ -8,6 +8,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/eval/drawn_sequences.hpp"
 #include "harness/eval/error_figures.hpp"
 #include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
@@ -18,7 +19,6 @@
 #include "harness/text/printable.hpp"
 #include "harness/text/wrap.hpp"
 #include "harness/text/write_file.hpp"
-#include "harness/trajectory/named_trajectory.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -70,10 +70,8 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
 void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty() && a.report.empty()) return;
   std::vector<DrawnEvaluation> drawn;
-  for (const EvaluationResult& each : all) {
-    if (!each.why_failed.empty() || each.protocol.label() != all.front().protocol.label()) continue;
-    drawn.push_back(each.drawn);
-    drawn.back().name = output_stem(each.estimate);
+  for (DrawnSequence& each : drawn_sequences(all, labelled_runs(file_pairs(a), a.sequence))) {
+    std::ranges::move(each.drawn, std::back_inserter(drawn));
   }
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
   reject_standard_output("--report", a.report);

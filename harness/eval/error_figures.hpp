@@ -21,8 +21,9 @@ struct NamedFigure {
 ///   single estimate;
 /// - errors: position and rotation error over time and over distance, and the histogram of the
 ///   position error;
-/// - axes: x, y, z, roll, pitch and yaw over time, with the reference.
-/// An estimate has the same colour in all of them. O(poses).
+/// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
+/// All estimates have the same reference, whose first pose is the origin of times and distances. An
+/// estimate has the same colour in all of them. O(poses).
 std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all);
 
 /// Writes PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, with panels as wide as one column

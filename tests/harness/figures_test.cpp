@@ -1,15 +1,93 @@
-/// Figures: their legend.
+/// Figures of `eval`: origin of their axes, names, legends, sizes, and which runs they contain.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "datasets/formats/formats.hpp"
+#include "harness/eval/drawn_sequences.hpp"
+#include "harness/eval/error_figures.hpp"
 #include "harness/plot/legend.hpp"
+#include "tests/support/command.hpp"
 
 namespace loopbench::figures_test {
 namespace {
 
 using namespace harness;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::SizeIs;
+
+/// 1 m/s along x with a bend in z, from `first` to `last` [s], one pose per second.
+Trajectory path(double first, double last, double error = 0.0) {
+  Trajectory out;
+  for (double t = first; t <= last; t += 1.0) {
+    out.push_back({100.0 + t, {Rotation::Identity(), {t, error * (int(t) % 2), 0.0}}});
+  }
+  return out;
+}
+
+DrawnEvaluation drawn(double first, double last) {
+  metrics::Protocol protocol;
+  protocol.align = metrics::Align::none;
+  const Trajectory reference = path(0.0, 50.0);
+  return drawn_evaluation(reference,
+                          metrics::evaluate(reference, path(first, last, 0.1), protocol));
+}
+
+const PlotPanel& panel(const NamedFigure& figure, const std::string& x, const std::string& y) {
+  for (const PlotPanel& each : figure.panels) {
+    if (each.x_label == x && each.y_label == y) return each;
+  }
+  throw std::runtime_error("no panel " + x + ", " + y);
+}
+
+TEST(Figures, AllEstimatesHaveTheOriginOfTheReference) {
+  std::vector<DrawnEvaluation> all{drawn(10.0, 30.0), drawn(20.0, 45.0)};
+  all[0].name = "a";
+  all[1].name = "b";
+  const std::vector<NamedFigure> figures = error_figures(all);
+  for (const char* const x : {"time [s]", "distance [m]"}) {  // equal numbers at 1 m/s
+    const PlotPanel errors = panel(figures[1], x, "position error [m]");
+    EXPECT_NEAR(errors.series[0].points.front().x(), 10.0, 1e-9) << x;
+    EXPECT_NEAR(errors.series[1].points.front().x(), 20.0, 1e-9) << x;
+    EXPECT_NEAR(errors.series[1].points.back().x(), 45.0, 1e-9) << x;
+  }
+  const PlotPanel axis = panel(figures[2], "time [s]", "x [m]");
+  EXPECT_EQ(axis.series[0].name, "reference");
+  EXPECT_NEAR(axis.series[0].points.front().x(), 0.0, 1e-9);
+  EXPECT_NEAR(axis.series[0].points.back().x(), 50.0, 1e-9);
+  EXPECT_NEAR(axis.series[2].points.front().x(), 20.0, 1e-9);
+  EXPECT_NEAR(figures[0].panels[0].series[0].points.back().x(), 50.0, 1e-9);
+}
+
+std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
+                                      const std::vector<double>& errors) {
+  std::vector<EvaluationResult> out;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EvaluationResult& each = out.emplace_back();
+    each.estimate = files[i].estimate;
+    each.drawn.reference = path(0.0, 9.0);
+    each.drawn.estimate = path(0.0, 9.0, errors.empty() ? 0.1 : errors[i]);
+  }
+  return out;
+}
+
+std::vector<std::string> names(const DrawnSequence& sequence) {
+  std::vector<std::string> out;
+  for (const DrawnEvaluation& each : sequence.drawn) out.push_back(each.name);
+  return out;
+}
+
+TEST(Figures, NamesAreTheShortestThatDiffer) {
+  const std::vector<FilePair> files{{"t/V.csv", "ba/V/0.txt"}, {"t/V.csv", "rp/V/0.txt"}};
+  const auto all = drawn_sequences(results(files, {}), labelled_runs(files, ""));
+  ASSERT_THAT(all, SizeIs(1));
+  EXPECT_THAT(names(all[0]), ElementsAre("ba", "rp"));
+  EXPECT_STRNE(all[0].drawn[0].style.color, all[0].drawn[1].style.color);
+  const std::vector<FilePair> unusual{{"t.csv", "x/a/e.txt"}, {"t.csv", "y/a/e.txt"}};
+  EXPECT_THAT(names(drawn_sequences(results(unusual, {}), labelled_runs(unusual, ""))[0]),
+              ElementsAre("x/a/e.txt", "y/a/e.txt"));
+}
 
 TEST(Figures, LegendIsLimitedAndCountsTheRest) {
   PlotPanel panel;
