@@ -70,7 +70,7 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
 void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty() && a.report.empty()) return;
   std::vector<DrawnEvaluation> drawn;
-  for (DrawnSequence& each : drawn_sequences(all, labelled_runs(file_pairs(a), a.sequence))) {
+  for (DrawnRuns& each : drawn_sequences(all, labelled_runs(file_pairs(a), a.sequence))) {
     std::ranges::move(each.drawn, std::back_inserter(drawn));
   }
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
@@ -81,7 +81,7 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
     fmt::print(stderr, "{}\n", printable(a.report));
   }
   if (a.plot.empty()) return;
-  for (const std::string& file : write_error_figures(a.plot, drawn)) {
+  for (const std::string& file : write_error_figures(a.plot, drawn, "", a.plot_size)) {
     fmt::print(stderr, "{}\n", printable(file));
   }
 }

@@ -63,9 +63,9 @@ std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
   }
 }
 
-std::vector<DrawnSequence> drawn_sequences(const std::vector<EvaluationResult>& all,
+std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
                                            const std::vector<RecordedRun>& runs) {
-  std::vector<DrawnSequence> out;
+  std::vector<DrawnRuns> out;
   Order methods, references;
   std::map<std::pair<std::string, std::string>, std::size_t> count;  // by reference and method
   for (const RecordedRun& run : runs) {

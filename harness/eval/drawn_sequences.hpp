@@ -10,7 +10,7 @@
 namespace loopbench::harness {
 
 /// Evaluations with the same reference, which share figures.
-struct DrawnSequence {
+struct DrawnRuns {
   std::string sequence;  ///< label; empty if there is only one
   std::vector<DrawnEvaluation> drawn;
 };
@@ -24,7 +24,7 @@ std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
 /// `all[i]`. The name of an estimate is its method, or method and run if a method has several. A
 /// method has the same colour in all figures; its further runs are dashed, or have colours of their
 /// own if there is only one method.
-std::vector<DrawnSequence> drawn_sequences(const std::vector<EvaluationResult>& all,
+std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
                                            const std::vector<RecordedRun>& runs);
 
 }  // namespace loopbench::harness

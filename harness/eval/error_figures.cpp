@@ -178,13 +178,28 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
 }
 
 std::vector<std::string> write_error_figures(const std::string& prefix,
-                                             const std::vector<DrawnEvaluation>& all) {
-  const FigureSize kColumn{3.5, 2.8, 8.0, true};  // one column of a paper
+                                             const std::vector<DrawnEvaluation>& all,
+                                             const std::string& note,
+                                             const ErrorFigureSize& size) {
+  constexpr double kColumnWidth = 3.5;                  // of a paper [in]
+  constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
   std::vector<std::string> out;
   for (const NamedFigure& figure : error_figures(all)) {
+    const bool is_map = figure.panels.front().same_scale;
+    const std::size_t columns = size.columns > 0 ? size.columns : (is_map ? 2 : 1);
+    FigureSize panel;
+    panel.width = kColumnWidth / static_cast<double>(columns);
+    panel.height = panel.width * (is_map || columns > 1 ? kMapShape : kCurveShape);
+    if (size.panel.size() == 2) {
+      panel.width = size.panel[0];
+      panel.height = size.panel[1];
+    }
+    panel.font = size.font;
+    panel.common_legend = true;
+    panel.note = note;
     for (const char* const extension : {".svg", ".pdf", ".png"}) {
       out.push_back(prefix + "_" + figure.name + extension);
-      write_figure(out.back(), figure.panels, figure.columns, kColumn);
+      write_figure(out.back(), figure.panels, columns, panel);
     }
   }
   return out;

@@ -176,10 +176,10 @@ std::string page_with_legend(const std::filesystem::path& file,
   return out;
 }
 
-std::string page(const std::filesystem::path& file,
-                 const std::vector<PlotPanel>& panels,
-                 std::size_t columns,
-                 const FigureSize& size) {
+std::string page_of_panels(const std::filesystem::path& file,
+                           const std::vector<PlotPanel>& panels,
+                           std::size_t columns,
+                           const FigureSize& size) {
   constexpr double kPixels = 150.0;  // per inch of a PNG
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::string out = fmt::format("set terminal {}\n{}set multiplot layout {},{}\nunset colorbox\n",
@@ -203,7 +203,7 @@ void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
                   std::size_t columns,
                   const FigureSize& size) {
-  const auto draw = size.common_legend ? page_with_legend : page;
+  const auto draw = size.common_legend ? page_with_legend : page_of_panels;
   write_result(file, drawn_by_gnuplot(draw(file, panels, columns, size) + "unset multiplot\n"));
 }
 

@@ -17,7 +17,7 @@ constexpr double kEntrySpace = 2.0;  // letters between entries
 double inches(double points) { return points / 72.0; }
 
 /// The line or mark beside a name, between x1 and x2 [share of the page].
-std::string sample(const PlotSeries& series, double x1, double x2, double y) {
+std::string legend_sample(const PlotSeries& series, double x1, double x2, double y) {
   const std::string color = gnuplot_quoted(series.color);
   const auto mark = [&](const std::string& style) {
     return fmt::format(
@@ -109,7 +109,7 @@ std::string Legend::script(double page_height) const {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const double y = height_of(i / columns_);
     const double end = left_of(i) + (kSampleLetters - 1.0) * letter;
-    out += sample(entries_[i], left_of(i), end, y);
+    out += legend_sample(entries_[i], left_of(i), end, y);
     text(entries_[i].name, left_of(i) + kSampleLetters * letter, y);
   }
   std::size_t entries = entries_.size();

@@ -72,7 +72,7 @@ std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
   return out;
 }
 
-std::vector<std::string> names(const DrawnSequence& sequence) {
+std::vector<std::string> names(const DrawnRuns& sequence) {
   std::vector<std::string> out;
   for (const DrawnEvaluation& each : sequence.drawn) out.push_back(each.name);
   return out;
@@ -102,6 +102,27 @@ TEST(Figures, LegendIsLimitedAndCountsTheRest) {
   EXPECT_THAT(script, HasSubstr("'a note'"));
   EXPECT_GT(legend.height(), 4.0 * 8.0 / 72.0);  // four rows
   EXPECT_LT(legend.height(), 8.0 * 1.5 * 8.0 / 72.0);
+}
+
+TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
+  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "needs gnuplot";
+  const TemporaryFolder folder;
+  write_tum(folder.path() / "gt.txt", path(0.0, 50.0));
+  write_tum(folder.path() / "est.txt", path(5.0, 50.0, 0.1));
+  const auto svg = [&](const std::string& name) { return read_all(folder.path() / name); };
+  const std::string eval = "eval gt.txt est.txt --align none ";
+  const CommandResult usual = loopbench_command(eval + "--plot a", folder);
+  ASSERT_EQ(usual.exit_code, 0) << usual.err;
+  EXPECT_THAT(usual.err, Not(HasSubstr("arning"))) << usual.err;
+  for (const char* const name : {"a_trajectories.svg", "a_errors.svg", "a_axes.svg"}) {
+    EXPECT_THAT(svg(name), HasSubstr("width=\"252\"")) << name;  // 3.5 in of 72 points
+  }
+  const CommandResult sized =
+      loopbench_command(eval + "--plot b --size 2,1.5 --columns 3 --font 9", folder);
+  ASSERT_EQ(sized.exit_code, 0) << sized.err;
+  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432\""));
+  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font-size=\"9.00\""));
+  EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder).exit_code, 2);
 }
 
 }  // namespace
