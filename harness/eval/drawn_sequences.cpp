@@ -1,7 +1,10 @@
 #include "harness/eval/drawn_sequences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -30,6 +33,57 @@ std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
     if (!is_longer) return out;  // the same file twice
   }
   return out;
+}
+
+/// A candidate for a figure.
+struct Candidate {
+  DrawnEvaluation drawn;
+  std::string method;
+  bool is_complete = true;
+  double ate = 0.0;  ///< [m]
+};
+
+/// Best, median and worst of runs of one method, or only the median.
+std::vector<DrawnEvaluation> representative(std::vector<Candidate> runs, bool is_only) {
+  std::ranges::stable_sort(runs, {}, &Candidate::ate);
+  const auto named = [&](std::size_t i, const char* role) {
+    DrawnEvaluation out = runs[i].drawn;
+    out.name += role;
+    out.style.dash = 1;  // no other run of its method has its colour
+    return out;
+  };
+  const std::size_t middle = (runs.size() - 1) / 2;
+  if (runs.size() == 1) return {named(0, "")};
+  if (!is_only) return {named(middle, " (median)")};
+  std::vector<DrawnEvaluation> out{
+      named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].style = curve_style(i);
+  return out;
+}
+
+void select(const std::vector<Candidate>& all, DrawnRuns& out) {
+  if (all.size() <= kMostDrawnEstimates) {
+    for (const Candidate& each : all) out.drawn.push_back(each.drawn);
+    return;
+  }
+  std::vector<std::string> methods;
+  std::map<std::string, std::vector<Candidate>> runs;
+  const bool has_complete = std::ranges::any_of(all, &Candidate::is_complete);
+  for (const Candidate& each : all) {
+    if (has_complete && !each.is_complete) continue;
+    if (runs[each.method].empty()) methods.push_back(each.method);
+    runs[each.method].push_back(each);
+  }
+  const bool is_only = methods.size() == 1 && runs[methods.front()].size() > 2;
+  const bool has_repeats = runs.size() < all.size();
+  if (methods.size() > kMostDrawnEstimates) methods.resize(kMostDrawnEstimates);
+  for (const std::string& method : methods) {
+    std::ranges::move(representative(runs[method], is_only), std::back_inserter(out.drawn));
+  }
+  out.note = fmt::format("{} of {} estimates are not drawn{}",
+                         all.size() - out.drawn.size(),
+                         all.size(),
+                         has_repeats ? " (chosen by ATE)" : "");
 }
 
 /// Numbers names in order of appearance.
@@ -64,7 +118,7 @@ std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
 }
 
 std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
-                                           const std::vector<RecordedRun>& runs) {
+                                       const std::vector<RecordedRun>& runs) {
   std::vector<DrawnRuns> out;
   Order methods, references;
   std::map<std::pair<std::string, std::string>, std::size_t> count;  // by reference and method
@@ -75,20 +129,26 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
   }
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
   std::map<std::pair<std::string, std::string>, std::size_t> before;
+  std::vector<std::vector<Candidate>> candidates;
   std::map<std::string, std::size_t> place;  // in `out`, of a reference
   for (std::size_t i = 0; i < all.size(); i += protocols) {
     const RecordedRun& run = runs[i / protocols];
     const std::size_t repeat = before[{run.reference, run.method}]++;
     if (!all[i].why_failed.empty()) continue;
     if (place.emplace(run.reference, out.size()).second) {
-      out.push_back({references.names.size() > 1 ? run.sequence : "", {}});
+      out.push_back({references.names.size() > 1 ? run.sequence : "", {}, ""});
+      candidates.emplace_back();
     }
-    DrawnEvaluation& drawn = out[place[run.reference]].drawn.emplace_back(all[i].drawn);
+    Candidate& candidate = candidates[place[run.reference]].emplace_back(
+        Candidate{all[i].drawn, run.method, all[i].incomplete_reason.empty(), 0.0});
+    DrawnEvaluation& drawn = candidate.drawn;
+    candidate.ate = position_rmse(drawn);
     const bool has_repeats = count[{run.reference, run.method}] > 1;
     drawn.name = run.method + (has_repeats ? " " + run.run : "");
     drawn.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
     if (methods.names.size() > 1 && has_repeats) drawn.style.dash = dash_of(repeat);
   }
+  for (std::size_t i = 0; i < out.size(); ++i) select(candidates[i], out[i]);
   return out;
 }
 

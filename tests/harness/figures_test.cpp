@@ -89,6 +89,40 @@ TEST(Figures, NamesAreTheShortestThatDiffer) {
               ElementsAre("x/a/e.txt", "y/a/e.txt"));
 }
 
+TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
+  std::vector<FilePair> files;
+  std::vector<double> errors;
+  for (const char* const sequence : {"V", "W"}) {
+    for (const char* const method : {"ba", "rp"}) {
+      for (const int run : {0, 1, 2, 3, 4}) {
+        files.push_back(
+            {std::string(sequence) + ".csv",
+             std::string(method) + "/" + sequence + "/" + std::to_string(run) + ".txt"});
+        errors.push_back(0.1 * ((run + 2) % 5));  // the median 0.2 is run 0
+      }
+    }
+  }
+  const auto all = drawn_sequences(results(files, errors), labelled_runs(files, ""));
+  ASSERT_THAT(all, SizeIs(2));
+  EXPECT_EQ(all[1].sequence, "W");
+  EXPECT_THAT(names(all[1]), ElementsAre("ba 0 (median)", "rp 0 (median)"));
+  EXPECT_EQ(all[1].note, "8 of 10 estimates are not drawn (chosen by ATE)");
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_STREQ(all[0].drawn[i].style.color, all[1].drawn[i].style.color);
+    EXPECT_EQ(all[0].drawn[i].style.dash, 1);
+  }
+}
+
+TEST(Figures, ManyRunsOfOneMethodAreRepresentedByBestMedianAndWorst) {
+  std::vector<FilePair> files;
+  for (int run = 0; run < 7; ++run)
+    files.push_back({"V.csv", "ba_" + std::to_string(run) + ".txt"});
+  const auto all = drawn_sequences(results(files, {0.3, 0.1, 0.7, 0.2, 0.5, 0.6, 0.4}),
+                                   labelled_runs(files, ""));
+  ASSERT_THAT(all, SizeIs(1));
+  EXPECT_THAT(names(all[0]), ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
+}
+
 TEST(Figures, LegendIsLimitedAndCountsTheRest) {
   PlotPanel panel;
   for (int i = 0; i < 20; ++i) {
