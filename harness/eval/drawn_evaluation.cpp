@@ -8,7 +8,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostReferencePoses = 2000;  // more are not visible
+constexpr std::size_t kMostReferencePoses = 1000;  // more are not visible
 
 std::vector<double> path_lengths(const Trajectory& poses) {
   std::vector<double> out(poses.size(), 0.0);
