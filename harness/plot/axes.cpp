@@ -92,7 +92,7 @@ std::string spatial_tics(const PlotPanel& panel) {
   std::string out = "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
   const double longest = std::max(lengths[0], lengths[1]);
   if (!(longest > 0.0)) return out;
-  out = fmt::format("set xtics {0:g} offset 0,-0.3\nset ytics {0:g} offset 0.8,-0.2\n",
+  out = fmt::format("set xtics {0:g} offset 0,-0.3\nset ytics {0:g} offset 0.4,-0.2\n",
                     round_step(0.5 * longest));
   if (lengths[2] > 1e-9 * longest) {
     out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
@@ -115,8 +115,8 @@ std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
     return fmt::format(
                "unset lmargin\nunset rmargin\nunset bmargin\nunset tmargin\n"
                "set size {:.6f},{:.6f}\nset origin {:.6f},{:.6f}\n"
-               "set view 62,35,1.15,1.3\nset xyplane 0\nset xrange [*:*]\n"
-               "set zlabel '' rotate by 90 offset 1,0\n",
+               "set view 62,35,0.82,1.3\nset xyplane 0\nset xrange [*:*]\n"
+               "set zlabel '' rotate by 90 offset 2,0\n",
                box.width / box.page_width,
                box.height / box.page_height,
                box.left / box.page_width,

@@ -151,8 +151,9 @@ std::string page_with_legend(const std::filesystem::path& file,
                              const std::vector<PlotPanel>& panels,
                              std::size_t columns,
                              const FigureSize& size) {
-  constexpr double kPixels = 300.0;  // per inch of a PNG, as journals require
   const double width = size.width * static_cast<double>(columns);
+  // Per inch of a PNG: 300, as journals require, unless the page is wider than one of a journal.
+  const double pixels = std::clamp(3000.0 / width, 150.0, 300.0);
   const double font = font_size(file, size);
   const Legend legend(panels, size.note, width, font);
   const ColorBar bar = color_bar(panels);
@@ -160,7 +161,7 @@ std::string page_with_legend(const std::filesystem::path& file,
   const double top = height_of(bar, font) + size.height * static_cast<double>(rows);
   const double height = top + legend.height();
   std::string out = fmt::format("set terminal {}\n{}set tics scale 0.6\nset multiplot\nunset key\n",
-                                terminal(file, width, height, font, kPixels),
+                                terminal(file, width, height, font, pixels),
                                 kCommon);
   out += legend.script(height) + script_of(bar, font, height);
   for (std::size_t i = 0; i < panels.size(); ++i) {

@@ -10,9 +10,9 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr double kLetterWidth = 0.62;  // mean width of a letter over the font size
+constexpr double kLetterWidth = 0.58;  // mean width of a letter over the font size
 constexpr double kSampleLetters = 4.0;
-constexpr double kEntrySpace = 2.0;  // letters between entries
+constexpr double kEntrySpace = 1.0;  // letters between entries
 
 double inches(double points) { return points / 72.0; }
 
