@@ -36,7 +36,7 @@ std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
 }
 
 /// A candidate for a figure.
-struct Candidate {
+struct RatedRun {
   DrawnEvaluation drawn;
   std::string method;
   bool is_complete = true;
@@ -44,8 +44,8 @@ struct Candidate {
 };
 
 /// Best, median and worst of runs of one method, or only the median.
-std::vector<DrawnEvaluation> representative(std::vector<Candidate> runs, bool is_only) {
-  std::ranges::stable_sort(runs, {}, &Candidate::ate);
+std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_only) {
+  std::ranges::stable_sort(runs, {}, &RatedRun::ate);
   const auto named = [&](std::size_t i, const char* role) {
     DrawnEvaluation out = runs[i].drawn;
     out.name += role;
@@ -61,15 +61,15 @@ std::vector<DrawnEvaluation> representative(std::vector<Candidate> runs, bool is
   return out;
 }
 
-void select(const std::vector<Candidate>& all, DrawnRuns& out) {
+void choose_drawn(const std::vector<RatedRun>& all, DrawnRuns& out) {
   if (all.size() <= kMostDrawnEstimates) {
-    for (const Candidate& each : all) out.drawn.push_back(each.drawn);
+    for (const RatedRun& each : all) out.drawn.push_back(each.drawn);
     return;
   }
   std::vector<std::string> methods;
-  std::map<std::string, std::vector<Candidate>> runs;
-  const bool has_complete = std::ranges::any_of(all, &Candidate::is_complete);
-  for (const Candidate& each : all) {
+  std::map<std::string, std::vector<RatedRun>> runs;
+  const bool has_complete = std::ranges::any_of(all, &RatedRun::is_complete);
+  for (const RatedRun& each : all) {
     if (has_complete && !each.is_complete) continue;
     if (runs[each.method].empty()) methods.push_back(each.method);
     runs[each.method].push_back(each);
@@ -87,7 +87,7 @@ void select(const std::vector<Candidate>& all, DrawnRuns& out) {
 }
 
 /// Numbers names in order of appearance.
-struct Order {
+struct NameNumbers {
   std::vector<std::string> names;
   std::size_t number(const std::string& name) {
     const auto known = std::ranges::find(names, name);
@@ -120,7 +120,7 @@ std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
 std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
                                        const std::vector<RecordedRun>& runs) {
   std::vector<DrawnRuns> out;
-  Order methods, references;
+  NameNumbers methods, references;
   std::map<std::pair<std::string, std::string>, std::size_t> count;  // by reference and method
   for (const RecordedRun& run : runs) {
     methods.number(run.method);
@@ -129,7 +129,7 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
   }
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
   std::map<std::pair<std::string, std::string>, std::size_t> before;
-  std::vector<std::vector<Candidate>> candidates;
+  std::vector<std::vector<RatedRun>> candidates;
   std::map<std::string, std::size_t> place;  // in `out`, of a reference
   for (std::size_t i = 0; i < all.size(); i += protocols) {
     const RecordedRun& run = runs[i / protocols];
@@ -139,8 +139,8 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
       out.push_back({references.names.size() > 1 ? run.sequence : "", {}, ""});
       candidates.emplace_back();
     }
-    Candidate& candidate = candidates[place[run.reference]].emplace_back(
-        Candidate{all[i].drawn, run.method, all[i].incomplete_reason.empty(), 0.0});
+    RatedRun& candidate = candidates[place[run.reference]].emplace_back(
+        RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty(), 0.0});
     DrawnEvaluation& drawn = candidate.drawn;
     candidate.ate = position_rmse(drawn);
     const bool has_repeats = count[{run.reference, run.method}] > 1;
@@ -148,7 +148,7 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
     drawn.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
     if (methods.names.size() > 1 && has_repeats) drawn.style.dash = dash_of(repeat);
   }
-  for (std::size_t i = 0; i < out.size(); ++i) select(candidates[i], out[i]);
+  for (std::size_t i = 0; i < out.size(); ++i) choose_drawn(candidates[i], out[i]);
   return out;
 }
 
