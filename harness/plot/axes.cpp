@@ -116,7 +116,7 @@ std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
                "unset lmargin\nunset rmargin\nunset bmargin\nunset tmargin\n"
                "set size {:.6f},{:.6f}\nset origin {:.6f},{:.6f}\n"
                "set view 62,35,0.82,1.3\nset xyplane 0\nset xrange [*:*]\n"
-               "set zlabel '' rotate by 90 offset 2,0\n",
+               "set zlabel '' rotate by 90 offset 2,0\nset xlabel '' offset 0,0\n",
                box.width / box.page_width,
                box.height / box.page_height,
                box.left / box.page_width,
@@ -135,8 +135,9 @@ std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
       (box.left + left + width) / box.page_width,
       (box.bottom + bottom) / box.page_height,
       (box.bottom + bottom + height) / box.page_height);
-  if (panel.same_scale) return margins + equal_scales(panel, width, height);
-  return margins + "set xtics autofreq offset 0,0\nset ytics autofreq offset 0,0\n" +
+  const std::string labels = "set xlabel '' offset 0,0.7\n";  // SVG has the tallest lines
+  if (panel.same_scale) return margins + labels + equal_scales(panel, width, height);
+  return margins + labels + "set xtics autofreq offset 0,0\nset ytics autofreq offset 0,0\n" +
          "set xrange [*:*] noextend\n" + ranges(panel);
 }
 

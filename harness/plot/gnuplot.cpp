@@ -172,7 +172,7 @@ std::string page_with_legend(const std::filesystem::path& file,
                        width,
                        height};
     out += panel_script(panels[i], i, framed(panels[i], box, font), false);
-    if (i == 0) out += "unset label\nunset arrow\nunset colorbox\n";
+    if (i == 0) out += "unset label\nunset colorbox\n";
   }
   return out;
 }

@@ -16,36 +16,51 @@ constexpr double kEntrySpace = 1.0;  // letters between entries
 
 double inches(double points) { return points / 72.0; }
 
-/// The line or mark beside a name, between x1 and x2 [share of the page].
-std::string legend_sample(const PlotSeries& series, double x1, double x2, double y) {
-  const std::string color = gnuplot_quoted(series.color);
-  const auto mark = [&](const std::string& style) {
-    return fmt::format(
-        "set label '' at screen {:.5f},{:.5f} point {}\n", 0.5 * (x1 + x2), y, style);
-  };
-  const auto stroke = [&](double from, double to, const std::string& style) {
-    return fmt::format("set arrow from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} nohead {}\n",
-                       from,
-                       y,
-                       to,
-                       y,
-                       style);
-  };
-  if (series.mark == PlotMark::start) return mark("pt 6 ps 0.9 lw 1.5 lc rgb " + color);
-  if (series.mark == PlotMark::end) return mark("pt 5 ps 0.8 lc rgb " + color);
-  if (series.as_points || series.mark == PlotMark::points) return mark("pt 7 lc rgb " + color);
-  if (!series.values.empty()) {  // coloured by value: some colours of the bar
-    std::string out;
-    const double step = (x2 - x1) / 3.0;
-    for (int i = 0; i < 3; ++i) {
-      out += stroke(
-          x1 + i * step, x1 + (i + 1) * step, fmt::format("lw 2 lc palette frac {}", 0.5 * i));
-    }
-    return out;
+/// Lines and marks beside the names. They are curves: SVG has no dashed arrows.
+struct LegendSamples {
+  std::string blocks;
+  std::string plots;
+
+  void add(double x1, double x2, double y, const std::string& style) {
+    const std::string name = fmt::format("$legend{}", count++);
+    blocks += fmt::format("{} << EOD\n{:.5f} {:.5f}\n{:.5f} {:.5f}\nEOD\n", name, x1, y, x2, y);
+    plots += (plots.empty() ? "plot " : ", ") + name + " using 1:2 with " + style + " notitle";
   }
-  const double width = series.mark == PlotMark::bars ? 5.0 : series.width;
-  return stroke(x1, x2, fmt::format("lw {:g} dt {} lc rgb {}", width, series.dash, color));
-}
+
+  /// Between x1 and x2 [share of the page].
+  void add(const PlotSeries& series, double x1, double x2, double y) {
+    const std::string color = gnuplot_quoted(series.color);
+    const double middle = 0.5 * (x1 + x2);
+    const auto mark = [&](const std::string& style) { add(middle, middle, y, "points " + style); };
+    if (series.mark == PlotMark::start) return mark("pt 6 ps 0.9 lw 1.5 lc rgb " + color);
+    if (series.mark == PlotMark::end) return mark("pt 5 ps 0.8 lc rgb " + color);
+    if (series.as_points || series.mark == PlotMark::points) return mark("pt 7 lc rgb " + color);
+    if (!series.values.empty()) {  // coloured by value: some colours of the bar
+      const double step = (x2 - x1) / 3.0;
+      for (int i = 0; i < 3; ++i) {
+        add(x1 + i * step,
+            x1 + (i + 1) * step,
+            y,
+            fmt::format("lines lw 2 lc palette frac {}", 0.5 * i));
+      }
+      return;
+    }
+    const double width = series.mark == PlotMark::bars ? 5.0 : series.width;
+    add(x1, x2, y, fmt::format("lines lw {:g} dt {} lc rgb {}", width, series.dash, color));
+  }
+
+  /// On axes that cover the page and are not drawn.
+  std::string script() const {
+    if (plots.empty()) return "";
+    return blocks +
+           "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\n"
+           "set tmargin at screen 1\nset xrange [0:1]\nset yrange [0:1]\nunset colorbox\n"
+           "unset border\nunset tics\n" +
+           plots + "\nunset label\nset tics scale 0.6\nset border 31 lc rgb '#666666'\n";
+  }
+
+  int count = 0;
+};
 
 }  // namespace
 
@@ -102,6 +117,7 @@ std::string Legend::script(double page_height) const {
   const auto text = [&](const std::string& words, double x, double y) {
     out += fmt::format("set label {} at screen {:.5f},{:.5f} left\n", gnuplot_quoted(words), x, y);
   };
+  LegendSamples samples;
   const double column = 1.0 / static_cast<double>(columns_);
   const auto left_of = [&](std::size_t i) {
     return letter + column * static_cast<double>(i % columns_);
@@ -109,7 +125,7 @@ std::string Legend::script(double page_height) const {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const double y = height_of(i / columns_);
     const double end = left_of(i) + (kSampleLetters - 1.0) * letter;
-    out += legend_sample(entries_[i], left_of(i), end, y);
+    samples.add(entries_[i], left_of(i), end, y);
     text(entries_[i].name, left_of(i) + kSampleLetters * letter, y);
   }
   std::size_t entries = entries_.size();
@@ -120,7 +136,7 @@ std::string Legend::script(double page_height) const {
   if (!note_.empty()) {
     text(cut(note_, letters(width_) - 2), letter, height_of((entries + columns_ - 1) / columns_));
   }
-  return out;
+  return out + samples.script();
 }
 
 }  // namespace loopbench::harness

@@ -10,7 +10,7 @@ namespace loopbench::harness {
 
 inline constexpr std::size_t kMostLegendEntries = 12;
 
-/// Rows of entries above the panels. Each entry is drawn with labels and arrows: gnuplot's own
+/// Rows of entries above the panels. Entries are labels and curves on the page: gnuplot's own
 /// legend covers panels or leaves out entries if they do not fit.
 class Legend {
  public:
