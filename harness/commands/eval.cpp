@@ -3,23 +3,25 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/eval/drawn_sequences.hpp"
 #include "harness/eval/error_figures.hpp"
 #include "harness/eval/eval_report.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/eval/run_summary.hpp"
+#include "harness/plot/store_figures.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/text.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/wrap.hpp"
 #include "harness/text/write_file.hpp"
-#include "harness/trajectory/named_trajectory.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -70,13 +72,14 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
 /// Figures and report of the estimates under the first protocol.
 void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty() && a.report.empty()) return;
-  std::vector<DrawnEvaluation> drawn;
-  for (const EvaluationResult& each : all) {
-    if (!each.why_failed.empty() || each.protocol.label() != all.front().protocol.label()) continue;
-    drawn.push_back(each.drawn);
-    drawn.back().name = output_stem(each.estimate);
-  }
+  const std::vector<DrawnRuns> drawn =
+      drawn_sequences(all, labelled_runs(file_pairs(a), a.sequence));
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
+  for (const DrawnRuns& each : drawn) {
+    if (each.note.empty()) continue;
+    const std::string sequence = each.sequence.empty() ? "" : each.sequence + ": ";
+    fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + sequence + each.note));
+  }
   reject_standard_output("--report", a.report);
   if (!a.report.empty()) {
     const std::string table = all.size() == 1 ? text(all.front()) : markdown(comparison(all));
@@ -84,8 +87,15 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
     fmt::print(stderr, "{}\n", printable(a.report));
   }
   if (a.plot.empty()) return;
-  for (const std::string& file : write_error_figures(a.plot, drawn)) {
-    fmt::print(stderr, "{}\n", printable(file));
+  std::set<std::string> prefixes;
+  for (const DrawnRuns& each : drawn) {
+    std::string prefix = a.plot;
+    if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
+    while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
+    for (const std::string& file :
+         write_error_figures(prefix, each.drawn, each.note, a.plot_size)) {
+      fmt::print(stderr, "{}\n", printable(file));
+    }
   }
 }
 

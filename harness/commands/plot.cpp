@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/model/where.hpp"
 #include "harness/plot/store_figures.hpp"
-#include "harness/report/content.hpp"
+#include "harness/report/drawn_methods.hpp"
 #include "harness/tables/store_provenance.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/suggest.hpp"
@@ -15,8 +15,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-constexpr std::size_t kUsualMethods = 5;  // more lines are hard to distinguish
 
 struct PlotArguments {
   std::string store;
@@ -29,30 +27,6 @@ struct PlotArguments {
   std::vector<double> size{3.5, 2.8};  ///< of a panel [in]: one column of a paper
   double font = 8.0;                   ///< [pt]
 };
-
-/// The baseline and the best-ranked methods with different results, or the first of the sweep
-/// without a ranking. Curves of methods whose medians differ by less than 3 % coincide in a figure.
-std::vector<std::string> usual_methods(const ReportContent& content) {
-  std::vector<std::string> out;
-  const auto add = [&](const std::string& name) {
-    if (out.size() < kUsualMethods && std::ranges::count(out, name) == 0) out.push_back(name);
-  };
-  constexpr double kSame = 0.03;
-  if (const Comparison* headline = content.headline()) {
-    add(headline->options.baseline);
-    std::vector<double> drawn;
-    for (const MethodVerdict& m : headline->methods) {
-      const bool coincides = std::ranges::any_of(
-          drawn, [&](double median) { return std::abs(m.median - median) <= kSame * median; });
-      if (coincides) continue;
-      drawn.push_back(m.median);
-      add(m.method);
-    }
-    return out;
-  }
-  for (const std::string& name : content.methods) add(name);
-  return out;
-}
 
 /// Each word is a label or comma-separated labels; a label can contain commas itself.
 std::vector<std::string> known_labels(const std::string& kind,
@@ -89,7 +63,7 @@ int write_figures(const PlotArguments& arguments) {
     const std::string& sequence = content.sequences[s];
     if (std::ranges::count(sequences, sequence) == 0) continue;
     const SequenceFigures figures = sequence_figures(
-        content.cells, traces, sequence, methods, content.methods, arguments.panels);
+        content.cells, traces, sequence, methods, style_order(content), arguments.panels);
     if (figures.errors.empty() && figures.trajectories.empty()) {
       fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
@@ -137,7 +111,7 @@ void add_plot(CLI::App& app, int& exit_code) {
                    "Comma-separated panels: trajectories in xy, xz, yz and in space (xyz), errors "
                    "in x, y, z and angle")
       ->delimiter(',')
-      ->check(CLI::IsMember(kPanelNames))
+      ->check(CLI::IsMember(panel_names()))
       ->type_name("WORDS")
       ->default_str("xy,xyz,x,y,z,angle");
   command->add_option("--format", arguments->formats, "File formats: svg, pdf, png or several")

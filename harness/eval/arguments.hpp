@@ -7,6 +7,7 @@
 
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
+#include "harness/eval/error_figures.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/layout.hpp"
 
@@ -42,6 +43,7 @@ struct EvalArguments {
   bool csv = false;
   std::string per_pose;  ///< output file; empty: none
   std::string plot;      ///< prefix of figure files; empty: none
+  ErrorFigureSize plot_size;
   std::string report;    ///< HTML file; empty: none
   std::string store;     ///< folder of a store for the results; empty: none
   std::string sequence;  ///< label of the reference in the store; empty: from its file name

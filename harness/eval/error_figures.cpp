@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
+#include <limits>
 
 #include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
@@ -14,7 +16,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostErrorPoints = 1500;
+constexpr std::size_t kMostErrorPoints = 1000;
 
 double position_error(const DrawnEvaluation& e, std::size_t i) {
   return (e.estimate[i].world_from_body.translation - e.reference[i].world_from_body.translation)
@@ -39,17 +41,18 @@ PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
   PlotPanel out = empty_map(a, b);
   const bool is_colored = all.size() == 1;
   if (is_colored) out.value_label = "position error [m]";
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const DrawnEvaluation& e = all[k];
-    const CurveStyle style = curve_style(k);
-    PlotSeries reference{k == 0 ? "reference" : "", kReferenceColor, false, {}};
+  PlotSeries reference{"reference", kReferenceColor, false, {}};
+  for (const StampedPose& pose : all.front().complete) {
+    reference.points.push_back(on_map(pose.world_from_body.translation, a, b));
+  }
+  out.series.push_back(std::move(reference));
+  for (const DrawnEvaluation& e : all) {
+    const CurveStyle& style = e.style;
     PlotSeries estimate{e.name, style.color, false, {}, kLineWidth, style.dash};
     for (const std::size_t i : drawn_indices(e.estimate.size())) {
-      reference.points.push_back(on_map(e.reference[i].world_from_body.translation, a, b));
       estimate.points.push_back(on_map(e.estimate[i].world_from_body.translation, a, b));
       if (is_colored) estimate.values.push_back(position_error(e, i));
     }
-    if (k == 0) out.series.push_back(reference);
     out.series.push_back(estimate);
     for (const PlotMark mark : {PlotMark::start, PlotMark::end}) {
       PlotSeries marked = estimate;
@@ -63,42 +66,24 @@ PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
   return out;
 }
 
-template <class Along, class Value>
+using Abscissa = std::vector<double> DrawnEvaluation::*;
+
+template <class Value>
 PlotPanel curves_of(const std::vector<DrawnEvaluation>& all,
                     const std::string& x_label,
                     const std::string& y_label,
-                    Along along,
+                    Abscissa along,
                     Value value) {
   PlotPanel out;
   out.same_scale = false;
   out.x_label = x_label;
   out.y_label = y_label;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const CurveStyle style = curve_style(k);
-    PlotSeries series{all[k].name, style.color, false, {}, kLineWidth, style.dash};
-    const std::vector<double> x = along(all[k]);
-    for (const std::size_t i : drawn_indices(all[k].estimate.size())) {
-      series.points.emplace_back(x[i], value(all[k], i), 0.0);
+  for (const DrawnEvaluation& e : all) {
+    PlotSeries series{e.name, e.style.color, false, {}, kLineWidth, e.style.dash};
+    for (const std::size_t i : drawn_indices(e.estimate.size())) {
+      series.points.emplace_back((e.*along)[i], value(e, i), 0.0);
     }
     out.series.push_back(std::move(series));
-  }
-  return out;
-}
-
-std::vector<double> times_of(const DrawnEvaluation& e) {
-  std::vector<double> out;
-  for (const StampedPose& pose : e.reference) {
-    out.push_back(pose.stamp - e.reference.front().stamp);
-  }
-  return out;
-}
-
-std::vector<double> distances_of(const DrawnEvaluation& e) {
-  std::vector<double> out(e.reference.size(), 0.0);
-  for (std::size_t i = 1; i < out.size(); ++i) {
-    out[i] = out[i - 1] + (e.reference[i].world_from_body.translation -
-                           e.reference[i - 1].world_from_body.translation)
-                              .norm();
   }
   return out;
 }
@@ -116,15 +101,13 @@ PlotPanel histogram_of(const std::vector<DrawnEvaluation>& all) {
     }
   }
   if (!(largest > 0.0)) largest = 1.0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const DrawnEvaluation& e = all[k];
+  for (const DrawnEvaluation& e : all) {
     std::array<std::size_t, kBins> counts{};
     for (std::size_t i = 0; i < e.estimate.size(); ++i) {
       const double bin = position_error(e, i) / largest * static_cast<double>(kBins);
       ++counts[std::min(kBins - 1, static_cast<std::size_t>(bin))];
     }
-    const CurveStyle style = curve_style(k);
-    PlotSeries series{e.name, style.color, false, {}, kLineWidth, style.dash};
+    PlotSeries series{e.name, e.style.color, false, {}, kLineWidth, e.style.dash};
     if (all.size() == 1) series.mark = PlotMark::bars;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       series.points.emplace_back(
@@ -144,19 +127,34 @@ double component(const Pose& pose, std::size_t axis) {
   return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis - 3];
 }
 
+/// Breaks lines between -180 and 180 deg.
+void break_at_wraps(PlotPanel& panel) {
+  const Vector3 gap = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (PlotSeries& series : panel.series) {
+    std::vector<Vector3> points;
+    for (const Vector3& p : series.points) {
+      if (!points.empty() && std::abs(p.y() - points.back().y()) > 180.0) points.push_back(gap);
+      points.push_back(p);
+    }
+    series.points = std::move(points);
+  }
+}
+
 PlotPanel axis_of(const std::vector<DrawnEvaluation>& all, std::size_t axis) {
   constexpr std::array kNames{"x [m]", "y [m]", "z [m]", "roll [deg]", "pitch [deg]", "yaw [deg]"};
-  PlotPanel out =
-      curves_of(all, "time [s]", kNames[axis], times_of, [&](const DrawnEvaluation& e, auto i) {
-        return component(e.estimate[i].world_from_body, axis);
-      });
+  PlotPanel out = curves_of(all,
+                            "time [s]",
+                            kNames[axis],
+                            &DrawnEvaluation::times,
+                            [&](const DrawnEvaluation& e, auto i) {
+                              return component(e.estimate[i].world_from_body, axis);
+                            });
   PlotSeries reference{"reference", kReferenceColor, false, {}};
-  const std::vector<double> times = times_of(all.front());
-  for (const std::size_t i : drawn_indices(times.size())) {
-    reference.points.emplace_back(
-        times[i], component(all.front().reference[i].world_from_body, axis), 0.0);
+  for (const StampedPose& pose : all.front().complete) {
+    reference.points.emplace_back(pose.stamp, component(pose.world_from_body, axis), 0.0);
   }
   out.series.insert(out.series.begin(), std::move(reference));
+  if (axis >= 3) break_at_wraps(out);
   return out;
 }
 
@@ -168,10 +166,12 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
                    2};
   NamedFigure errors{"errors", {}, 2};
   errors.panels = {
-      curves_of(all, "time [s]", "position error [m]", times_of, position_error),
-      curves_of(all, "distance [m]", "position error [m]", distances_of, position_error),
-      curves_of(all, "time [s]", "rotation error [deg]", times_of, rotation_error),
-      curves_of(all, "distance [m]", "rotation error [deg]", distances_of, rotation_error),
+      curves_of(all, "time [s]", "position error [m]", &DrawnEvaluation::times, position_error),
+      curves_of(
+          all, "distance [m]", "position error [m]", &DrawnEvaluation::distances, position_error),
+      curves_of(all, "time [s]", "rotation error [deg]", &DrawnEvaluation::times, rotation_error),
+      curves_of(
+          all, "distance [m]", "rotation error [deg]", &DrawnEvaluation::distances, rotation_error),
       histogram_of(all)};
   NamedFigure axes{"axes", {}, 3};
   for (std::size_t axis = 0; axis < 6; ++axis) axes.panels.push_back(axis_of(all, axis));
@@ -179,14 +179,33 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
 }
 
 std::vector<std::string> write_error_figures(const std::string& prefix,
-                                             const std::vector<DrawnEvaluation>& all) {
-  constexpr FigureSize kColumn{3.5, 2.8, 8.0, true};  // one column of a paper
+                                             const std::vector<DrawnEvaluation>& all,
+                                             const std::string& note,
+                                             const ErrorFigureSize& size) {
+  constexpr double kColumnWidth = 3.5;                  // of a paper [in]
+  constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
   std::vector<std::string> out;
   for (const NamedFigure& figure : error_figures(all)) {
+    const bool is_map = figure.panels.front().same_scale;
+    const std::size_t columns = size.columns > 0 ? size.columns : (is_map ? 2 : 1);
+    FigureSize panel;
+    panel.width = kColumnWidth / static_cast<double>(columns);
+    panel.height = panel.width * (is_map || columns > 1 ? kMapShape : kCurveShape);
+    if (size.panel.size() == 2) {
+      panel.width = size.panel[0];
+      panel.height = size.panel[1];
+    }
+    panel.font = size.font;
+    panel.common_legend = true;
+    panel.note = note;
+    std::vector<std::future<void>> formats;  // gnuplot takes most of the time
     for (const char* const extension : {".svg", ".pdf", ".png"}) {
       out.push_back(prefix + "_" + figure.name + extension);
-      write_figure(out.back(), figure.panels, figure.columns, kColumn);
+      formats.push_back(std::async(std::launch::async, [&, file = out.back()] {
+        write_figure(file, figure.panels, columns, panel);
+      }));
     }
+    for (std::future<void>& each : formats) each.get();
   }
   return out;
 }

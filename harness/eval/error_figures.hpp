@@ -21,13 +21,24 @@ struct NamedFigure {
 ///   single estimate;
 /// - errors: position and rotation error over time and over distance, and the histogram of the
 ///   position error;
-/// - axes: x, y, z, roll, pitch and yaw over time, with the reference.
-/// An estimate has the same colour in all of them. O(poses).
+/// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
+/// All estimates have the same reference, whose first pose is the origin of times and distances. An
+/// estimate has the same colour in all of them. O(poses).
 std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all);
 
-/// Writes PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, with panels as wide as one column
-/// of a paper (3.5 in). Returns the files. Throws InputError like write_figure().
+/// Size of the figures for a paper.
+struct ErrorFigureSize {
+  std::vector<double> panel;  ///< width and height [in]; empty: 3.5 in are divided by the columns
+  std::size_t columns = 0;    ///< panels in a row; 0: 2 maps, 1 panel of curves
+  double font = 7.0;          ///< [pt]
+};
+
+/// Writes PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, by default as wide as one column
+/// of a paper (3.5 in). `note`: a line in each figure, or empty. Returns the files. Throws
+/// InputError like write_figure().
 std::vector<std::string> write_error_figures(const std::string& prefix,
-                                             const std::vector<DrawnEvaluation>& all);
+                                             const std::vector<DrawnEvaluation>& all,
+                                             const std::string& note = "",
+                                             const ErrorFigureSize& size = {});
 
 }  // namespace loopbench::harness

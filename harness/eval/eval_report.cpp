@@ -40,10 +40,12 @@ std::string html_lines(const std::string& text) {
 }
 
 /// The figure as SVG text, through a temporary file next to the page.
-std::string svg_of(const NamedFigure& figure, const std::filesystem::path& page) {
+std::string svg_of(const NamedFigure& figure,
+                   const std::string& note,
+                   const std::filesystem::path& page) {
   const std::filesystem::path file =
       page.string() + fmt::format(".{}.{}.svg", getpid(), figure.name);
-  write_figure(file, figure.panels, figure.columns, {4.5, 3.6, 11.0, true});
+  write_figure(file, figure.panels, figure.columns, {4.5, 3.6, 11.0, true, note});
   std::string text;
   {
     std::ifstream in(file, std::ios::binary);
@@ -58,7 +60,7 @@ std::string svg_of(const NamedFigure& figure, const std::filesystem::path& page)
 void write_eval_report(const std::filesystem::path& file,
                        const std::string& reference,
                        const std::string& table,
-                       const std::vector<DrawnEvaluation>& drawn) {
+                       const std::vector<DrawnRuns>& drawn) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
@@ -70,10 +72,13 @@ void write_eval_report(const std::filesystem::path& file,
       "</head>\n<body>\n<h1>Evaluation against {0}</h1>\n<pre>{1}</pre>\n",
       html_text(reference),
       html_lines(table));
-  for (const NamedFigure& figure : error_figures(drawn)) {
-    page += fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
-                        figure.name,
-                        base64_of(svg_of(figure, file)));
+  for (const DrawnRuns& each : drawn) {
+    for (const NamedFigure& figure : error_figures(each.drawn)) {
+      page +=
+          fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
+                      html_text(each.sequence + (each.sequence.empty() ? "" : ": ") + figure.name),
+                      base64_of(svg_of(figure, each.note, file)));
+    }
   }
   write_file(file, page + "</body>\n</html>\n");
 }

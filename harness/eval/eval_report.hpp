@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/eval/evaluation_result.hpp"
+#include "harness/eval/drawn_sequences.hpp"
 
 namespace loopbench::harness {
 
@@ -14,6 +14,6 @@ namespace loopbench::harness {
 void write_eval_report(const std::filesystem::path& file,
                        const std::string& reference,
                        const std::string& table,
-                       const std::vector<DrawnEvaluation>& drawn);
+                       const std::vector<DrawnRuns>& drawn);
 
 }  // namespace loopbench::harness

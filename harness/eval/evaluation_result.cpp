@@ -168,7 +168,7 @@ EvaluationResult evaluate_estimate(const Trajectory& reference,
   std::future<void> checks = std::async(is_large ? std::launch::async : std::launch::deferred,
                                         [&] { add_checks(out, reference, evaluation, options); });
   if (options.with_poses) out.poses = metrics::pose_errors(evaluation);
-  if (options.with_figures) out.drawn = {"", evaluation.reference, evaluation.estimate};
+  if (options.with_figures) out.drawn = drawn_evaluation(reference, evaluation);
   out.metrics = evaluated(evaluation, options.metric_requests);
   checks.get();
   return out;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/formats/formats.hpp"
+#include "harness/eval/drawn_evaluation.hpp"
 #include "harness/tables/table_view.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/protocols/protocols.hpp"
@@ -31,13 +32,6 @@ struct EvaluationOptions {
   const metrics::PrintedPoses* printed = nullptr;  ///< printed matrices if both files hold matrices
   ReadFindings repaired = {};                      ///< findings of the readers for both files
   Pose body_from_reference = {};                   ///< offset that was applied to the reference
-};
-
-/// One estimate, paired and aligned.
-struct DrawnEvaluation {
-  std::string name;
-  Trajectory reference;  ///< paired with `estimate`
-  Trajectory estimate;   ///< aligned
 };
 
 struct EvaluatedMetric {

@@ -3,28 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
-#include <limits>
-#include <optional>
-#include <utility>
 
+#include "harness/plot/axes.hpp"
+#include "harness/plot/legend.hpp"
+#include "harness/plot/quoted.hpp"
 #include "harness/plot/run_gnuplot.hpp"
-#include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-/// Single-quoted gnuplot string: quotes are doubled; line breaks are not possible in it. gnuplot
-/// rejects a string that begins with a quote, so a space precedes it.
-std::string gnuplot_quoted(const std::string& text) {
-  std::string out = text.starts_with('\'') ? "' " : "'";
-  for (const char c : printable(text))
-    out += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
-  return out + "'";
-}
 
 std::string data_block(const std::string& name, const PlotSeries& series) {
   std::string out = fmt::format("${} << EOD\n", name);
@@ -42,34 +30,6 @@ std::string data_block(const std::string& name, const PlotSeries& series) {
   return out + "EOD\n";
 }
 
-/// Range of an axis. gnuplot warns about empty ranges (planar paths, errors across the plane), so
-/// these are widened to `least` or a tenth of the number.
-std::string axis_range(const char* axis,
-                       const std::vector<PlotSeries>& series,
-                       Eigen::Index coordinate,
-                       double least) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const PlotSeries& each : series) {
-    for (const Vector3& p : each.points) {
-      if (!p.allFinite()) continue;
-      low = std::min(low, p(coordinate));
-      high = std::max(high, p(coordinate));
-    }
-  }
-  const double pad = std::max(least, 0.1 * std::abs(low));
-  if (low > high || high - low > 1e-9 * pad) return fmt::format("set {}range [*:*]\n", axis);
-  return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, low - pad, high + pad);
-}
-
-std::string ranges(const PlotPanel& panel) {
-  constexpr double kLeastHeight = 1.0;   // [m]
-  constexpr double kLeastError = 0.001;  // [m] or [deg]
-  const bool is_map = panel.spatial || panel.same_scale;
-  return axis_range("y", panel.series, 1, is_map ? kLeastHeight : kLeastError) +
-         axis_range("z", panel.series, 2, kLeastHeight);
-}
-
 /// The plotting style of a series.
 std::string with_style(const PlotSeries& series) {
   const std::string color = gnuplot_quoted(series.color);
@@ -83,115 +43,72 @@ std::string with_style(const PlotSeries& series) {
   return fmt::format("lines lw {:g} dt {} lc rgb {}", series.width, series.dash, color);
 }
 
-/// The colour bar: from 0 to the largest value, with four intervals.
-std::string value_axis(const PlotPanel& panel) {
-  if (panel.value_label.empty()) return "unset colorbox\n";
+/// The colour bar of a page: its range from 0 to the largest value, with four intervals.
+struct ColorBar {
+  std::string label;  ///< empty: no bar
   double largest = 0.0;
-  for (const PlotSeries& series : panel.series) {
-    for (const double value : series.values) largest = std::max(largest, value);
-  }
-  if (!(largest > 0.0)) largest = 1.0;
-  return fmt::format("set colorbox\nset cblabel {}\nset cbrange [0:{:.6g}]\nset cbtics {:.1g}\n",
-                     gnuplot_quoted(panel.value_label),
-                     largest,
-                     0.25 * largest);
-}
+};
 
-/// Lower and upper bound of the finite coordinates; empty without any.
-std::optional<std::pair<double, double>> bounds(const PlotPanel& panel, Eigen::Index coordinate) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const PlotSeries& series : panel.series) {
-    for (const Vector3& p : series.points) {
-      if (!p.allFinite()) continue;
-      low = std::min(low, p(coordinate));
-      high = std::max(high, p(coordinate));
+ColorBar color_bar(const std::vector<PlotPanel>& panels) {
+  ColorBar out;
+  for (const PlotPanel& panel : panels) {
+    if (out.label.empty()) out.label = panel.value_label;
+    for (const PlotSeries& series : panel.series) {
+      for (const double value : series.values) out.largest = std::max(out.largest, value);
     }
   }
-  if (low > high) return std::nullopt;
-  return std::pair{low, high};
-}
-
-/// The largest of 1, 2 and 5 times a power of ten that is at most `step`.
-double round_step(double step) {
-  const double power = std::pow(10.0, std::floor(std::log10(step)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= step) return factor * power;
-  }
-  return power;
-}
-
-/// Distances of the tics of maps: the same for axes of the same scale, so that the labels of a
-/// short axis do not overlap; otherwise automatic.
-std::string tics(const PlotPanel& panel) {
-  std::string out = "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
-  if (!panel.spatial && !panel.same_scale) return out;
-  std::array<double, 3> lengths{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto range = bounds(panel, static_cast<Eigen::Index>(axis));
-    if (range) lengths[axis] = range->second - range->first;
-  }
-  const double longest = std::max(lengths[0], lengths[1]);
-  if (!(longest > 0.0)) return out;
-  const double step = round_step(panel.spatial ? 0.5 * longest : 0.3 * longest);
-  out = fmt::format("set xtics {0:g}\nset ytics {0:g}\n", step);
-  if (panel.spatial && lengths[2] > 1e-9 * longest) {
-    out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
-  }
+  if (!(out.largest > 0.0)) out.largest = 1.0;
   return out;
 }
 
-std::string panel_script(const PlotPanel& panel, std::size_t index, bool has_round_tics) {
+/// In a row at the bottom of the page; its height [in].
+double height_of(const ColorBar& bar, double font) {
+  return bar.label.empty() ? 0.0 : 4.2 * font / 72.0;
+}
+
+std::string script_of(const ColorBar& bar, double font, double page_height) {
+  if (bar.label.empty()) return "unset colorbox\n";
+  const double em = font / 72.0 / page_height;
+  return fmt::format(
+      "set colorbox horizontal user origin screen 0.2,{:.5f} size screen 0.6,{:.5f}\n"
+      "set cblabel {} offset 0,0.6\nset cbrange [0:{:.6g}]\nset cbtics {:.1g} offset 0,0.5\n",
+      3.2 * em,
+      0.7 * em,
+      gnuplot_quoted(bar.label),
+      bar.largest,
+      0.25 * bar.largest);
+}
+
+/// `setup`: commands for the ranges. The legend has the names if there is one for all panels.
+std::string panel_script(const PlotPanel& panel,
+                         std::size_t index,
+                         const std::string& setup,
+                         bool is_named) {
   std::string blocks;
   std::string plots;
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     const PlotSeries& series = panel.series[s];
     const std::string name = fmt::format("d{}_{}", index, s);
     blocks += data_block(name, series);
-    plots += fmt::format("{}${} using {}{} with {} {}",
-                         s == 0 ? "" : ", ",
-                         name,
-                         panel.spatial ? "1:2:3" : "1:2",
-                         series.values.empty() ? "" : ":4",
-                         with_style(series),
-                         series.name.empty() ? "notitle" : "title " + gnuplot_quoted(series.name));
+    plots += fmt::format(
+        "{}${} using {}{} with {} {}",
+        s == 0 ? "" : ", ",
+        name,
+        panel.spatial ? "1:2:3" : "1:2",
+        series.values.empty() ? "" : ":4",
+        with_style(series),
+        is_named && !series.name.empty() ? "title " + gnuplot_quoted(series.name) : "notitle");
   }
-  blocks += value_axis(panel) + (has_round_tics ? tics(panel) : "");
-  return blocks + ranges(panel) +
+  const bool has_equal_axes = is_named && !panel.spatial && panel.same_scale;
+  return blocks + setup +
          fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset zlabel {}\n{}\n{} {}\n",
                      gnuplot_quoted(panel.title),
                      gnuplot_quoted(panel.x_label),
                      gnuplot_quoted(panel.y_label),
                      gnuplot_quoted(panel.spatial ? panel.z_label : ""),
-                     panel.spatial || !panel.same_scale ? "set size noratio" : "set size ratio -1",
+                     has_equal_axes ? "set size ratio -1" : "set size noratio",
                      panel.spatial ? "splot" : "plot",
                      plots);
-}
-
-/// One legend for all panels, above them: their series have the same names.
-struct Legend {
-  std::string script;
-  double height = 0.0;  ///< [in]
-};
-
-Legend legend_of(const std::vector<PlotPanel>& panels, double width, double font) {
-  constexpr double kPoint = 1.0 / 72.0;  // [in]
-  constexpr double kLetter = 0.6;        // width over height
-  constexpr double kSample = 6.0;        // letters of the line beside a name
-  std::size_t names = 0, longest = 0;
-  for (const PlotSeries& series : panels.front().series) {
-    if (series.name.empty()) continue;
-    ++names;
-    longest = std::max(longest, series.name.size());
-  }
-  if (names == 0) return {"unset key\n", 0.0};
-  const double entry = (static_cast<double>(longest) + kSample) * kLetter * font * kPoint;
-  const auto columns = std::clamp<std::size_t>(static_cast<std::size_t>(width / entry), 1, names);
-  const std::size_t rows = (names + columns - 1) / columns;
-  return {fmt::format("set key at screen 0.5, screen 1.0 center top horizontal maxcols {} "
-                      "samplen 2 Left reverse\n",
-                      columns),
-          1.35 * font * kPoint * (static_cast<double>(rows) + 1.0)};
 }
 
 /// [pt]
@@ -200,18 +117,23 @@ double font_size(const std::filesystem::path& file, const FigureSize& size) {
   return file.extension() == ".svg" ? 12.0 : 9.0;
 }
 
-std::string terminal(const std::filesystem::path& file, double width, double height, double font) {
-  constexpr double kPoints = 72.0, kPixels = 150.0;  // per inch
-  constexpr double kFontPixels = 96.0;               // per inch, of a font size in PNG
+std::string terminal(
+    const std::filesystem::path& file, double width, double height, double font, double pixels) {
+  constexpr double kPoints = 72.0;  // per inch
+  // Font size, line width and marks of PNG are for 96 and 72 pixels per inch.
+  constexpr double kFontPixels = 96.0, kLinePixels = 110.0;
   if (file.extension() == ".pdf") {
     return fmt::format(
         "pdfcairo size {:.3f}in,{:.3f}in noenhanced font 'sans,{:g}'", width, height, font);
   }
   if (file.extension() == ".png") {
-    return fmt::format("pngcairo size {:.0f},{:.0f} noenhanced font 'sans,{:g}'",
-                       width * kPixels,
-                       height * kPixels,
-                       font * kPixels / kFontPixels);
+    return fmt::format(
+        "pngcairo size {:.0f},{:.0f} noenhanced font 'sans,{:g}' linewidth {:g} pointscale {:g}",
+        width * pixels,
+        height * pixels,
+        font * pixels / kFontPixels,
+        std::max(1.0, pixels / kLinePixels),
+        std::max(1.0, pixels / kLinePixels));
   }
   return fmt::format(
       "svg size {:.0f},{:.0f} dynamic noenhanced background '#ffffff' font 'sans,{:g}'",
@@ -220,41 +142,70 @@ std::string terminal(const std::filesystem::path& file, double width, double hei
       font);
 }
 
+constexpr const char* kCommon =
+    "set grid lc rgb '#dddddd'\nset key outside below horizontal samplen 2\nset border lc rgb "
+    "'#666666'\nset palette defined (0 '#2c7bb6', 0.5 '#ffd24d', 1 '#d7191c')\n";
+
+/// Panels in boxes of the same size, the legend above and the colour bar below them.
+std::string page_with_legend(const std::filesystem::path& file,
+                             const std::vector<PlotPanel>& panels,
+                             std::size_t columns,
+                             const FigureSize& size) {
+  const double width = size.width * static_cast<double>(columns);
+  // Per inch of a PNG: 300, as journals require, unless the page is wider than one of a journal.
+  const double pixels = std::clamp(3000.0 / width, 150.0, 300.0);
+  const double font = font_size(file, size);
+  const Legend legend(panels, size.note, width, font);
+  const ColorBar bar = color_bar(panels);
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  const double top = height_of(bar, font) + size.height * static_cast<double>(rows);
+  const double height = top + legend.height();
+  std::string out = fmt::format("set terminal {}\n{}set tics scale 0.6\nset multiplot\nunset key\n",
+                                terminal(file, width, height, font, pixels),
+                                kCommon);
+  out += legend.script(height) + script_of(bar, font, height);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const PanelBox box{static_cast<double>(i % columns) * size.width,
+                       top - size.height * (1.0 + static_cast<double>(i / columns)),
+                       size.width,
+                       size.height,
+                       width,
+                       height};
+    out += panel_script(panels[i], i, framed(panels[i], box, font), false);
+    if (i == 0) out += "unset label\nunset colorbox\n";
+  }
+  return out;
+}
+
+std::string page_of_panels(const std::filesystem::path& file,
+                           const std::vector<PlotPanel>& panels,
+                           std::size_t columns,
+                           const FigureSize& size) {
+  constexpr double kPixels = 150.0;  // per inch of a PNG
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  std::string out = fmt::format("set terminal {}\n{}set multiplot layout {},{}\nunset colorbox\n",
+                                terminal(file,
+                                         size.width * static_cast<double>(columns),
+                                         size.height * static_cast<double>(rows),
+                                         font_size(file, size),
+                                         kPixels),
+                                kCommon,
+                                rows,
+                                columns);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    out += panel_script(panels[i], i, ranges(panels[i]), true);
+  }
+  return out;
+}
+
 }  // namespace
 
 void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
                   std::size_t columns,
                   const FigureSize& size) {
-  const std::size_t rows = (panels.size() + columns - 1) / columns;
-  const double width = size.width * static_cast<double>(columns);
-  const double font = font_size(file, size);
-  const Legend legend = size.common_legend ? legend_of(panels, width, font) : Legend{};
-  const double height = size.height * static_cast<double>(rows) + legend.height;
-  std::string script = fmt::format(
-      "set terminal {}\n"
-      "set grid lc rgb '#dddddd'\nset key outside below horizontal samplen 2\nset border lc rgb "
-      "'#666666'\nset palette defined (0 '#2c7bb6', 0.5 '#ffd24d', 1 '#d7191c')\n",
-      terminal(file, width, height, font));
-  script += size.common_legend ? "set multiplot\n"
-                               : fmt::format("set multiplot layout {},{}\n", rows, columns);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (size.common_legend) {
-      const double left = static_cast<double>(i % columns) * size.width;
-      const double bottom =
-          height - legend.height - size.height * (1.0 + static_cast<double>(i / columns));
-      script += fmt::format("set size {:.6f},{:.6f}\nset origin {:.6f},{:.6f}\n{}",
-                            size.width / width,
-                            size.height / height,
-                            left / width,
-                            bottom / height,
-                            i == 0 ? legend.script : "unset key\n");
-    }
-    script += panel_script(panels[i], i, size.common_legend);
-  }
-  script += "unset multiplot\n";
-
-  write_result(file, drawn_by_gnuplot(script));
+  const auto draw = size.common_legend ? page_with_legend : page_of_panels;
+  write_result(file, drawn_by_gnuplot(draw(file, panels, columns, size) + "unset multiplot\n"));
 }
 
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most) {

@@ -41,9 +41,10 @@ struct FigureSize {
   double width = 640.0 / 72.0;   ///< [in]
   double height = 480.0 / 72.0;  ///< [in]
   double font = 0.0;             ///< [pt]; 0: 12 in SVG, 9 in PDF and PNG
-  /// One legend above all panels, of the first one's names, and the same tics on axes of the same
-  /// scale; otherwise each panel has its legend.
+  /// One legend above all panels, with the names of all of them, and one colour bar below them;
+  /// otherwise each panel has its legend, and no values are drawn.
   bool common_legend = false;
+  std::string note = {};  ///< line below the common legend
 };
 
 /// Panels row by row on one page: SVG, or PDF or PNG by the file's extension. Throws InputError if

@@ -102,7 +102,10 @@ void add_errors(std::vector<ErrorPanel>& panels,
 
 }  // namespace
 
-const std::vector<std::string> kPanelNames{"xy", "xz", "yz", "xyz", "x", "y", "z", "angle"};
+const std::vector<std::string>& panel_names() {
+  static const std::vector<std::string> names{"xy", "xz", "yz", "xyz", "x", "y", "z", "angle"};
+  return names;
+}
 
 SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
                                  Traces& traces,

@@ -12,7 +12,7 @@ namespace loopbench::harness {
 
 /// Names of panels: trajectories in the planes "xy", "xz" and "yz" and in space ("xyz"); errors
 /// "x", "y", "z" [m] and "angle" [deg] along the path.
-extern const std::vector<std::string> kPanelNames;
+const std::vector<std::string>& panel_names();
 
 /// Panels for one sequence: `methods` on its first repeat, in their order; methods without a trace
 /// are skipped. The style of a method depends on its index in `all_methods` of the sweep, so that

@@ -13,6 +13,9 @@ struct CurveStyle {
   int dash;  ///< dash type of gnuplot
 };
 
+/// Solid, then four dash types.
+inline constexpr int dash_of(std::size_t index) { return 1 + static_cast<int>(index % 5); }
+
 /// Style of the curve with this index, of a method among all methods of a sweep or of a file among
 /// all files of a command. Ten colours, then the same colours dashed.
 inline CurveStyle curve_style(std::size_t index) {
@@ -26,8 +29,7 @@ inline CurveStyle curve_style(std::size_t index) {
                                "#b58900",
                                "#4a5bd4",
                                "#8d5524"};
-  constexpr int kDashes = 5;
-  return {kColors[index % kColors.size()], 1 + static_cast<int>(index / kColors.size()) % kDashes};
+  return {kColors[index % kColors.size()], dash_of(index / kColors.size())};
 }
 
 }  // namespace loopbench::harness

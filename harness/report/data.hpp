@@ -7,9 +7,10 @@
 
 namespace loopbench::harness {
 
-/// {methods, oracle, sequences, baseline, statistics, kinds, cells}: every score of every cell to
-/// five digits. A cell is {s, m, n, st, ms, v}: indices of its sequence and method, repeat, status,
-/// time [ms], and for each kind null or its statistics.
+/// {methods, styles, usual, oracle, sequences, baseline, statistics, kinds, cells}: every score of
+/// every cell to five digits. styles: {color, dash} of each method as in `plot`; usual: indices of
+/// the methods that are shown first. A cell is {s, m, n, st, ms, v}: indices of its sequence and
+/// method, repeat, status, time [ms], and for each kind null or its statistics.
 std::string scores_json(const ReportContent& content);
 
 /// Amount of trace data in the report.

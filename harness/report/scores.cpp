@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "harness/plot/style.hpp"
 #include "harness/report/data.hpp"
+#include "harness/report/drawn_methods.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -88,11 +90,24 @@ std::string scores_json(const ReportContent& content) {
                          json_number(1e3 * cell.seconds),
                          values);
   }
+  const std::vector<std::string> order = style_order(content);
+  nlohmann::json styles = nlohmann::json::array();
+  for (const std::string& name : content.methods) {
+    const auto index = std::ranges::find(order, name) - order.begin();
+    const CurveStyle style = curve_style(static_cast<std::size_t>(index));
+    styles.push_back({{"color", style.color}, {"dash", style.dash}});
+  }
+  nlohmann::json usual = nlohmann::json::array();
+  for (const std::string& name : usual_methods(content)) {
+    if (const auto known = method.find(name); known != method.end()) usual.push_back(known->second);
+  }
   const auto baseline = content.run.find("baseline");
   return fmt::format(
-      "{{\"methods\":{},\"oracle\":{},\"sequences\":{},\"baseline\":{},"
+      "{{\"methods\":{},\"styles\":{},\"usual\":{},\"oracle\":{},\"sequences\":{},\"baseline\":{},"
       "\"statistics\":[\"rmse\",\"mean\",\"median\",\"max\"],\"kinds\":{},\"cells\":[{}]}}",
       json_text(content.methods),
+      json_text(styles),
+      json_text(usual),
       json_text(oracle),
       json_text(content.shown_sequences()),
       json_text(baseline == content.run.end() ? "" : baseline->second),

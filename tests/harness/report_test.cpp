@@ -12,6 +12,7 @@
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/data.hpp"
+#include "harness/report/drawn_methods.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/report/sha256.hpp"
@@ -139,6 +140,22 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
   EXPECT_EQ(cut[0]["kind"], "window");
   EXPECT_EQ(cut[0]["names"][0], "shifted");
   EXPECT_FALSE(all["traces"]["cells"]["0"].contains("cut"));
+}
+
+TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
+  const ReportContent content = read_report_content(folder_->path());
+  const nlohmann::json scores = nlohmann::json::parse(scores_json(content));
+  const std::vector<std::string> usual = usual_methods(content);
+  Traces traces(content.store);
+  const SequenceFigures figures =
+      sequence_figures(content.cells, traces, "b", usual, style_order(content), {"x"});
+  EXPECT_EQ(figures.errors.at(0).series.empty(), scores["usual"].empty());
+  for (const PlotSeries& series : figures.errors[0].series) {
+    const auto m = std::ranges::find(content.methods, series.name) - content.methods.begin();
+    EXPECT_EQ(scores["styles"][m]["color"], series.color) << series.name;
+    EXPECT_EQ(scores["styles"][m]["dash"], series.dash) << series.name;
+  }
+  EXPECT_EQ(style_order(content).front(), "straight");  // the baseline
 }
 
 TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {

@@ -2,18 +2,10 @@
 (() => {
   "use strict";
   const R = window.R;
-  const kPalette = ["#0b6fd3", "#0f9d58", "#e8710a", "#7b3ff2", "#00a3a3", "#c2185b", "#b58900", "#4a5bd4", "#8d5524", "#5f8f00"];
-  const kDashes = ["", "7 3", "2 2", "9 3 2 3"];
-
-  // Assigns colours when methods are first shown, so that a few methods are easy to distinguish.
-  const order = [];
-  const placeOf = (m) => {
-    if (!order.includes(m)) order.push(m);
-    return order.indexOf(m);
-  };
-  R.color = (m) => R.baseline && m === R.baseline.place ? "#d93025" : kPalette[placeOf(m) % kPalette.length];
-  R.dash = (m) => R.baseline && m === R.baseline.place
-    ? null : kDashes[Math.floor(placeOf(m) / kPalette.length) % kDashes.length] || null;
+  // Dash types of gnuplot, so that a method has the same style in the figures of `plot`.
+  const kDashes = [null, "7 3", "2 2", "9 3 2 3", "9 3 2 3 2 3"];
+  R.color = (m) => R.scores.styles[m].color;
+  R.dash = (m) => kDashes[R.scores.styles[m].dash - 1];
 
   const kinds = R.scores.kinds;
   const wanted = (k) => (k.metric.startsWith("ate") && k.relation === "translation" ? 4 : 0) +
@@ -24,22 +16,6 @@
     const k = kinds[place];
     return k && R.comparisons.find((c) => c.label === k.metric &&
       ["protocol", "times", "relation", "axis", "unit"].every((key) => c[key] === k[key])) || null;
-  };
-
-  // The baseline, then by rank methods with distinct trajectories.
-  const usual = () => {
-    const out = R.baseline ? [R.baseline.place] : [];
-    const ratios = [1];
-    const comparison = R.comparison(kind);
-    for (const m of comparison ? comparison.methods : []) {
-      const place = R.methods.findIndex((method) => method.name === m.method);
-      if (out.length >= 5 || out.includes(place)) continue;
-      if (m.ratio !== null && ratios.some((r) => Math.abs(r - m.ratio) < 0.02 * r)) continue;
-      ratios.push(m.ratio === null ? NaN : m.ratio);
-      out.push(place);
-    }
-    for (const m of R.methods) if (out.length < Math.min(3, R.methods.length) && !out.includes(m.place)) out.push(m.place);
-    return out;
   };
 
   // The best methods by the selected score, after the baseline: by the ranking of the verdict or, without
@@ -58,9 +34,9 @@
     return [...base, ...ranked.filter((m) => !base.includes(m)).slice(0, 4)];
   };
 
-  const shown = usual();
+  // The baseline, then by rank methods with distinct trajectories, as in `plot`.
+  const shown = R.scores.usual;
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
-  shown.forEach((m) => placeOf(m));
   const usualState = {
     sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
@@ -86,7 +62,6 @@
   if (link.has("method")) {
     const places = link.getAll("method").map((name) => names.before.indexOf(name)).filter((m) => m >= 0);
     R.state.shown = new Set(places);
-    places.forEach((m) => placeOf(m));
   }
   R.section = link.get("at") || (document.getElementById(location.hash.slice(1)) ? location.hash.slice(1) : "");
   R.link = () => {

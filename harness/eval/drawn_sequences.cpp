@@ -1,0 +1,155 @@
+#include "harness/eval/drawn_sequences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "datasets/core/error.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// The shortest ends of the paths that all differ: "a/run.txt" and "b/run.txt".
+std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> rest;
+  std::vector<std::string> out;
+  for (const FilePair& pair : files) {
+    rest.emplace_back(pair.estimate);
+    out.push_back(rest.back().filename().string());
+  }
+  while (std::set<std::string>(out.begin(), out.end()).size() < out.size()) {
+    bool is_longer = false;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::filesystem::path parent = rest[i].parent_path();
+      if (parent.empty() || parent == rest[i] || parent.filename().empty()) continue;
+      rest[i] = parent;
+      out[i] = parent.filename().string() + "/" + out[i];
+      is_longer = true;
+    }
+    if (!is_longer) return out;  // the same file twice
+  }
+  return out;
+}
+
+/// A candidate for a figure.
+struct RatedRun {
+  DrawnEvaluation drawn;
+  std::string method;
+  bool is_complete = true;
+  double ate = 0.0;  ///< [m]
+};
+
+/// Best, median and worst of runs of one method, or only the median.
+std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_only) {
+  std::ranges::stable_sort(runs, {}, &RatedRun::ate);
+  const auto named = [&](std::size_t i, const char* role) {
+    DrawnEvaluation out = runs[i].drawn;
+    out.name += role;
+    out.style.dash = 1;  // no other run of its method has its colour
+    return out;
+  };
+  const std::size_t middle = (runs.size() - 1) / 2;
+  if (runs.size() == 1) return {named(0, "")};
+  if (!is_only) return {named(middle, " (median)")};
+  std::vector<DrawnEvaluation> out{
+      named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].style = curve_style(i);
+  return out;
+}
+
+void choose_drawn(const std::vector<RatedRun>& all, DrawnRuns& out) {
+  if (all.size() <= kMostDrawnEstimates) {
+    for (const RatedRun& each : all) out.drawn.push_back(each.drawn);
+    return;
+  }
+  std::vector<std::string> methods;
+  std::map<std::string, std::vector<RatedRun>> runs;
+  const bool has_complete = std::ranges::any_of(all, &RatedRun::is_complete);
+  for (const RatedRun& each : all) {
+    if (has_complete && !each.is_complete) continue;
+    if (runs[each.method].empty()) methods.push_back(each.method);
+    runs[each.method].push_back(each);
+  }
+  const bool is_only = methods.size() == 1 && runs[methods.front()].size() > 2;
+  const bool has_repeats = runs.size() < all.size();
+  if (methods.size() > kMostDrawnEstimates) methods.resize(kMostDrawnEstimates);
+  for (const std::string& method : methods) {
+    std::ranges::move(representative(runs[method], is_only), std::back_inserter(out.drawn));
+  }
+  out.note = fmt::format("{} of {} estimates are not drawn{}",
+                         all.size() - out.drawn.size(),
+                         all.size(),
+                         has_repeats ? " (chosen by ATE)" : "");
+}
+
+/// Numbers names in order of appearance.
+struct NameNumbers {
+  std::vector<std::string> names;
+  std::size_t number(const std::string& name) {
+    const auto known = std::ranges::find(names, name);
+    const auto out = static_cast<std::size_t>(known - names.begin());
+    if (known == names.end()) names.push_back(name);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
+                                       const std::string& sequence) {
+  try {
+    return recorded_runs(files, sequence);
+  } catch (const InputError&) {
+    std::vector<RecordedRun> out;
+    const std::vector<std::string> names = differing_ends(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      out.push_back({std::filesystem::path(files[i].reference).stem().string(),
+                     names[i],
+                     "0",
+                     files[i].reference,
+                     files[i].estimate});
+    }
+    return out;
+  }
+}
+
+std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
+                                       const std::vector<RecordedRun>& runs) {
+  std::vector<DrawnRuns> out;
+  NameNumbers methods, references;
+  std::map<std::pair<std::string, std::string>, std::size_t> count;  // by reference and method
+  for (const RecordedRun& run : runs) {
+    methods.number(run.method);
+    references.number(run.reference);
+    ++count[{run.reference, run.method}];
+  }
+  const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
+  std::map<std::pair<std::string, std::string>, std::size_t> before;
+  std::vector<std::vector<RatedRun>> candidates;
+  std::map<std::string, std::size_t> place;  // in `out`, of a reference
+  for (std::size_t i = 0; i < all.size(); i += protocols) {
+    const RecordedRun& run = runs[i / protocols];
+    const std::size_t repeat = before[{run.reference, run.method}]++;
+    if (!all[i].why_failed.empty()) continue;
+    if (place.emplace(run.reference, out.size()).second) {
+      out.push_back({references.names.size() > 1 ? run.sequence : "", {}, ""});
+      candidates.emplace_back();
+    }
+    RatedRun& candidate = candidates[place[run.reference]].emplace_back(
+        RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty(), 0.0});
+    DrawnEvaluation& drawn = candidate.drawn;
+    candidate.ate = position_rmse(drawn);
+    const bool has_repeats = count[{run.reference, run.method}] > 1;
+    drawn.name = run.method + (has_repeats ? " " + run.run : "");
+    drawn.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
+    if (methods.names.size() > 1 && has_repeats) drawn.style.dash = dash_of(repeat);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) choose_drawn(candidates[i], out[i]);
+  return out;
+}
+
+}  // namespace loopbench::harness
