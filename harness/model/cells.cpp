@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "datasets/core/error.hpp"
+#include "datasets/hash.hpp"
 #include "harness/text/pattern.hpp"
 
 namespace loopbench::harness {

@@ -6,12 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/core/upper_median.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 using metrics::kDegrees;
+
+double median_of(std::vector<double> values) { return upper_median(values); }
 
 /// Speeds above twenty times the median and ten times the 95 % quantile are jumps.
 void remark_jumps(TrajectorySummary& out, const std::vector<double>& speeds) {
