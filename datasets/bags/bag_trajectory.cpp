@@ -60,13 +60,20 @@ Decoded decode_all(const std::string& file, const WantsTopic& wants, Use use) {
   return out;
 }
 
+/// For errors: the reason why something can be missing.
+std::string damage_text(const BagSummary& summary) {
+  return summary.damage.empty() ? "" : "; the bag is damaged: " + summary.damage;
+}
+
 std::string only_topic(const std::string& file) {
-  std::vector<BagTopic> topics = bag_topics(file).topics;
+  const BagSummary summary = bag_topics(file);
+  std::vector<BagTopic> topics = summary.topics;
   const std::string known = known_topics(topics);
   std::erase_if(topics, [](const BagTopic& topic) { return !has_poses(topic); });
   if (topics.size() == 1) return topics[0].name;
   throw InputError(file + ": has " + std::to_string(topics.size()) +
-                   " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known + ")");
+                   " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known + ")" +
+                   damage_text(summary));
 }
 
 Decoded read_topic(const std::string& file, const std::string& name) {
@@ -80,7 +87,7 @@ Decoded read_topic(const std::string& file, const std::string& name) {
   const auto found = std::ranges::find(out.summary.topics, name, &BagTopic::name);
   const std::string known = " (topics: " + known_topics(out.summary.topics) + ")";
   if (found == out.summary.topics.end()) {
-    throw InputError(file + ": has no topic '" + name + "'" + known);
+    throw InputError(file + ": has no topic '" + name + "'" + known + damage_text(out.summary));
   }
   if (!has_poses(*found)) {
     throw InputError(file + ": topic '" + name + "' has type " + found->type_name +
@@ -98,6 +105,7 @@ Decoded read_topic(const std::string& file, const std::string& name) {
 
 Decoded read_tf(const std::string& file, const std::string& frames) {
   TransformTree tree;
+  std::string damage;
   std::size_t invalid = 0;
   double off_unit = 0.0;
   const auto add = [&](const BagTopic& topic,
@@ -115,6 +123,7 @@ Decoded read_tf(const std::string& file, const std::string& frames) {
     Decoded out = decode_all(
         file, [](const BagTopic& topic) { return topic.type == MessageType::tf; }, add);
     out.damaged += invalid;
+    damage = damage_text(out.summary);
     tree.finish();
     // A frame's name can contain dots.
     const std::vector<std::string> known = tree.frames();
@@ -131,7 +140,7 @@ Decoded read_tf(const std::string& file, const std::string& frames) {
     }
   } catch (const InputError& error) {
     const std::string what = error.what();
-    throw InputError(what.starts_with(file) ? what : file + ": " + what);
+    throw InputError((what.starts_with(file) ? what : file + ": " + what) + damage);
   }
   throw InputError(file + ": tf:" + frames + ": expected tf:PARENT.CHILD");
 }

@@ -2,6 +2,7 @@
 // Source: mcap.dev/spec.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -53,16 +54,26 @@ class McapReader {
         ByteReader prefix(source_.bytes(at, kRecordPrefix));
         const auto op = static_cast<McapOp>(prefix.number<std::uint8_t>());
         const auto size = prefix.number<std::uint64_t>();
-        if (size > source_.size() - at - kRecordPrefix) throw DamagedRecord("ends early");
+        if (size > source_.size() - at - kRecordPrefix) {
+          missing_ = size - (source_.size() - at - kRecordPrefix);
+          if (op == McapOp::chunk) cut_chunk(at + kRecordPrefix);
+          throw DamagedRecord("ends early");
+        }
         top_level(op, at + kRecordPrefix, size);
         at += kRecordPrefix + size;
       }
     } catch (const DamagedRecord&) {
       const std::uint64_t lost = source_.size() - at;
       summary_.damage =
-          fmt::format("ends early: has no footer, and its last {} of {} bytes are incomplete",
-                      lost,
-                      source_.size());
+          has_cut_chunk_
+              ? fmt::format(
+                    "ends early: has no footer, and at least {} of {} bytes are missing, in "
+                    "and after its last chunk",
+                    missing_,
+                    source_.size() + missing_)
+              : fmt::format("ends early: has no footer, and its last {} of {} bytes are incomplete",
+                            lost,
+                            source_.size());
     }
     const auto also = [&](const std::string& what) {
       summary_.damage += (summary_.damage.empty() ? "" : "; ") + what;
@@ -106,13 +117,25 @@ class McapReader {
     }
   }
 
-  std::string_view chunk(std::string_view bytes) {
+  /// Reads the records of a chunk up to the end of the file.
+  void cut_chunk(std::uint64_t at) {
+    ++chunks_;
+    has_cut_chunk_ = true;
+    try {
+      records(chunk(source_.bytes(at, source_.size() - at), true));
+    } catch (const DamagedStream&) {  // more data than the chunk states
+    }
+  }
+
+  std::string_view chunk(std::string_view bytes, bool is_cut = false) {
     ByteReader reader(bytes);
     reader.bytes(2 * sizeof(std::uint64_t));  // first and last time
     const auto size = reader.number<std::uint64_t>();
     const auto crc = reader.number<std::uint32_t>();
     const std::string compression(reader.counted());
-    const std::string_view stored = reader.bytes(reader.number<std::uint64_t>());
+    const auto stored_size = reader.number<std::uint64_t>();
+    const std::string_view stored =
+        reader.bytes(is_cut ? std::min<std::uint64_t>(stored_size, reader.left()) : stored_size);
     std::string_view out = stored;
     if (!compression.empty()) {
       if (compression != "zstd" && compression != "lz4") {
@@ -120,11 +143,13 @@ class McapReader {
                           "', expected zstd, lz4 or none");
       }
       if (size > kMaxMcapChunk) throw DamagedRecord("has a chunk that is too large");
-      expanded_ = decompress(
-          compression == "zstd" ? Codec::zstd : Codec::lz4, stored, static_cast<std::size_t>(size));
+      const Codec codec = compression == "zstd" ? Codec::zstd : Codec::lz4;
+      const auto limit = static_cast<std::size_t>(size);
+      expanded_ =
+          is_cut ? decompress_intact(codec, stored, limit) : decompress(codec, stored, limit);
       out = expanded_;
     }
-    if (crc != 0 && crc != crc32_of(out)) throw DamagedRecord("has a wrong checksum");
+    if (!is_cut && crc != 0 && crc != crc32_of(out)) throw DamagedRecord("has a wrong checksum");
     return out;
   }
 
@@ -171,6 +196,8 @@ class McapReader {
   std::map<std::uint16_t, BagTopic> channels_;
   std::string expanded_;
   bool is_complete_ = false;
+  bool has_cut_chunk_ = false;
+  std::uint64_t missing_ = 0;  ///< bytes of the last record
   std::uint64_t chunks_ = 0;
   std::uint64_t damaged_chunks_ = 0;
   std::uint64_t messages_ = 0;

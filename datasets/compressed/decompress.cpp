@@ -58,23 +58,29 @@ class Grown {
 };
 
 /// Calls step(in, size, out, room), which returns the bytes read and written and whether a frame
-/// has ended, until all input is used.
+/// has ended, until all input is used. `damage`: if given, set to the reason why the input cannot
+/// be used to its end, otherwise this is an exception.
 template <class Step>
-std::string expand(std::string_view bytes, std::size_t limit, Step step) {
+std::string expand(std::string_view bytes, std::size_t limit, std::string* damage, Step step) {
   Grown out(limit);
   bool ended = false;
   bool full = false;
-  while (!bytes.empty() || full) {
-    char* const space = out.space();
-    const auto [read, written, frame_ended] = step(bytes, space, out.room());
-    if (read == 0 && written == 0 && !frame_ended) break;
-    full = written == out.room();
-    ended = frame_ended;
-    if (ended) full = false;
-    bytes.remove_prefix(read);
-    out.use(written);
+  try {
+    while (!bytes.empty() || full) {
+      char* const space = out.space();
+      const auto [read, written, frame_ended] = step(bytes, space, out.room());
+      if (read == 0 && written == 0 && !frame_ended) break;
+      full = written == out.room();
+      ended = frame_ended;
+      if (ended) full = false;
+      bytes.remove_prefix(read);
+      out.use(written);
+    }
+    if (!ended) throw DamagedStream("ends early");
+  } catch (const DamagedStream& reason) {
+    if (damage == nullptr) throw;
+    *damage = reason.what();
   }
-  if (!ended) throw DamagedStream("ends early");
   return out.take();
 }
 
@@ -85,7 +91,7 @@ struct Progress {
 };
 
 #ifdef LOOPBENCH_HAS_ZLIB
-std::string expand_gzip(std::string_view bytes, std::size_t limit) {
+std::string expand_gzip(std::string_view bytes, std::size_t limit, std::string* damage) {
   struct Stream {
     z_stream state{};
     Stream() {
@@ -96,7 +102,7 @@ std::string expand_gzip(std::string_view bytes, std::size_t limit) {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, [&](std::string_view in, char* out, std::size_t room) {
+  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
     const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
     z_stream& s = stream.state;
     s.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(in.data()));
@@ -113,11 +119,11 @@ std::string expand_gzip(std::string_view bytes, std::size_t limit) {
   });
 }
 #else
-std::string expand_gzip(std::string_view, std::size_t) { lack("gzip", "zlib1g-dev"); }
+std::string expand_gzip(std::string_view, std::size_t, std::string*) { lack("gzip", "zlib1g-dev"); }
 #endif
 
 #ifdef LOOPBENCH_HAS_BZIP2
-std::string expand_bzip2(std::string_view bytes, std::size_t limit) {
+std::string expand_bzip2(std::string_view bytes, std::size_t limit, std::string* damage) {
   struct Stream {
     bz_stream state{};
     Stream() { start(); }
@@ -129,7 +135,7 @@ std::string expand_bzip2(std::string_view bytes, std::size_t limit) {
       if (BZ2_bzDecompressInit(&state, 0, 0) != BZ_OK) throw std::bad_alloc();
     }
   } stream;
-  return expand(bytes, limit, [&](std::string_view in, char* out, std::size_t room) {
+  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
     const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
     bz_stream& s = stream.state;
     s.next_in = const_cast<char*>(in.data());
@@ -147,11 +153,13 @@ std::string expand_bzip2(std::string_view bytes, std::size_t limit) {
   });
 }
 #else
-std::string expand_bzip2(std::string_view, std::size_t) { lack("bzip2", "libbz2-dev"); }
+std::string expand_bzip2(std::string_view, std::size_t, std::string*) {
+  lack("bzip2", "libbz2-dev");
+}
 #endif
 
 #ifdef LOOPBENCH_HAS_ZSTD
-std::string expand_zstd(std::string_view bytes, std::size_t limit) {
+std::string expand_zstd(std::string_view bytes, std::size_t limit, std::string* damage) {
   struct Stream {
     ZSTD_DStream* state = ZSTD_createDStream();
     Stream() {
@@ -161,7 +169,7 @@ std::string expand_zstd(std::string_view bytes, std::size_t limit) {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, [&](std::string_view in, char* out, std::size_t room) {
+  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
     ZSTD_inBuffer input{in.data(), in.size(), 0};
     ZSTD_outBuffer output{out, room, 0};
     const std::size_t code = ZSTD_decompressStream(stream.state, &output, &input);
@@ -170,11 +178,13 @@ std::string expand_zstd(std::string_view bytes, std::size_t limit) {
   });
 }
 #else
-std::string expand_zstd(std::string_view, std::size_t) { lack("zstd", "libzstd-dev"); }
+std::string expand_zstd(std::string_view, std::size_t, std::string*) {
+  lack("zstd", "libzstd-dev");
+}
 #endif
 
 #ifdef LOOPBENCH_HAS_LZ4
-std::string expand_lz4(std::string_view bytes, std::size_t limit) {
+std::string expand_lz4(std::string_view bytes, std::size_t limit, std::string* damage) {
   struct Stream {
     LZ4F_dctx* state = nullptr;
     Stream() {
@@ -186,7 +196,7 @@ std::string expand_lz4(std::string_view bytes, std::size_t limit) {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, [&](std::string_view in, char* out, std::size_t room) {
+  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
     std::size_t read = in.size();
     std::size_t written = room;
     const std::size_t code =
@@ -196,7 +206,7 @@ std::string expand_lz4(std::string_view bytes, std::size_t limit) {
   });
 }
 #else
-std::string expand_lz4(std::string_view, std::size_t) { lack("lz4", "liblz4-dev"); }
+std::string expand_lz4(std::string_view, std::size_t, std::string*) { lack("lz4", "liblz4-dev"); }
 #endif
 
 }  // namespace
@@ -209,18 +219,31 @@ std::optional<Codec> codec_of(std::string_view bytes) {
   return std::nullopt;
 }
 
-std::string decompress(Codec codec, std::string_view bytes, std::size_t limit) {
+namespace {
+
+std::string expand(Codec codec, std::string_view bytes, std::size_t limit, std::string* damage) {
   switch (codec) {
     case Codec::gzip:
-      return expand_gzip(bytes, limit);
+      return expand_gzip(bytes, limit, damage);
     case Codec::bzip2:
-      return expand_bzip2(bytes, limit);
+      return expand_bzip2(bytes, limit, damage);
     case Codec::zstd:
-      return expand_zstd(bytes, limit);
+      return expand_zstd(bytes, limit, damage);
     case Codec::lz4:
-      return expand_lz4(bytes, limit);
+      return expand_lz4(bytes, limit, damage);
   }
   throw std::logic_error("unknown codec");
+}
+
+}  // namespace
+
+std::string decompress(Codec codec, std::string_view bytes, std::size_t limit) {
+  return expand(codec, bytes, limit, nullptr);
+}
+
+std::string decompress_intact(Codec codec, std::string_view bytes, std::size_t limit) {
+  std::string damage;
+  return expand(codec, bytes, limit, &damage);
 }
 
 }  // namespace loopbench

@@ -34,10 +34,12 @@ TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_
 /// ids 0, 1, ...) or csv (with covariances, if stated). Positions and quaternions are printed so
 /// that reading them is bit-identical, and exact stamps with all digits; euroc rounds other stamps
 /// to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and if the
-/// file cannot be written.
+/// file cannot be written. `may_repeat`: consecutive poses may have equal stamps, as paired poses
+/// have if a reference pose has several partners.
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,
-                      const std::optional<std::filesystem::path>& times = std::nullopt);
+                      const std::optional<std::filesystem::path>& times = std::nullopt,
+                      bool may_repeat = false);
 
 }  // namespace loopbench

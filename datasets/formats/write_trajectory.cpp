@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "datasets/core/fields.hpp"
@@ -112,8 +113,16 @@ PoseGraph graph_of(const Trajectory& poses) {
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,
-                      const std::optional<std::filesystem::path>& times) {
-  check(trajectory.poses, file.string());
+                      const std::optional<std::filesystem::path>& times,
+                      bool may_repeat) {
+  if (may_repeat) {
+    Trajectory different = trajectory.poses;
+    const auto repeated = std::ranges::unique(different, {}, &StampedPose::stamp);
+    different.erase(repeated.begin(), repeated.end());
+    check(different, file.string());
+  } else {
+    check(trajectory.poses, file.string());
+  }
   switch (format) {
     case Format::tum:
       tum_text(trajectory, {}).save(file);

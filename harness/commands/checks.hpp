@@ -13,6 +13,9 @@ namespace loopbench::harness {
 /// A number that is neither NaN nor infinite (CLI11's own ranges let NaN pass).
 CLI::Validator finite_number();
 
+/// A number above zero.
+CLI::Validator positive_number();
+
 /// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.
 template <class Enum>
 CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>& words) {

@@ -6,12 +6,12 @@
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/correct/correct.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -20,15 +20,28 @@ struct DoctorArguments {
   std::string reference;
   std::vector<std::string> estimates;
   ReadArguments reading;
+  std::string loops;  ///< closures of a trajectory; empty: none
   std::string apply;  ///< folder for estimates with corrected stamps; empty: none
   bool json = false;
 };
 
 struct Diagnosed {
   std::string name;
-  std::vector<metrics::InputFinding> findings;
-  std::optional<metrics::TimeOffset> offset;
+  metrics::Diagnosis result;
 };
+
+Diagnosed of_closures(const std::string& name, const Problem& problem) {
+  Diagnosed out{name, {}};
+  out.result.findings = metrics::check_closures(problem);
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  out.result.has_checked = is_chain && !problem.closures.empty();
+  if (problem.closures.empty()) {
+    out.result.unchecked.emplace_back("closures, information: there are no closures");
+  } else if (!is_chain) {
+    out.result.unchecked.emplace_back("closures, information: the odometry is no chain");
+  }
+  return out;
+}
 
 Diagnosed of_graph(const std::string& file) {
   const PoseGraph graph = read_g2o(file);
@@ -37,18 +50,15 @@ Diagnosed of_graph(const std::string& file) {
   problem.keyframes = initial_poses(graph, ReadOptions{}.period);
   problem.odometry = std::move(parts.odometry);
   problem.closures = std::move(parts.closures);
-  return {file, metrics::check_closures(problem), std::nullopt};
+  return of_closures(file, problem);
 }
 
 Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estimate) {
   const Trajectory& truth = reference.file.poses;
   const Trajectory& poses = estimate.file.poses;
   const bool has_stamps = reference.file.has_stamps && estimate.file.has_stamps;
-  Diagnosed out{estimate.name,
-                metrics::diagnose(truth, poses, reference.name, estimate.name, has_stamps),
-                std::nullopt};
-  if (has_stamps) out.offset = metrics::estimate_time_offset(truth, poses);
-  return out;
+  return {estimate.name,
+          metrics::diagnosis(truth, poses, reference.name, estimate.name, has_stamps)};
 }
 
 /// Adds the offset to the stamps of every estimate and writes it to the folder.
@@ -62,7 +72,7 @@ void apply_offsets(const DoctorArguments& a,
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     reject_overwriting({a.reference, estimates[i].name}, files[i]);
     double offset = 0.0;
-    for (const metrics::InputFinding& finding : all[i].findings) {
+    for (const metrics::InputFinding& finding : all[i].result.findings) {
       if (finding.fault == metrics::Fault::time_offset) offset = finding.value;
     }
     TrajectoryFile& file = estimates[i].file;
@@ -78,16 +88,13 @@ std::string report_text(const std::vector<Diagnosed>& all) {
   std::string out;
   for (const Diagnosed& each : all) {
     out += each.name + "\n";
-    if (each.offset) {
-      out += fmt::format("  time offset {:.4f} +- {:.4f} s, correlation of speeds {:.3f}\n",
-                         each.offset->offset,
-                         each.offset->deviation,
-                         each.offset->correlation);
-    }
-    for (const metrics::InputFinding& finding : each.findings) {
+    for (const metrics::InputFinding& finding : each.result.findings) {
       out += "  " + text(finding) + "\n";
     }
-    if (each.findings.empty()) out += "  nothing found\n";
+    for (const std::string& part : each.result.unchecked) out += "  not checked: " + part + "\n";
+    if (each.result.findings.empty()) {
+      out += each.result.has_checked ? "  nothing found\n" : "  nothing could be checked\n";
+    }
   }
   return out;
 }
@@ -96,18 +103,21 @@ std::string report_json(const std::vector<Diagnosed>& all) {
   nlohmann::json out = nlohmann::json::array();
   for (const Diagnosed& each : all) {
     nlohmann::json findings = nlohmann::json::array();
-    for (const metrics::InputFinding& finding : each.findings) {
+    for (const metrics::InputFinding& finding : each.result.findings) {
       findings.push_back({{"fault", metrics::fault_name(finding.fault)},
                           {"evidence", finding.evidence},
                           {"fix", finding.fix},
                           {"confidence", finding.confidence},
                           {"value", finding.value}});
     }
-    out.push_back({{"file", each.name}, {"findings", findings}});
-    if (!each.offset) continue;
-    out.back()["time_offset"] = {{"offset", each.offset->offset},
-                                 {"deviation", each.offset->deviation},
-                                 {"correlation", each.offset->correlation}};
+    out.push_back({{"file", each.name},
+                   {"findings", findings},
+                   {"unchecked", each.result.unchecked},
+                   {"has_checked", each.result.has_checked}});
+    if (!each.result.offset) continue;
+    out.back()["time_offset"] = {{"offset", each.result.offset->offset},
+                                 {"deviation", each.result.offset->deviation},
+                                 {"correlation", each.result.offset->correlation}};
   }
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -115,20 +125,31 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 int doctor(const DoctorArguments& a) {
   std::vector<Diagnosed> all;
   std::vector<NamedTrajectory> estimates;
-  if (a.estimates.empty()) {
-    if (detect_format(a.reference) != Format::g2o) {
-      throw InputError(a.reference + ": expected REF and EST, or one pose graph (g2o)");
-    }
-    all.push_back(of_graph(a.reference));
-  } else {
+  if (!a.estimates.empty()) {
     const NamedTrajectory reference = read_named(a.reference, a.reading);
     estimates = read_all_named(a.estimates, a.reading);
     for (const NamedTrajectory& estimate : estimates) all.push_back(of_pair(reference, estimate));
   }
+  if (!a.loops.empty()) {
+    if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
+    const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
+    CorrectArguments input;
+    input.estimate = owner;
+    input.loops = a.loops;
+    all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
+  } else if (a.estimates.empty()) {
+    if (detect_format(a.reference) != Format::g2o) {
+      throw InputError(
+          a.reference +
+          ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
+    }
+    all.push_back(of_graph(a.reference));
+  }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
   if (!a.apply.empty()) apply_offsets(a, std::move(estimates), all);
-  const bool is_clean =
-      std::ranges::all_of(all, [](const Diagnosed& each) { return each.findings.empty(); });
+  const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {
+    return each.result.findings.empty() && each.result.has_checked;
+  });
   return is_clean ? kExitOk : kExitSomeCellsFailed;
 }
 
@@ -139,11 +160,17 @@ void add_doctor(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "doctor",
       "Search trajectories or a pose graph for mistakes: time offset, quaternion order, units, "
-      "axes, inverted poses, exchanged files, closures, information (exit 1 if any)");
+      "axes, inverted poses, exchanged files, closures, information (exit 1 if there are any, or "
+      "if nothing could be checked)");
   command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
       ->required()
       ->type_name("REF");
   command->add_option("estimates", a->estimates, "Estimated trajectories")->type_name("EST");
+  command
+      ->add_option("--loops",
+                   a->loops,
+                   "Loop closures of EST (or of REF, if there is no EST), see `correct --help`")
+      ->type_name("FILE");
   command->add_option("--format", a->reading.format, "Format of the files")->type_name("WORD");
   command->add_option("--repeats", a->reading.repeats, "Handling of equal stamps")
       ->type_name("WORD");

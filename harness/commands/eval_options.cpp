@@ -51,17 +51,21 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
-  command
-      .add_option("--align",
-                  a.align,
-                  "Alignment: " + choice_list<metrics::Align>() + "; without value: se3")
-      ->expected(0, 1)
-      ->default_str("se3")
-      ->type_name("HOW");
-  command.add_flag_callback(
+  auto* align =
+      command
+          .add_option("--align",
+                      a.align,
+                      "Alignment: " + choice_list<metrics::Align>() + "; without value: se3")
+          ->expected(0, 1)
+          ->default_str("se3")
+          ->type_name("HOW");
+  auto* rigid = command.add_flag_callback(
       "-a", [&a] { a.align = "se3"; }, "Short for --align se3");
-  command.add_flag_callback(
-      "--align_origin", [&a] { a.align = "origin"; }, "Short for --align origin");
+  command
+      .add_flag_callback(
+          "--align_origin", [&a] { a.align = "origin"; }, "Short for --align origin")
+      ->excludes(align)
+      ->excludes(rigid);
   command.add_flag("-s,--correct_scale",
                    a.correct_scale,
                    "Also align the scale; without --align only the scale");

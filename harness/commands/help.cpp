@@ -123,7 +123,7 @@ const std::map<std::string, std::string> kExamples{
     {"traj transform",
      "  loopbench traj transform run.txt --left 1,2,0,0,0,0.707,0.707 -o moved.txt\n"
      "  loopbench traj transform imu.txt --right imu_from_camera.json -o camera.txt\n"
-     "  loopbench traj transform run.txt --left moved.json --invert -o back.txt\n"},
+     "  loopbench traj transform run.txt --quaternion-order wxyz --scale 0.001 -o metres.txt\n"},
     {"traj align",
      "  loopbench traj align estimate.txt --ref reference.txt -o aligned.txt\n"
      "  loopbench traj align mono.txt --ref reference.txt --align sim3 -o aligned.txt\n"
@@ -138,7 +138,7 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench traj plot run.bag --all-topics -o run.png\n"},
     {"doctor",
      "  loopbench doctor reference.txt estimate.txt\n"
-     "  loopbench doctor reference.txt estimate.txt --apply corrected/\n"
+     "  loopbench doctor estimate.txt --loops loops.txt\n"
      "  loopbench doctor graph.g2o\n"},
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"

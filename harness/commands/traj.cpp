@@ -123,8 +123,19 @@ int resample(const TrajArguments& a) {
 }
 
 int transform(const TrajArguments& a) {
-  if (a.left.empty() == a.right.empty()) {
-    throw InputError("transform: expected one of --left and --right");
+  const bool has_transform = !a.left.empty() || !a.right.empty();
+  if ((!has_transform && !a.conventions.any()) || (!a.left.empty() && !a.right.empty())) {
+    throw InputError(
+        "transform: expected one of --left and --right, or any of --quaternion-order, --conjugate, "
+        "--axes, --scale, --stamp-scale, --invert-poses");
+  }
+  if (!has_transform) {
+    if (a.invert)
+      throw InputError("--invert: expected --left or --right; --invert-poses inverts poses");
+    if (a.propagate) throw InputError("--propagate: expected --right");
+    return write_changed(a, [&](NamedTrajectory& each) {
+      each.file = corrected(std::move(each.file), a.conventions);
+    });
   }
   if (a.propagate && a.right.empty()) throw InputError("--propagate: expected --right");
   Similarity similarity = read_similarity(a.left.empty() ? a.right : a.left);
@@ -133,6 +144,7 @@ int transform(const TrajArguments& a) {
                              : a.propagate   ? TransformSide::right_propagated
                                              : TransformSide::right;
   return write_changed(a, [&](NamedTrajectory& each) {
+    each.file = corrected(std::move(each.file), a.conventions);
     each.file.poses = transformed(std::move(each.file.poses), similarity, side);
     each.file.covariances.clear();
   });
@@ -180,8 +192,11 @@ int sync(const TrajArguments& a) {
     const auto pairs = paired_indices(a, reference.file.poses, all[i]);
     write_trajectory(
         files[i], paired_part(all[i].file, pairs, &metrics::IndexPair::estimate), format);
-    write_trajectory(
-        references[i], paired_part(reference.file, pairs, &metrics::IndexPair::reference), format);
+    const TrajectoryFile partners =
+        paired_part(reference.file, pairs, &metrics::IndexPair::reference);
+    // As in evo, a reference pose can be the nearest one of several poses.
+    constexpr bool kMayRepeat = true;
+    write_trajectory(references[i], partners, format, std::nullopt, kMayRepeat);
     fmt::print(
         "{} and {}: {} poses\n", printable(files[i]), printable(references[i]), pairs.size());
   }

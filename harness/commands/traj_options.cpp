@@ -54,7 +54,7 @@ void declare_pairing(CLI::App& verb, TrajArguments& a) {
 
 void declare_steps(CLI::App& verb, TrajArguments& a) {
   const auto step = [&](const char* name, std::optional<double>& value, const char* help) {
-    verb.add_option(name, value, help)->check(finite_number())->check(CLI::PositiveNumber);
+    verb.add_option(name, value, help)->check(finite_number())->check(positive_number());
   };
   step("--seconds", a.step.seconds, "Time between poses [s]");
   step("--metres,--meters", a.step.metres, "Path length between poses [m]");
@@ -73,6 +73,20 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
   verb.add_option("--right", a.right, std::string("Transform to multiply on the right: ") + values);
   verb.add_flag("--invert", a.invert, "Use the inverse of the transform");
   verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift");
+  Conventions& c = a.conventions;
+  verb.add_option("--quaternion-order",
+                  c.quaternion_order,
+                  "Actual order of quaternions that were read in the other one")
+      ->type_name("WORD:wxyz|xyzw");
+  verb.add_flag("--conjugate", c.conjugate, "Invert the rotations, but not the positions");
+  verb.add_option("--axes", c.axes, "Source axis of x, y and z of the positions: --axes=-y,x,z")
+      ->type_name("AXES");
+  verb.add_option("--scale", c.scale, "Factor of the positions: 0.001 for millimetres")
+      ->check(finite_number());
+  verb.add_option("--stamp-scale", c.stamp_scale, "Factor of the stamps: 0.001 for milliseconds")
+      ->check(finite_number());
+  verb.add_flag(
+      "--invert-poses", c.invert_poses, "Invert each pose: body_from_world to world_from_body");
 }
 
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
@@ -102,11 +116,13 @@ const std::vector<VerbInfo>& verb_infos() {
        "Keep some poses: evenly spaced, or by motion since the last kept one",
        {declare_steps,
         [](CLI::App& verb, TrajArguments& a) {
-          verb.add_option("--count,-n", a.count, "Number of poses")->check(CLI::PositiveNumber);
+          verb.add_option("--count,-n", a.count, "Number of poses")->check(positive_number());
         },
         declare_output}},
       {"resample", "Interpolate poses in equal steps", {declare_steps, declare_output}},
-      {"transform", "Multiply all poses by a transform", {declare_transform, declare_output}},
+      {"transform",
+       "Multiply all poses by a transform, or change their conventions",
+       {declare_transform, declare_output}},
       {"align", "Align to a reference", {declare_pairing, declare_alignment, declare_output}},
       {"project",
        "Project onto a coordinate plane",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/trajectory/conventions.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 #include "harness/trajectory/selection.hpp"
 
@@ -33,6 +34,7 @@ struct TrajArguments {
   std::string right;
   bool invert = false;
   bool propagate = false;
+  Conventions conventions;
   std::string association = "evo";
   double max_diff = 0.01;  ///< [s]
   double offset = 0.0;     ///< added to the stamps of the files [s]

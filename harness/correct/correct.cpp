@@ -167,7 +167,12 @@ Correction correct(Problem problem,
   const std::string unmoved =
       movement_note(out.problem, out.keyframes, out.report, uses_closures(choice, catalogue));
   if (!unmoved.empty()) out.report.notes.push_back(unmoved);
+  for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
   return out;
+}
+
+Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
+  return loaded(a, catalogue, is_graph(a)).problem;
 }
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {

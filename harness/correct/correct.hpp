@@ -69,6 +69,10 @@ Correction correct(Problem problem,
 /// InputError, also if the method declines; other exceptions of the method are not caught.
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 
+/// The problem that correct() would correct, from `estimate`, `loops`, `frames` and `settings`.
+/// Throws InputError.
+Problem load_problem(const CorrectArguments& arguments, const Catalogue& catalogue);
+
 /// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
 std::string text(const Correction& correction);
 

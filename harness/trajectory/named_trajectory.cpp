@@ -15,7 +15,7 @@ namespace {
 
 bool is_bag_without_topic(const std::string& name) {
   if (names_bag(name)) return bag_name(name).topic.empty();
-  if (std::filesystem::is_directory(name)) return false;
+  if (std::filesystem::is_directory(name)) return true;  // of ROS 2; others are rejected by name
   return bag_kind(open_input(name)) != BagKind::none;
 }
 
@@ -106,6 +106,13 @@ std::vector<std::string> output_files(const std::vector<std::string>& names,
   const bool is_folder = out.ends_with('/') || std::filesystem::is_directory(out);
   if (names.size() == 1 && !is_folder) return {out};
   if (is_dash(out)) throw InputError("-o: found several trajectories, expected a folder");
+  const std::string ending = std::filesystem::path(out).extension().string();
+  const bool names_file =
+      ending == ".txt" || ending == ".tum" || ending == ".csv" || ending == ".g2o";
+  if (names_file && !is_folder) {
+    throw InputError("-o: found several trajectories and the file " + out +
+                     ", expected a folder (" + out + "/ is one)");
+  }
   std::filesystem::create_directories(out);
   std::vector<std::string> files;
   std::set<std::string> taken;

@@ -81,6 +81,12 @@ std::string AxisFit::text() const {
   return out;
 }
 
+std::string AxisFit::option() const {
+  std::string out = text();
+  std::ranges::replace(out, ' ', ',');
+  return out;
+}
+
 AxisFit fit_axes(const std::vector<Pose>& reference, const std::vector<Pose>& estimate) {
   AxisFit out;
   if (reference.size() < 8) return out;

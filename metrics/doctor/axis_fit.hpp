@@ -15,6 +15,8 @@ struct AxisFit {
 
   /// Source axis of each axis, for example "x -y z".
   std::string text() const;
+  /// The same for an option: "x,-y,z".
+  std::string option() const;
 };
 
 /// Compares displacements of both trajectories in their body frames, which drift does not change,

@@ -116,21 +116,28 @@ std::vector<InputFinding> check_gaps(const std::vector<Edge>& closures, const Ch
   const double drift = most_drift(closures, chain);
   const double error = most_error(closures, chain);
   std::size_t implausible = 0;
+  double plausible_squares = 0.0, squares = 0.0;  // of the gaps [m^2]
   const Edge* worst = nullptr;
   double largest = 0.0;  // over its limit
   for (const Edge& edge : closures) {
     const Pose gap = edge.from_from_to.inverse() * chain.between(edge.from, edge.to);
     const double distance = gap.translation.norm();
-    if (distance <= kLeast) continue;
+    squares += distance * distance;
     const double over = std::max(distance / (kLeast + drift * chain.length(edge.from, edge.to)),
                                  closure_error(edge, chain, false, false).whole / error);
-    if (!(over > 1.0)) continue;
+    if (distance <= kLeast || !(over > 1.0)) {
+      plausible_squares += distance * distance;
+      continue;
+    }
     ++implausible;
     if (over <= largest) continue;
     largest = over;
     worst = &edge;
   }
   if (worst == nullptr) return {};
+  const std::size_t plausible = std::max<std::size_t>(1, closures.size() - implausible);
+  const double rms_before = std::sqrt(squares / static_cast<double>(closures.size()));
+  const double rms_after = std::sqrt(plausible_squares / static_cast<double>(plausible));
   return {{Fault::closure_gap,
            fmt::format("{} of {} closures contradict the odometry, most of all {} -> {}: the gap "
                        "is {:.3g} m after {:.3g} m",
@@ -142,7 +149,7 @@ std::vector<InputFinding> check_gaps(const std::vector<Edge>& closures, const Ch
                            .translation.norm(),
                        chain.length(worst->from, worst->to)),
            "remove false closures, or use a robust method",
-           1.0 - 1.0 / largest,
+           1.0 - rms_after / rms_before,
            static_cast<double>(implausible)}};
 }
 

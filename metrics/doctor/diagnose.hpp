@@ -1,17 +1,33 @@
 /// All checks of a pair of trajectories, in an order in which one mistake does not hide another.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
 #include "metrics/doctor/finding.hpp"
+#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 
-/// Names are used by check_swapped() only. Conventions are checked first, because they affect the
-/// speeds; then the time offset; then units and scale at that offset. `has_stamps`: false if the
-/// stamps of either are generated, so that there is no time offset. O(1e6).
+struct Diagnosis {
+  std::vector<InputFinding> findings;
+  std::vector<std::string> unchecked;  ///< "CHECKS: REASON"
+  std::optional<TimeOffset> offset;    ///< unset: no finding
+  bool has_checked = false;            ///< at least one check of frames, units or time was possible
+};
+
+/// Names are used by check_swapped() only. The time offset is estimated first: conventions, units
+/// and scale are compared at that offset. `has_stamps`: false if the stamps of either are
+/// generated, so that there is no time offset. O(1e6).
+Diagnosis diagnosis(const Trajectory& reference,
+                    const Trajectory& estimate,
+                    const std::string& reference_name,
+                    const std::string& estimate_name,
+                    bool has_stamps = true);
+
+/// The findings of diagnosis().
 std::vector<InputFinding> diagnose(const Trajectory& reference,
                                    const Trajectory& estimate,
                                    const std::string& reference_name,

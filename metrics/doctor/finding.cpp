@@ -8,6 +8,12 @@ std::string fault_name(Fault fault) {
   switch (fault) {
     case Fault::time_offset:
       return "time_offset";
+    case Fault::stamp_unit:
+      return "stamp_unit";
+    case Fault::no_overlap:
+      return "no_overlap";
+    case Fault::constant_rotation:
+      return "constant_rotation";
     case Fault::quaternion_order:
       return "quaternion_order";
     case Fault::conjugated:

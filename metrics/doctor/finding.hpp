@@ -8,6 +8,9 @@ namespace loopbench::metrics {
 
 enum class Fault {
   time_offset,
+  stamp_unit,         ///< milliseconds, microseconds or nanoseconds for seconds
+  no_overlap,         ///< no common time
+  constant_rotation,  ///< one file has no rotations
   quaternion_order,
   conjugated,         ///< rotations are inverted, positions are not
   inverted_poses,     ///< world and body are exchanged

@@ -16,8 +16,6 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr std::size_t kMostPoses = 2000;
-
 using Change = std::function<Pose(const Pose&)>;
 
 std::vector<Pose> changed(std::vector<Pose> poses, const Change& change) {
@@ -41,19 +39,15 @@ Pose with_inverse_rotation(const Pose& pose) {
   return {pose.rotation.conjugate(), pose.translation};
 }
 
-bool has_rotations(const std::vector<Pose>& poses) {
-  return std::ranges::any_of(poses, [&](const Pose& pose) {
-    return angle_between(pose.rotation, poses.front().rotation) > 0.05;
-  });
-}
-
 /// A hypothesis about one of the trajectories.
 struct Hypothesis {
   Fault fault;
-  std::string what;  ///< "quaternions are w x y z"
+  std::string what;    ///< "quaternions are w x y z"
+  const char* option;  ///< of `traj transform`
   Change change;
 };
 
+const char* file_of(bool is_reference) { return is_reference ? "REF" : "EST"; }
 const char* name_of(bool is_reference) { return is_reference ? "reference" : "estimate"; }
 
 /// Inverted poses: the positions fit only after inversion.
@@ -76,8 +70,7 @@ std::optional<InputFinding> check_inversion(const CommonPoses& poses) {
                   name_of(is_reference),
                   before,
                   after),
-      fmt::format("invert each pose of the {} (body_from_world -> world_from_body)",
-                  name_of(is_reference)),
+      fmt::format("traj transform {} --invert-poses", file_of(is_reference)),
       1.0 - after / before,
       is_reference ? 1.0 : 0.0};
 }
@@ -96,12 +89,18 @@ struct Candidate {
 
 /// The hypotheses about either trajectory, the one that agrees best with the positions first.
 std::vector<Candidate> candidates(const CommonPoses& poses, const PositionFit& positions) {
-  static const Hypothesis kHypotheses[] = {
-      {Fault::quaternion_order, "the quaternions are w x y z, read as x y z w,", reordered},
-      {Fault::quaternion_order, "the quaternions are x y z w, read as w x y z,", reordered_back},
-      {Fault::conjugated,
-       "the rotations are inverted, but not the positions,",
-       with_inverse_rotation}};
+  static const Hypothesis kHypotheses[] = {{Fault::quaternion_order,
+                                            "the quaternions are w x y z, read as x y z w,",
+                                            "--quaternion-order wxyz",
+                                            reordered},
+                                           {Fault::quaternion_order,
+                                            "the quaternions are x y z w, read as w x y z,",
+                                            "--quaternion-order xyzw",
+                                            reordered_back},
+                                           {Fault::conjugated,
+                                            "the rotations are inverted, but not the positions,",
+                                            "--conjugate",
+                                            with_inverse_rotation}};
   std::vector<Candidate> out;
   for (const Hypothesis& hypothesis : kHypotheses) {
     for (const bool of_reference : {false, true}) {
@@ -127,9 +126,10 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
   const double before = disagreement(as_read, positions);
   if (!is_bad && before < kDisagrees) return std::nullopt;
   for (const Candidate& each : candidates(poses, positions)) {
-    const bool fits = is_bad ? each.residual < kBetter * as_read.residual
-                             : each.residual < as_read.residual && each.disagreement < kAgrees &&
-                                   each.hypothesis->fault == Fault::quaternion_order;
+    // Planar motion fits as well after an inversion, so that this has to be clearly better.
+    const double most = is_bad || each.hypothesis->fault == Fault::conjugated ? kBetter : 1.0;
+    const bool fits =
+        each.residual < most * as_read.residual && (is_bad || each.disagreement < kAgrees);
     if (!fits) continue;
     return InputFinding{
         each.hypothesis->fault,
@@ -142,8 +142,7 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
                     kDegrees * each.residual,
                     kDegrees * before,
                     kDegrees * each.disagreement),
-        fmt::format("--{}format euroc reads w x y z; a csv header can name the columns",
-                    each.of_reference ? "ref-" : ""),
+        fmt::format("traj transform {} {}", file_of(each.of_reference), each.hypothesis->option),
         is_bad ? 1.0 - each.residual / as_read.residual : 1.0 - each.disagreement / before,
         each.of_reference ? 1.0 : 0.0};
   }
@@ -163,18 +162,23 @@ std::optional<InputFinding> check_axes(const CommonPoses& poses) {
                   fit.text(),
                   fit.changed,
                   fit.as_read),
-      "exchange or mirror the axes in one of the files",
+      fmt::format("traj transform EST --axes={}", fit.option()),
       1.0 - fit.changed / fit.as_read,
       fit.as_read};
 }
 
 }  // namespace
 
+bool has_rotations(const std::vector<Pose>& poses) {
+  return std::ranges::any_of(poses, [&](const Pose& pose) {
+    return angle_between(pose.rotation, poses.front().rotation) > kLeastRotation;
+  });
+}
+
 std::vector<InputFinding> check_frames(const Trajectory& reference, const Trajectory& estimate) {
   std::vector<InputFinding> out;
-  const CommonPoses poses = common_poses(reference, estimate, 0.0, kMostPoses);
-  constexpr std::size_t kFewest = 20;
-  if (poses.stamps.size() < kFewest) return out;
+  const CommonPoses poses = common_poses(reference, estimate, 0.0, kMostFramePoses);
+  if (poses.stamps.size() < kFewestFramePoses) return out;
   const PositionFit positions = fit_positions(poses.reference, poses.estimate);
   const bool rotates = has_rotations(poses.reference) && has_rotations(poses.estimate);
   if (rotates) {

@@ -141,6 +141,17 @@ Best search(const SpeedMatch& match, double low, double high, double step) {
   return best;
 }
 
+/// Periodic speeds fit equally well at several offsets; of these, the one near zero is the likely
+/// one.
+Best nearest_of_equal(const SpeedMatch& match, const Best& best, double step) {
+  constexpr double kNear = 1.0;  // [s]
+  if (std::abs(best.offset) <= kNear) return best;
+  const Best refined = search(match, best.offset - 5.0 * step, best.offset + 5.0 * step, step);
+  const Best near = search(match, -kNear, kNear, step);
+  const double least_gain = std::max(0.003, 0.1 * (1.0 - refined.score));
+  return near.score > refined.score - least_gain ? near : refined;
+}
+
 /// Vertex of the parabola through three scores.
 double vertex(const SpeedMatch& match, double offset, double step) {
   const double left = match.at(offset - step);
@@ -198,6 +209,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   const SpeedMatch::Score before = match.score(0.0);
   const double at_zero = before.best();
   out.before = std::max(0.0, at_zero);
+  out.has_common_time = before.is_known;
   const double coarse = std::clamp(match.interval(), 0.1, 0.5);
   Best best = search(match, -kSearch, kSearch, coarse);
   if (best.score < 0.0) {
@@ -213,6 +225,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   }
   if (at_zero > best.score) best = {0.0, at_zero};
   const double fine = 0.2 * coarse;
+  if (before.is_known) best = nearest_of_equal(match, best, fine);
   best = search(match, best.offset - coarse, best.offset + coarse, fine);
   out.offset = vertex(match, best.offset, fine);
   const SpeedMatch::Score after = match.score(out.offset);
@@ -228,33 +241,34 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   return out;
 }
 
-std::optional<InputFinding> check_time_offset(const Trajectory& reference,
-                                              const Trajectory& estimate) {
+std::optional<InputFinding> offset_finding(const TimeOffset& found, const Trajectory& estimate) {
   constexpr double kSmallest = 0.04;   // [s]; smaller ones are common and hardly matter
   constexpr double kOfInterval = 0.6;  // a scan has no exact time within its duration
   constexpr double kDeviations = 4.0;
   constexpr double kMostUnexplained = 0.75;  // 1 - correlation, after over before
   constexpr double kClear = 8.0;             // deviations that need less explanation
   constexpr double kMostIfClear = 0.95;
-  const std::optional<TimeOffset> found = estimate_time_offset(reference, estimate);
-  if (!found) return std::nullopt;
-  const double size = std::abs(found->offset);
+  constexpr double kLeastGain = 0.002;  // of the correlation, for offsets above 1 s
+  constexpr double kLeastAlone = 0.85;  // of files without common time
+  const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
-  const double remaining = found->unexplained;
+  const double remaining = found.unexplained;
   if (size < std::max(kSmallest, kOfInterval * interval)) return std::nullopt;
-  const double most = size > kClear * found->deviation ? kMostIfClear : kMostUnexplained;
-  if (size < kDeviations * found->deviation || remaining > most) return std::nullopt;
+  if (size > 1.0 && found.correlation - found.before < kLeastGain) return std::nullopt;
+  if (!found.has_common_time && found.correlation < kLeastAlone) return std::nullopt;
+  const double most = size > kClear * found.deviation ? kMostIfClear : kMostUnexplained;
+  if (size < kDeviations * found.deviation || remaining > most) return std::nullopt;
   return InputFinding{Fault::time_offset,
                       fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the reference's "
                                   "(correlation of speeds {:.3f}, without offset {:.3f})",
                                   size,
-                                  found->deviation,
-                                  found->offset > 0.0 ? "behind" : "ahead of",
-                                  found->correlation,
-                                  found->before),
-                      fmt::format("--offset {:.4f}", found->offset),
+                                  found.deviation,
+                                  found.offset > 0.0 ? "behind" : "ahead of",
+                                  found.correlation,
+                                  found.before),
+                      fmt::format("--offset {:.4f}", found.offset),
                       std::clamp(1.0 - remaining, 0.0, 1.0),
-                      found->offset};
+                      found.offset};
 }
 
 }  // namespace loopbench::metrics

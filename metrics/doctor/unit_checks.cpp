@@ -56,8 +56,9 @@ std::optional<InputFinding> check_scale(const PositionFit& fit) {
         Fault::length_unit,
         fmt::format("distances in the estimate are {:.4g} times those of the reference",
                     1.0 / fit.scale),
-        fmt::format("the {} is in {}: convert it to metres",
-                    unit > 1.0 ? "estimate" : "reference",
+        fmt::format("traj transform {} --scale {} ({} to metres)",
+                    unit > 1.0 ? "EST" : "REF",
+                    unit == 1000.0 || unit == 0.001 ? "0.001" : "0.01",
                     unit == 1000.0 || unit == 0.001 ? "millimetres" : "centimetres"),
         1.0 - fit.similarity,
         1.0 / fit.scale};
@@ -88,10 +89,11 @@ std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
   return InputFinding{
       Fault::angle_unit,
       fmt::format("the estimate rotates {:.3g} times as much as the reference", ratio),
-      is_large ? "degrees were used as radians in the estimate, or the reverse in the "
-                 "reference"
-               : "radians were used as degrees in the estimate, or the reverse in the "
-                 "reference",
+      fmt::format(
+          "{} were used as {} in the estimate, or the reverse in the reference: convert that "
+          "file's source again, or use position errors only (eval -r trans_part)",
+          is_large ? "degrees" : "radians",
+          is_large ? "radians" : "degrees"),
       0.9,
       ratio};
 }
@@ -99,7 +101,7 @@ std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
 std::vector<InputFinding> check_units(const Trajectory& reference, const Trajectory& estimate) {
   std::vector<InputFinding> out;
   const CommonPoses poses = common_poses(reference, estimate, 0.0, kMostUnitPoses);
-  if (poses.stamps.size() < 8) return out;
+  if (poses.stamps.size() < kFewestUnitPoses) return out;
   if (auto finding = check_angle_unit(poses)) out.push_back(*finding);
   if (auto finding = check_scale(fit_positions(poses.reference, poses.estimate))) {
     out.push_back(*finding);

@@ -10,6 +10,8 @@
 
 namespace loopbench::metrics {
 
+inline constexpr std::size_t kFewestUnitPoses = 8;  ///< fewer cannot be checked
+
 /// Rotation angles that differ by a factor near 57.3 or 1 / 57.3. Small angles show degrees used as
 /// radians, because larger ones wrap; larger ones show the reverse. O(poses).
 std::optional<InputFinding> check_angle_unit(const CommonPoses& poses);

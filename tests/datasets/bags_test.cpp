@@ -64,6 +64,28 @@ TEST(Bags, ATruncatedBagYieldsItsIntactPartAndStatesTheRest) {
   }
 }
 
+TEST(Bags, ATruncatedChunkYieldsItsCompleteMessages) {
+  const Scratch scratch;
+  const std::string all = ros1_bag(messages(10, false), 10);
+  ReadFindings findings;
+  ReadOptions options;
+  options.findings = &findings;
+  // All but one byte of the last message, a record of two lengths, 40 bytes of header and 83 of
+  // data.
+  const Trajectory poses =
+      read_trajectory(scratch.file("a.bag", all.substr(0, all.size() - 1)), options);
+  EXPECT_EQ(poses.size(), 9u);
+  const std::size_t message =
+      ros1_bag(messages(10, false), 10).size() - ros1_bag(messages(9, false), 9).size();
+  EXPECT_THAT(findings.damage,
+              HasSubstr(std::to_string(message) + " of at least " + std::to_string(all.size()) +
+                        " bytes are missing or damaged (from byte " +
+                        std::to_string(all.size() - message) + ")"));
+  // Within the connection's record: no topic is left.
+  const auto empty = scratch.file("b.bag", all.substr(0, all.size() - 10 * message - 5));
+  EXPECT_THAT(refusal([&] { read_trajectory(empty); }), HasSubstr("the bag is damaged: "));
+}
+
 TEST(Bags, ADamagedChunkCostsOnlyItself) {
   const Scratch scratch;
   std::string bytes = ros1_bag(messages(5, false));
@@ -164,6 +186,23 @@ TEST(RealBags, EveryMessageOfTheRecordingsIsRead) {
   EXPECT_EQ(odometry.covariances.size(), odometry.poses.size());
   EXPECT_EQ(read("nav2_turtlebot.mcap", "/amcl_pose").covariances.size(),
             read("nav2_turtlebot.mcap", "/amcl_pose").poses.size());
+}
+
+TEST(RealBags, TruncatedChunksYieldTheirIntactPart) {
+  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const Scratch scratch;
+  const auto poses_of = [&](const char* file, const std::string& topic, std::size_t percent) {
+    const std::string all = content(recording(file));
+    const auto cut =
+        scratch.file(std::to_string(percent) + file, all.substr(0, all.size() * percent / 100));
+    return read_trajectory("bag:" + cut.string() + "#" + topic).size();
+  };
+  // The last chunk, uncompressed, begins at 66 % of the messages of this topic.
+  EXPECT_GT(poses_of("ROS_example.bag", "S-PTAM", 99), 5200u);
+  // One chunk, compressed by zstd.
+  const std::size_t whole = poses_of("nav2_turtlebot.mcap", "/odom", 100);
+  EXPECT_GT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole / 4);
+  EXPECT_LT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole);
 }
 
 TEST(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {

@@ -80,6 +80,36 @@ TEST_F(DoctorNotes, EvalNotesWhatItsOptionsLeave) {
   EXPECT_THAT(eval("late.txt --offset -0.2"), ContainsRegex(kOffset)) << "the sum";
 }
 
+/// Applies the command "traj transform EST ..." that `doctor` names for a changed estimate.
+TEST_F(DoctorNotes, TheNamedCommandRemovesTheFinding) {
+  const Trajectory estimate = read_trajectory(folder_.path() / "est.txt");
+  const auto check = [&](const std::string& fault, auto change) {
+    write("wrong.txt", changed(estimate, change));
+    const CommandResult found = loopbench_command("doctor gt.txt wrong.txt", folder_);
+    EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
+    EXPECT_THAT(found.out, HasSubstr("  " + fault + ": "));
+    const std::size_t begin = found.out.find("traj transform EST");
+    ASSERT_NE(begin, std::string::npos) << found.out;
+    std::string command = found.out.substr(begin, found.out.find(" (", begin) - begin);
+    command.replace(command.find("EST"), 3, "wrong.txt");
+    const CommandResult applied = loopbench_command(command + " -o right.txt", folder_);
+    EXPECT_EQ(applied.exit_code, 0) << command << applied.err;
+    const CommandResult after = loopbench_command("doctor gt.txt right.txt", folder_);
+    EXPECT_EQ(after.exit_code, 0) << command << "\n" << after.out;
+  };
+  check("quaternion_order", [](StampedPose& p) {
+    const Rotation q = p.world_from_body.rotation;
+    p.world_from_body.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
+  });
+  check("inverted_poses", [](StampedPose& p) { p.world_from_body = p.world_from_body.inverse(); });
+  check("axes", [](StampedPose& p) {
+    const Vector3 t = p.world_from_body.translation;
+    p.world_from_body.translation = {-t.y(), t.z(), t.x()};
+  });
+  check("length_unit", [](StampedPose& p) { p.world_from_body.translation *= 1000.0; });
+  check("stamp_unit", [](StampedPose& p) { p.stamp = 1000.0 * p.stamp; });
+}
+
 TEST_F(DoctorNotes, RunPrintsThemForMeasuredSequences) {
   EXPECT_THAT(run("est.txt", "loopbench", "[raw, dual]").err, Not(HasSubstr("doctor:")));
   EXPECT_THAT(run("wxyz.txt", "loopbench", "[raw]").err,
@@ -102,6 +132,36 @@ TEST_F(DoctorNotes, ClosuresThatMoveNothingAreNoted) {
   EXPECT_THAT(
       loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
       HasSubstr("note: doctor: nothing_moved: "));
+}
+
+TEST_F(DoctorNotes, ClosuresOfATrajectoryAreChecked) {
+  Problem problem = test::drifting(truth_,
+                                   twist({0.004, 0, 0.001}, {0, 0.001, 0.002}),
+                                   {{0, 90}, {1, 91}, {2, 92}, {3, 93}, {4, 94}, {5, 95}, {6, 96}});
+  loops(problem, "0.02 0.01");
+  const auto doctor = [&] {
+    return loopbench_command("doctor est.txt --loops loops.txt", folder_);
+  };
+  EXPECT_EQ(doctor().exit_code, 0) << doctor().out << doctor().err;
+  EXPECT_THAT(doctor().out, HasSubstr("nothing found"));
+  problem.closures[3].from_from_to.translation.x() += 4.5;  // false
+  loops(problem, "0.02 0.01");
+  EXPECT_EQ(doctor().exit_code, 1);
+  EXPECT_THAT(doctor().out, HasSubstr("closure_gap: 1 of 7 closures"));
+  EXPECT_THAT(run("est.txt", "loopbench", "[raw]").err, HasSubstr("doctor: closure_gap: 1 of 7"));
+  EXPECT_THAT(
+      loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
+      HasSubstr("note: doctor: closure_gap: 1 of 7 closures"));
+}
+
+TEST_F(DoctorNotes, ASinglePoseIsNoCleanFile) {
+  folder_.file("one.txt", "101 0 0 0 0 0 0 1\n");
+  const CommandResult one = loopbench_command("doctor gt.txt one.txt", folder_);
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_THAT(one.out, HasSubstr("not checked: units, scale: "));
+  EXPECT_THAT(one.out, HasSubstr("nothing could be checked"));
+  EXPECT_THAT(loopbench_command("doctor gt.txt est.txt", folder_).out, Not(HasSubstr("offset")));
+  EXPECT_EQ(loopbench_command("eval gt.txt est.txt -a --align_origin", folder_).exit_code, 2);
 }
 
 }  // namespace

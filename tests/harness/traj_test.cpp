@@ -77,6 +77,46 @@ TEST(Traj, SyncGivesThePairsOfEvo) {
               1e-12);
 }
 
+TEST(Traj, SyncRepeatsReferencePosesAsEvoDoes) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "sync").string();
+  traj({"sync", golden("est_burst.txt"), "--ref", golden("gt.txt"), "-o", out});
+  ReadOptions keep;
+  keep.repeats = Repeats::keep_first;
+  EXPECT_EQ(read_trajectory(out + "/est_burst.txt").size(), 953u);  // of evo
+  const std::string text = read_all(out + "/est_burst_reference.txt");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 953);
+  EXPECT_LT(read_trajectory(out + "/est_burst_reference.txt", keep).size(), 953u);
+}
+
+TEST(Traj, SeveralFilesNeedAFolder) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "one.txt").string();
+  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out}),
+              HasSubstr("found several trajectories and the file"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  traj({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out + "/"});
+  EXPECT_TRUE(std::filesystem::exists(out + "/gt.txt"));
+}
+
+TEST(Traj, ImpossibleStepsAreRejectedInOneLine) {
+  EXPECT_EQ(traj_refusal({"downsample", golden("gt.txt"), "-n", "0"}),
+            "--count: 0 is not a number > 0");
+  EXPECT_EQ(traj_refusal({"downsample", golden("gt.txt"), "--metres=-1"}),
+            "--metres: -1 is not a number > 0");
+}
+
+TEST(Traj, AFolderOfABagTakesTf) {
+  const char* const data = std::getenv("LOOPBENCH_DATA");
+  if (data == nullptr) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "bag");
+  std::filesystem::copy(std::filesystem::path(data) / "bags" / "tf_example.db3",
+                        folder.path() / "bag");
+  EXPECT_THAT(traj({"info", (folder.path() / "bag").string(), "--tf", "odom.base_link"}),
+              HasSubstr("tf:odom.base_link"));
+}
+
 TEST(Traj, SyncUsesMaxDiffAndOffsetOfEvo) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "sync").string();
@@ -219,6 +259,32 @@ TEST(Traj, PipesConnectVerbs) {
   const std::size_t count = std::fread(text.data(), 1, text.size() - 1, pipe);
   pclose(pipe);
   EXPECT_THAT(std::string(text.data(), count), HasSubstr("# timestamp [ns],p_x [m]"));
+}
+
+TEST(Traj, TransformChangesConventions) {
+  const TemporaryFolder folder;
+  const std::string in = folder.file("in.txt", "2000 1000 2000 3000 0.5 0.1 0.7 0.5\n").string();
+  const auto transformed_by = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"transform", in, "-o", "-"});
+    std::istringstream words(traj(options));
+    std::vector<double> out;
+    for (double value = 0; words >> value;) out.push_back(value);
+    return out;
+  };
+  using testing::DoubleEq;
+  EXPECT_THAT(
+      transformed_by({"--stamp-scale", "0.001", "--scale", "0.001", "--axes=-y,x,z"}),
+      testing::Pointwise(testing::DoubleNear(1e-12), {2.0, -2.0, 1.0, 3.0, 0.5, 0.1, 0.7, 0.5}));
+  // The components w x y z = 0.5 0.1 0.7 0.5 are written as x y z w.
+  EXPECT_THAT(transformed_by({"--quaternion-order", "wxyz"}),
+              testing::Pointwise(testing::DoubleNear(1e-12),
+                                 {2000.0, 1000.0, 2000.0, 3000.0, 0.1, 0.7, 0.5, 0.5}));
+  EXPECT_THAT(transformed_by({"--quaternion-order", "xyzw"}),
+              testing::Pointwise(testing::DoubleNear(1e-12),
+                                 {2000.0, 1000.0, 2000.0, 3000.0, 0.5, 0.5, 0.1, 0.7}));
+  EXPECT_THAT(traj_refusal({"transform", in, "--axes=x,x,z"}), HasSubstr("--axes: found 'x,x,z'"));
+  EXPECT_THAT(traj_refusal({"transform", in, "--scale", "0"}), HasSubstr("expected a number > 0"));
+  EXPECT_THAT(traj_refusal({"transform", in}), HasSubstr("--quaternion-order"));
 }
 
 }  // namespace

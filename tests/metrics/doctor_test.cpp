@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/movement.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::doctor_test {
@@ -103,6 +101,83 @@ TEST(Doctor, MirroredAndPermutedAxes) {
   EXPECT_THAT(faults(truth(), each(sampled(20), permuted)), ElementsAre(Fault::axes));
 }
 
+TEST(Doctor, InvertedRotationsOfSmallSize) {
+  // Rotations mostly about one axis, so that their inverses fit after a constant rotation by 180
+  // deg but for 6 deg.
+  const auto path = [](double rate, bool conjugated) {
+    Trajectory out;
+    for (double t = 0.0; t < 40.0; t += 1.0 / rate) {
+      Pose pose{exp_so3({0, 0, 0.6 * t}) *
+                    exp_so3({0.09 * std::sin(0.9 * t), 0.08 * std::cos(1.3 * t), 0}),
+                at(t).translation};
+      if (conjugated) pose.rotation = pose.rotation.conjugate();
+      out.push_back({t, pose});
+    }
+    return out;
+  };
+  EXPECT_THAT(faults(path(100, false), path(20, false)), IsEmpty());
+  EXPECT_THAT(faults(path(100, false), path(20, true)), ElementsAre(Fault::conjugated));
+}
+
+TEST(Doctor, ConventionsAreComparedAtTheTimeOffset) {
+  const auto wrong = [](const Pose& p) -> Pose {
+    return {Rotation(p.rotation.z(), p.rotation.w(), p.rotation.x(), p.rotation.y()),
+            p.translation};
+  };
+  EXPECT_THAT(faults(truth(), each(sampled(20, 0.2), wrong)),
+              ElementsAre(Fault::time_offset, Fault::quaternion_order));
+}
+
+TEST(Doctor, PeriodicSpeedsHaveNoOffset) {
+  // The speed has a period of 9.4 s, so offsets of 9.4 s fit as well as none.
+  Trajectory reference, estimate;
+  for (int i = 0; i < 600; ++i) {
+    const double t = 0.1 * i, period = 3.0 * M_PI;
+    const double s = t + 0.5 * std::sin(2.0 * M_PI * t / period);
+    const Pose pose{exp_so3({0, 0, 0.2 * s}),
+                    {5.0 * std::sin(0.2 * s), -5.0 * std::cos(0.2 * s), 0}};
+    reference.push_back({t, pose});
+    const double error = 1e-6 * ((i * 7919) % 13 - 6);
+    estimate.push_back({t, {pose.rotation, pose.translation + Vector3(error, -error, 0)}});
+  }
+  EXPECT_THAT(faults(reference, estimate), IsEmpty());
+  for (StampedPose& pose : estimate) pose.stamp -= 0.5;
+  const auto found = estimate_time_offset(reference, estimate);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->offset, 0.5, 0.01);
+}
+
+TEST(Doctor, FilesWithoutCommonTime) {
+  Trajectory in_milliseconds = sampled(20), other = sampled(20);
+  for (StampedPose& pose : in_milliseconds) pose.stamp *= 1000.0;
+  EXPECT_THAT(faults(truth(), in_milliseconds), ElementsAre(Fault::stamp_unit));
+  EXPECT_THAT(faults(in_milliseconds, sampled(20)), ElementsAre(Fault::stamp_unit));
+  for (StampedPose& pose : other) {
+    // Another recording: constant speed, no rotation.
+    pose = {pose.stamp + 5000.0, {Rotation::Identity(), {pose.stamp, 0, 0}}};
+  }
+  EXPECT_THAT(faults(truth(), other), testing::Contains(Fault::no_overlap));
+}
+
+TEST(Doctor, ConstantRotation) {
+  const auto without = [](const Pose& p) -> Pose { return {Rotation::Identity(), p.translation}; };
+  EXPECT_THAT(faults(truth(), each(sampled(20), without)), ElementsAre(Fault::constant_rotation));
+}
+
+TEST(Doctor, NamesWhatCannotBeChecked) {
+  const Diagnosis single = diagnosis(truth(), {sampled(20)[3]}, "gt.txt", "run.txt");
+  EXPECT_THAT(single.findings, IsEmpty());
+  EXPECT_FALSE(single.has_checked);
+  EXPECT_THAT(single.unchecked,
+              ElementsAre(testing::HasSubstr("time offset: "),
+                          testing::HasSubstr("units, scale: 1 poses of the estimate"),
+                          testing::HasSubstr("quaternion order, inverted poses, axes: 1 poses")));
+  const Diagnosis good = diagnosis(truth(), sampled(20), "gt.txt", "run.txt");
+  EXPECT_TRUE(good.has_checked);
+  EXPECT_THAT(good.unchecked, IsEmpty());
+  EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
+}
+
 /// A car on a plane whose heading drifts by `drift` at the end [rad].
 Trajectory driven(double drift) {
   Trajectory out;
@@ -144,119 +219,6 @@ TEST(Doctor, ExchangedFilesByNameOrRate) {
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].fault, Fault::swapped);
   EXPECT_THAT(diagnose(truth(), sampled(20), "gt.txt", "gt_odometry.txt"), IsEmpty());
-}
-
-/// Two rounds on a circle with closures between them, and drift in the odometry.
-Problem rounds() {
-  Problem out;
-  const std::size_t round = 60;
-  const auto pose = [&](std::size_t i) {
-    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(round);
-    const Pose on_circle{exp_so3({0, 0, angle}),
-                         {20 * std::sin(angle), 20 - 20 * std::cos(angle), 0}};
-    // On another lane in the second round.
-    return on_circle * Pose{Rotation::Identity(), {0, i < round ? 0.0 : 1.5, 0}};
-  };
-  const auto noise = [](std::size_t i) {
-    const auto k = static_cast<double>(i);
-    return exp_se3(twist(0.02 * Vector3(std::sin(k * k), std::cos(3 * k * k), std::sin(k + 1)),
-                         0.004 * Vector3(std::sin(5 * k * k), std::cos(k * k), std::sin(2 * k))));
-  };
-  Matrix6 information = Matrix6::Zero();
-  information.diagonal() << 2500, 2500, 2500, 62500, 62500, 62500;
-  for (std::size_t i = 0; i < 2 * round; ++i) {
-    out.keyframes.push_back({static_cast<double>(i), pose(i)});
-    if (i == 0) continue;
-    out.odometry.push_back({i - 1, i, pose(i - 1).inverse() * pose(i) * noise(i), information});
-  }
-  for (std::size_t i = 0; i + 4 < round; i += 2) {
-    // Measured from one keyframe before the revisited place, so that the inverse differs.
-    out.closures.push_back({i,
-                            i + round + 1,
-                            pose(i).inverse() * pose(i + round + 1) * noise(7 * i + 3),
-                            information});
-  }
-  return out;
-}
-
-std::vector<Fault> closure_faults(const Problem& problem) {
-  std::vector<Fault> out;
-  for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
-  return out;
-}
-
-TEST(DoctorOfClosures, FindsNothingInAGoodGraph) {
-  EXPECT_THAT(closure_faults(rounds()), IsEmpty());
-}
-
-TEST(DoctorOfClosures, InvertedClosures) {
-  Problem problem = rounds();
-  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
-}
-
-TEST(DoctorOfClosures, AFalseClosure) {
-  Problem problem = rounds();
-  problem.closures.push_back({10, 40, Pose{}, problem.closures[0].information});
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
-}
-
-TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
-  Problem problem = rounds();
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information *= 1e4;
-  }
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
-  problem = rounds();
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
-  }
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_order));
-}
-
-/// Without neighbours, and with too little drift to hide the motion between the lanes.
-TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
-  Problem problem = rounds();
-  problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
-  EXPECT_THAT(closure_faults(problem), IsEmpty());
-  Problem inverted = problem;
-  for (Edge& edge : inverted.closures) edge.from_from_to = edge.from_from_to.inverse();
-  EXPECT_THAT(closure_faults(inverted), ElementsAre(Fault::closure_direction));
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information *= 1e4;
-  }
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
-}
-
-TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
-  Problem problem = rounds();
-  // The gap is 30 % of the loop's length, most loops drift by 5 %.
-  for (Edge& edge : problem.odometry) edge.from_from_to.translation *= 1.06;
-  const Pose true_pose =
-      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
-  problem.closures.push_back({10,
-                              110,
-                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 60)},
-                              problem.closures[0].information});
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
-}
-
-TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {
-  Problem problem = rounds();
-  Trajectory chained{{0.0, problem.keyframes[0].world_from_body}};
-  for (const Edge& step : problem.odometry) {
-    chained.push_back({static_cast<double>(step.to),
-                       normalized(chained.back().world_from_body * step.from_from_to)});
-  }
-  problem.keyframes = chained;
-  const auto found = check_movement(problem, chained);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->fault, Fault::nothing_moved);
-  Trajectory moved = chained;
-  moved.back().world_from_body.translation.x() += 0.5;
-  EXPECT_FALSE(check_movement(problem, moved));
-  problem.closures.clear();
-  EXPECT_FALSE(check_movement(problem, chained));
 }
 
 TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {

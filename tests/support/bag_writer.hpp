@@ -1,6 +1,7 @@
 /// Writes small bags for tests, byte by byte after the formats' specifications.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -78,30 +79,33 @@ std::string bytes_of(T value) {
   return Bytes().put(value).text();
 }
 
-/// A ROS 1 bag with one topic, /pose, and one uncompressed chunk for each message.
-inline std::string ros1_bag(const std::vector<std::string>& messages) {
+/// A ROS 1 bag with one topic, /pose, and one uncompressed chunk for each `per_chunk` messages.
+inline std::string ros1_bag(const std::vector<std::string>& messages, std::size_t per_chunk = 1) {
   const std::string connection =
       ros1_record(ros1_field("op", "\7") + ros1_field("conn", bytes_of(std::uint32_t{0})) +
                       ros1_field("topic", "/pose"),
                   ros1_field("type", "geometry_msgs/PoseStamped"));
   std::string chunks;
-  for (const std::string& message : messages) {
-    const std::string records =
-        connection +
-        ros1_record(ros1_field("op", "\2") + ros1_field("conn", bytes_of(std::uint32_t{0})) +
-                        ros1_field("time", bytes_of(std::uint64_t{0})),
-                    message);
+  for (std::size_t i = 0; i < messages.size(); i += per_chunk) {
+    std::string records = connection;
+    for (std::size_t j = i; j < std::min(messages.size(), i + per_chunk); ++j) {
+      records +=
+          ros1_record(ros1_field("op", "\2") + ros1_field("conn", bytes_of(std::uint32_t{0})) +
+                          ros1_field("time", bytes_of(std::uint64_t{0})),
+                      messages[j]);
+    }
     chunks +=
         ros1_record(ros1_field("op", "\5") + ros1_field("compression", "none") +
                         ros1_field("size", bytes_of(static_cast<std::uint32_t>(records.size()))),
                     records);
   }
   const auto header = [&](std::uint64_t end) {
-    return ros1_record(
-        ros1_field("op", "\3") + ros1_field("index_pos", bytes_of(end)) +
-            ros1_field("conn_count", bytes_of(std::uint32_t{1})) +
-            ros1_field("chunk_count", bytes_of(static_cast<std::uint32_t>(messages.size()))),
-        std::string(100, ' '));
+    return ros1_record(ros1_field("op", "\3") + ros1_field("index_pos", bytes_of(end)) +
+                           ros1_field("conn_count", bytes_of(std::uint32_t{1})) +
+                           ros1_field("chunk_count",
+                                      bytes_of(static_cast<std::uint32_t>(
+                                          (messages.size() + per_chunk - 1) / per_chunk))),
+                       std::string(100, ' '));
   };
   const std::string magic = "#ROSBAG V2.0\n";
   const std::uint64_t end = magic.size() + header(0).size() + chunks.size();

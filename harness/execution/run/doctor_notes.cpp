@@ -88,6 +88,14 @@ std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& swe
   return out;
 }
 
+std::vector<std::string> closure_notes(const Problem& problem) {
+  std::vector<std::string> out;
+  for (const metrics::InputFinding& finding : metrics::check_closures(problem)) {
+    if (finding.confidence >= kSureFinding) out.push_back(kDoctorPrefix + text(finding));
+  }
+  return out;
+}
+
 std::string movement_note(const Problem& problem,
                           const Trajectory& corrected,
                           const methods::Report& report,

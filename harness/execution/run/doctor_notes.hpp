@@ -30,6 +30,9 @@ std::vector<std::string> doctor_notes(const ReadPair& pair,
 /// information. Empty for simulated data.
 std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep);
 
+/// "doctor: ..." for each finding about closures and information with a confidence of at least 0.5.
+std::vector<std::string> closure_notes(const Problem& problem);
+
 /// The finding that the closures moved nothing; empty if they did, if the method rejected all of
 /// them, or if `uses_closures` is false.
 std::string movement_note(const Problem& problem,

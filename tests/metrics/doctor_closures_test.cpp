@@ -1,0 +1,130 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/doctor/closure_checks.hpp"
+#include "metrics/doctor/movement.hpp"
+
+namespace loopbench::doctor_closures_test {
+namespace {
+
+using namespace metrics;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Two rounds on a circle with closures between them, and drift in the odometry.
+Problem rounds() {
+  Problem out;
+  const std::size_t round = 60;
+  const auto pose = [&](std::size_t i) {
+    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(round);
+    const Pose on_circle{exp_so3({0, 0, angle}),
+                         {20 * std::sin(angle), 20 - 20 * std::cos(angle), 0}};
+    // On another lane in the second round.
+    return on_circle * Pose{Rotation::Identity(), {0, i < round ? 0.0 : 1.5, 0}};
+  };
+  const auto noise = [](std::size_t i) {
+    const auto k = static_cast<double>(i);
+    return exp_se3(twist(0.02 * Vector3(std::sin(k * k), std::cos(3 * k * k), std::sin(k + 1)),
+                         0.004 * Vector3(std::sin(5 * k * k), std::cos(k * k), std::sin(2 * k))));
+  };
+  Matrix6 information = Matrix6::Zero();
+  information.diagonal() << 2500, 2500, 2500, 62500, 62500, 62500;
+  for (std::size_t i = 0; i < 2 * round; ++i) {
+    out.keyframes.push_back({static_cast<double>(i), pose(i)});
+    if (i == 0) continue;
+    out.odometry.push_back({i - 1, i, pose(i - 1).inverse() * pose(i) * noise(i), information});
+  }
+  for (std::size_t i = 0; i + 4 < round; i += 2) {
+    // Measured from one keyframe before the revisited place, so that the inverse differs.
+    out.closures.push_back({i,
+                            i + round + 1,
+                            pose(i).inverse() * pose(i + round + 1) * noise(7 * i + 3),
+                            information});
+  }
+  return out;
+}
+
+std::vector<Fault> closure_faults(const Problem& problem) {
+  std::vector<Fault> out;
+  for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
+  return out;
+}
+
+TEST(DoctorOfClosures, FindsNothingInAGoodGraph) {
+  EXPECT_THAT(closure_faults(rounds()), IsEmpty());
+}
+
+TEST(DoctorOfClosures, InvertedClosures) {
+  Problem problem = rounds();
+  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
+}
+
+TEST(DoctorOfClosures, AFalseClosure) {
+  Problem problem = rounds();
+  problem.closures.push_back({10, 40, Pose{}, problem.closures[0].information});
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
+}
+
+TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
+  Problem problem = rounds();
+  for (auto* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) edge.information *= 1e4;
+  }
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
+  problem = rounds();
+  for (auto* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
+  }
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_order));
+}
+
+/// Without neighbours, and with too little drift to hide the motion between the lanes.
+TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
+  Problem problem = rounds();
+  problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
+  Problem inverted = problem;
+  for (Edge& edge : inverted.closures) edge.from_from_to = edge.from_from_to.inverse();
+  EXPECT_THAT(closure_faults(inverted), ElementsAre(Fault::closure_direction));
+  for (auto* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) edge.information *= 1e4;
+  }
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
+}
+
+TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
+  Problem problem = rounds();
+  // The gap is 30 % of the loop's length, most loops drift by 5 %.
+  for (Edge& edge : problem.odometry) edge.from_from_to.translation *= 1.06;
+  const Pose true_pose =
+      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
+  problem.closures.push_back({10,
+                              110,
+                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 60)},
+                              problem.closures[0].information});
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
+}
+
+TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {
+  Problem problem = rounds();
+  Trajectory chained{{0.0, problem.keyframes[0].world_from_body}};
+  for (const Edge& step : problem.odometry) {
+    chained.push_back({static_cast<double>(step.to),
+                       normalized(chained.back().world_from_body * step.from_from_to)});
+  }
+  problem.keyframes = chained;
+  const auto found = check_movement(problem, chained);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fault, Fault::nothing_moved);
+  Trajectory moved = chained;
+  moved.back().world_from_body.translation.x() += 0.5;
+  EXPECT_FALSE(check_movement(problem, moved));
+  problem.closures.clear();
+  EXPECT_FALSE(check_movement(problem, chained));
+}
+
+}  // namespace
+}  // namespace loopbench::doctor_closures_test
