@@ -117,8 +117,10 @@ void write_trajectory(const std::filesystem::path& file,
                       bool may_repeat) {
   if (may_repeat) {
     Trajectory different = trajectory.poses;
-    const auto repeated = std::ranges::unique(different, {}, &StampedPose::stamp);
-    different.erase(repeated.begin(), repeated.end());
+    const auto is_repeated = [](const StampedPose& a, const StampedPose& b) {
+      return a.stamp == b.stamp;
+    };
+    different.erase(std::unique(different.begin(), different.end(), is_repeated), different.end());
     check(different, file.string());
   } else {
     check(trajectory.poses, file.string());

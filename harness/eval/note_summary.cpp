@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kDoctor = "doctor: ";
 
-std::string kind_of(const std::string& note) {
+std::string kind_of_note(const std::string& note) {
   const std::size_t begin = note.starts_with(kDoctor) ? kDoctor.size() : 0;
   return note.substr(0, note.find(':', begin));
 }
@@ -18,7 +18,7 @@ std::string kind_of(const std::string& note) {
 
 void NoteSummary::add(const std::string& file, const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    const std::string name = kind_of(note);
+    const std::string name = kind_of_note(note);
     const auto known = std::ranges::find(kinds_, name, &Kind::name);
     if (known == kinds_.end()) {
       kinds_.push_back({name, file, file, note});
@@ -31,8 +31,9 @@ void NoteSummary::add(const std::string& file, const std::vector<std::string>& n
 
 std::vector<std::string> NoteSummary::lines() const {
   std::vector<Kind> sorted = kinds_;
-  std::ranges::stable_partition(sorted,
-                                [](const Kind& kind) { return kind.name.starts_with(kDoctor); });
+  std::stable_partition(sorted.begin(), sorted.end(), [](const Kind& kind) {
+    return kind.name.starts_with(kDoctor);
+  });
   const bool fits = sorted.size() <= kMostLines;
   const std::size_t shown = fits ? sorted.size() : kMostLines - 1;
   std::vector<std::string> out;
