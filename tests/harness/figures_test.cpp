@@ -107,7 +107,7 @@ TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
   EXPECT_EQ(all[1].sequence, "W");
   EXPECT_THAT(names(all[1]), ElementsAre("ba 0 (median)", "rp 0 (median)"));
   EXPECT_EQ(all[1].note, "8 of 10 estimates are not drawn (chosen by ATE)");
-  for (const std::size_t i : {0, 1}) {
+  for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_STREQ(all[0].drawn[i].style.color, all[1].drawn[i].style.color);
     EXPECT_EQ(all[0].drawn[i].style.dash, 1);
   }

@@ -151,7 +151,8 @@ TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
       sequence_figures(content.cells, traces, "b", usual, style_order(content), {"x"});
   EXPECT_EQ(figures.errors.at(0).series.empty(), scores["usual"].empty());
   for (const PlotSeries& series : figures.errors[0].series) {
-    const auto m = std::ranges::find(content.methods, series.name) - content.methods.begin();
+    const auto m = static_cast<std::size_t>(std::ranges::find(content.methods, series.name) -
+                                            content.methods.begin());
     EXPECT_EQ(scores["styles"][m]["color"], series.color) << series.name;
     EXPECT_EQ(scores["styles"][m]["dash"], series.dash) << series.name;
   }
