@@ -135,7 +135,7 @@ TEST(Figures, LegendIsLimitedAndCountsTheRest) {
   EXPECT_THAT(script, HasSubstr("'and 9 more'"));
   EXPECT_THAT(script, HasSubstr("'a note'"));
   EXPECT_THAT(script, Not(HasSubstr("set arrow")));  // solid in SVG
-  EXPECT_GT(legend.height(), 4.0 * 8.0 / 72.0);  // four rows
+  EXPECT_GT(legend.height(), 4.0 * 8.0 / 72.0);      // four rows
   EXPECT_LT(legend.height(), 8.0 * 1.5 * 8.0 / 72.0);
 }
 
