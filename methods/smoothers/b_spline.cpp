@@ -15,13 +15,10 @@ std::optional<std::string> BSplineThrough::declines(const Problem& problem) cons
 }
 
 std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Report& report) const {
-  return smooth_segments(problem.keyframes,
-                         runs_without_short_intervals(problem.keyframes),
-                         kShortIntervals,
-                         report,
-                         [&](const Trajectory& keyframes, Report& part_report) {
-                           return smooth_segment(keyframes, part_report);
-                         });
+  return smooth_between_short_intervals(
+      problem.keyframes, report, [&](const Trajectory& keyframes, Report& part_report) {
+        return smooth_segment(keyframes, part_report);
+      });
 }
 
 std::unique_ptr<const Curve> BSplineThrough::smooth_segment(const Trajectory& keyframes,

@@ -75,13 +75,10 @@ std::optional<std::string> CubicSpline::declines(const Problem& problem) const {
 }
 
 std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report& report) const {
-  return smooth_segments(problem.keyframes,
-                         runs_without_short_intervals(problem.keyframes),
-                         kShortIntervals,
-                         report,
-                         [&](const Trajectory& keyframes, Report& part_report) {
-                           return smooth_segment(keyframes, part_report);
-                         });
+  return smooth_between_short_intervals(
+      problem.keyframes, report, [&](const Trajectory& keyframes, Report& part_report) {
+        return smooth_segment(keyframes, part_report);
+      });
 }
 
 std::unique_ptr<const Curve> CubicSpline::smooth_segment(const Trajectory& keyframes,

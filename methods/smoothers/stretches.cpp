@@ -97,13 +97,6 @@ std::vector<PoseRun> runs_without_breaks(std::size_t poses,
   return out;
 }
 
-std::vector<PoseRun> runs_without_short_intervals(const Trajectory& poses) {
-  if (poses.size() < 2) return {{0, poses.size() - 1}};
-  const double shortest = kShortestInterval * median_interval(poses);
-  return runs_without_breaks(
-      poses.size(), [&](std::size_t i) { return poses[i + 1].stamp - poses[i].stamp < shortest; });
-}
-
 std::unique_ptr<const Curve> joined(std::vector<std::unique_ptr<const Curve>> parts) {
   std::vector<std::unique_ptr<const Curve>> pieces;
   std::optional<StampedPose> previous_end;
@@ -151,6 +144,17 @@ std::unique_ptr<const Curve> smooth_segments(
                   begin,
                   end));
   return joined(std::move(parts));
+}
+
+std::unique_ptr<const Curve> smooth_between_short_intervals(
+    const Trajectory& poses,
+    Report& report,
+    const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth) {
+  if (poses.size() < 2) return smooth(poses, report);
+  const double shortest = kShortestInterval * median_interval(poses);
+  const auto segments = runs_without_breaks(
+      poses.size(), [&](std::size_t i) { return poses[i + 1].stamp - poses[i].stamp < shortest; });
+  return smooth_segments(poses, segments, "intervals below 0.01 times the median", report, smooth);
 }
 
 std::unique_ptr<const Curve> interpolate_rotations_in_parts(const Trajectory& poses,

@@ -28,10 +28,6 @@ std::vector<PoseRun> runs_without_breaks(std::size_t poses,
 /// Intervals below this times the median are bridged by chords: a spline through both poses takes
 /// the difference of their errors for a velocity, and overshoots by many times that difference.
 inline constexpr double kShortestInterval = 0.01;
-inline constexpr const char* kShortIntervals = "intervals below 0.01 times the median";
-
-/// Splits at least one pose into segments at short intervals. O(n).
-std::vector<PoseRun> runs_without_short_intervals(const Trajectory& poses);
 
 /// Joins the parts by chords: straight lines and great arcs from the end of each part to the start
 /// of the next. The parts must be in order of time, must not overlap, and must contain at least two
@@ -46,6 +42,12 @@ std::unique_ptr<const Curve> smooth_segments(
     const Trajectory& poses,
     const std::vector<PoseRun>& runs,
     const std::string& reason,
+    Report& report,
+    const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth);
+
+/// smooth_segments() with the segments between short intervals. O(n) besides `smooth`.
+std::unique_ptr<const Curve> smooth_between_short_intervals(
+    const Trajectory& poses,
     Report& report,
     const std::function<std::unique_ptr<const Curve>(Trajectory, Report&)>& smooth);
 

@@ -292,9 +292,8 @@ TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
   EXPECT_EQ(complaint, std::string::npos) << log.substr(std::min(complaint, log.size()), 500);
   const std::string dom = text_of(name + ".dom");
   EXPECT_TRUE(has(dom, "data-drawn=\"yes\""));
-  const std::size_t title = dom.find("<title>");
   EXPECT_TRUE(has(dom, "<title>probed: well</title>"))
-      << dom.substr(std::min(title, dom.size()), 300);
+      << dom.substr(std::min(dom.find("<title>"), dom.size()), 300);
 }
 
 }  // namespace
