@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -88,15 +89,16 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   }
   if (a.plot.empty()) return;
   std::set<std::string> prefixes;
+  std::vector<FigureFile> files;
   for (const DrawnRuns& each : drawn) {
     std::string prefix = a.plot;
     if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
     while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
-    for (const std::string& file :
-         write_error_figures(prefix, each.drawn, each.note, a.plot_size)) {
-      fmt::print(stderr, "{}\n", printable(file));
-    }
+    std::ranges::move(error_figure_files(prefix, each.drawn, each.note, a.plot_size),
+                      std::back_inserter(files));
   }
+  write_figures(files);
+  for (const FigureFile& each : files) fmt::print(stderr, "{}\n", printable(each.file.string()));
 }
 
 /// Rejects options that have no effect on a store, before anything is evaluated.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <limits>
+#include <memory>
 
 #include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
@@ -178,13 +178,13 @@ std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all) 
   return {maps, errors, axes};
 }
 
-std::vector<std::string> write_error_figures(const std::string& prefix,
-                                             const std::vector<DrawnEvaluation>& all,
-                                             const std::string& note,
-                                             const ErrorFigureSize& size) {
+std::vector<FigureFile> error_figure_files(const std::string& prefix,
+                                           const std::vector<DrawnEvaluation>& all,
+                                           const std::string& note,
+                                           const ErrorFigureSize& size) {
   constexpr double kColumnWidth = 3.5;                  // of a paper [in]
   constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
-  std::vector<std::string> out;
+  std::vector<FigureFile> out;
   for (const NamedFigure& figure : error_figures(all)) {
     const bool is_map = figure.panels.front().same_scale;
     const std::size_t columns = size.columns > 0 ? size.columns : (is_map ? 2 : 1);
@@ -198,14 +198,10 @@ std::vector<std::string> write_error_figures(const std::string& prefix,
     panel.font = size.font;
     panel.common_legend = true;
     panel.note = note;
-    std::vector<std::future<void>> formats;  // gnuplot takes most of the time
+    const auto panels = std::make_shared<const std::vector<PlotPanel>>(figure.panels);
     for (const char* const extension : {".svg", ".pdf", ".png"}) {
-      out.push_back(prefix + "_" + figure.name + extension);
-      formats.push_back(std::async(std::launch::async, [&, file = out.back()] {
-        write_figure(file, figure.panels, columns, panel);
-      }));
+      out.push_back({prefix + "_" + figure.name + extension, panels, columns, panel});
     }
-    for (std::future<void>& each : formats) each.get();
   }
   return out;
 }

@@ -33,12 +33,11 @@ struct ErrorFigureSize {
   double font = 7.0;          ///< [pt]
 };
 
-/// Writes PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, by default as wide as one column
-/// of a paper (3.5 in). `note`: a line in each figure, or empty. Returns the files. Throws
-/// InputError like write_figure().
-std::vector<std::string> write_error_figures(const std::string& prefix,
-                                             const std::vector<DrawnEvaluation>& all,
-                                             const std::string& note = "",
-                                             const ErrorFigureSize& size = {});
+/// PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, by default as wide as one column of a
+/// paper (3.5 in). `note`: a line in each figure, or empty.
+std::vector<FigureFile> error_figure_files(const std::string& prefix,
+                                           const std::vector<DrawnEvaluation>& all,
+                                           const std::string& note = "",
+                                           const ErrorFigureSize& size = {});
 
 }  // namespace loopbench::harness

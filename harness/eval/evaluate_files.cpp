@@ -1,8 +1,10 @@
 #include "harness/eval/evaluate_files.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <future>
+#include <iterator>
 
 #include "datasets/core/parallel.hpp"
 #include "datasets/formats/kitti.hpp"
@@ -18,6 +20,13 @@ struct Loaded {
   std::vector<PoseMatrix> matrices;
   ReadFindings repaired;
   std::string unstamped;  ///< file and format if the stamps were generated, otherwise empty
+};
+
+/// The reference of one or more estimates, in their body.
+struct Reference {
+  std::string name;
+  Loaded read;
+  std::string content;  ///< see EvaluationResult
 };
 
 EvaluationResult failure(const EvalArguments& a,
@@ -37,7 +46,7 @@ EvaluationResult failure(const EvalArguments& a,
 struct Reader {
   const EvalArguments& arguments;
   bool reads_matrices = false;
-  bool has_used_times = false;
+  std::atomic<bool> has_used_times = false;
 
   Loaded read(const std::string& file, const std::string& format_word) {
     ReadOptions options;
@@ -46,12 +55,12 @@ struct Reader {
     if (arguments.period) options.period = *arguments.period;
     if (options.format == Format::automatic) options.format = detect_format(file);
     const bool is_kitti = options.format == Format::kitti;
+    Loaded out;
+    options.findings = &out.repaired;
     if (!arguments.times.empty() && is_kitti) {
       options.times = arguments.times;
       has_used_times = true;
     }
-    Loaded out;
-    options.findings = &out.repaired;
     out.poses = read_trajectory(file, options);
     if (options.format == Format::g2o || (is_kitti && !options.times)) {
       out.unstamped = file + ": is " + to_text(options.format);
@@ -72,6 +81,63 @@ std::vector<std::filesystem::path> all_files(const EvalArguments& a,
   std::vector<std::filesystem::path> out{a.times};
   for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
   return out;
+}
+
+/// True if a protocol computes with the digits of KITTI files instead of rotations.
+bool uses_digits(const std::vector<metrics::NamedProtocol>& protocols) {
+  return std::ranges::any_of(protocols, [](const metrics::NamedProtocol& p) {
+    return p.rules.form == metrics::ErrorForm::kitti ||
+           p.rules.association == metrics::Association::evo;
+  });
+}
+
+std::vector<EvaluationResult> unreadable(const EvalArguments& a,
+                                         const std::vector<metrics::NamedProtocol>& rules,
+                                         const Reference& reference,
+                                         const FilePair& pair,
+                                         const std::string& why) {
+  std::vector<EvaluationResult> out;
+  for (const metrics::NamedProtocol& each : rules) {
+    out.push_back(failure(a, pair, each, why));
+    out.back().reference_content = reference.content;
+    out.back().content = unreadable_content(reference.content, pair.estimate);
+  }
+  return out;
+}
+
+/// `files`: number of all estimates; a failure of one of several is a result, not an exception.
+std::vector<EvaluationResult> evaluated(Reader& reader,
+                                        const std::vector<metrics::NamedProtocol>& rules,
+                                        const Reference& reference,
+                                        const std::string& estimate,
+                                        std::size_t files) {
+  const EvalArguments& a = reader.arguments;
+  const bool is_alone = files * rules.size() == 1;
+  Loaded loaded;
+  try {
+    loaded = reader.read(estimate, a.format);
+  } catch (const InputError& error) {
+    if (is_alone) throw;
+    return unreadable(a, rules, reference, {reference.name, estimate}, error.what());
+  }
+  const Loaded& truth = reference.read;
+  const bool are_printed = !truth.matrices.empty() && !loaded.matrices.empty();
+  metrics::PrintedPoses printed;
+  if (are_printed) printed = {truth.matrices, std::move(loaded.matrices)};
+  const EvaluationInput input{{truth.poses,
+                               loaded.poses,
+                               reference.name,
+                               estimate,
+                               truth.unstamped.empty() && loaded.unstamped.empty()},
+                              {std::max(truth.repaired.off_unit, loaded.repaired.off_unit),
+                               truth.repaired.repeated + loaded.repaired.repeated,
+                               loaded.repaired.damage},
+                              are_printed ? &printed : nullptr,
+                              truth.unstamped,
+                              loaded.unstamped,
+                              reference.content,
+                              files > 1 ? pair_content(truth.poses, loaded.poses) : ""};
+  return evaluate_read(a, rules, input, is_alone);
 }
 
 }  // namespace
@@ -145,60 +211,20 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   for (const metrics::NamedProtocol& protocol : rules)
     metric_requests(a, protocol.rules);  // rejects invalid options before reading files
   const ReferenceBody body = reference_body(a);
-  const bool wants_digits =
-      !has_offset(body) && std::ranges::any_of(rules, [](const metrics::NamedProtocol& p) {
-        return p.rules.form == metrics::ErrorForm::kitti ||
-               p.rules.association == metrics::Association::evo;
-      });
   const std::vector<FilePair> files = file_pairs(a);
   reject_overwriting(all_files(a, files), a.per_pose);
-  const bool is_alone = files.size() * rules.size() == 1;
-  Reader reader{a, wants_digits};
+  Reader reader{a, !has_offset(body) && uses_digits(rules)};
   std::vector<EvaluationResult> out;
-  std::string read_last;
-  Trajectory reference;
-  ReadFindings repaired;  // this and `unstamped`: of the reference
-  std::string unstamped;
-  std::string content;
-  metrics::PrintedPoses printed;
-  for (const FilePair& pair : files) {
-    if (read_last != pair.reference) {
-      Loaded loaded = reader.read_reference(pair.reference);
-      reference = to_estimate_body(std::move(loaded.poses), body);
-      unstamped = loaded.unstamped;
-      repaired = loaded.repaired;
-      printed.reference = std::move(loaded.matrices);
-      read_last = pair.reference;
-      if (files.size() > 1) content = reference_content(reference);
-    }
-    Loaded loaded;
-    try {
-      loaded = reader.read(pair.estimate, a.format);
-    } catch (const InputError& error) {
-      if (is_alone) throw;
-      for (const metrics::NamedProtocol& each : rules) {
-        out.push_back(failure(a, pair, each, error.what()));
-        out.back().reference_content = content;
-        out.back().content = unreadable_content(content, pair.estimate);
-      }
-      continue;
-    }
-    printed.estimate = std::move(loaded.matrices);
-    const bool has_stamps = unstamped.empty() && loaded.unstamped.empty();
-    const bool are_printed = !printed.reference.empty() && !printed.estimate.empty();
-    const EvaluationInput input{
-        {reference, loaded.poses, pair.reference, pair.estimate, has_stamps},
-        {std::max(repaired.off_unit, loaded.repaired.off_unit),
-         repaired.repeated + loaded.repaired.repeated,
-         loaded.repaired.damage},
-        are_printed ? &printed : nullptr,
-        unstamped,
-        loaded.unstamped,
-        content,
-        files.size() > 1 ? pair_content(reference, loaded.poses) : ""};
-    for (EvaluationResult& result : evaluate_read(a, rules, input, is_alone)) {
-      out.push_back(std::move(result));
-    }
+  for (std::size_t begin = 0, end = 0; begin < files.size(); begin = end) {
+    while (end < files.size() && files[end].reference == files[begin].reference) ++end;
+    Reference reference{files[begin].reference, reader.read_reference(files[begin].reference), ""};
+    reference.read.poses = to_estimate_body(std::move(reference.read.poses), body);
+    if (files.size() > 1) reference.content = reference_content(reference.read.poses);
+    std::vector<std::vector<EvaluationResult>> results(end - begin);
+    parallel_for_tasks(results.size(), [&](std::size_t i) {
+      results[i] = evaluated(reader, rules, reference, files[begin + i].estimate, files.size());
+    });
+    for (auto& each : results) std::ranges::move(each, std::back_inserter(out));
   }
   if (!a.times.empty() && !reader.has_used_times) throw unused_times(a);
   return out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "datasets/core/parallel.hpp"
 #include "harness/plot/axes.hpp"
 #include "harness/plot/legend.hpp"
 #include "harness/plot/quoted.hpp"
@@ -206,6 +207,12 @@ void write_figure(const std::filesystem::path& file,
                   const FigureSize& size) {
   const auto draw = size.common_legend ? page_with_legend : page_of_panels;
   write_result(file, drawn_by_gnuplot(draw(file, panels, columns, size) + "unset multiplot\n"));
+}
+
+void write_figures(const std::vector<FigureFile>& files) {
+  parallel_for_tasks(files.size(), [&](std::size_t i) {
+    write_figure(files[i].file, *files[i].panels, files[i].columns, files[i].size);
+  });
 }
 
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,17 @@ void write_figure(const std::filesystem::path& file,
                   const std::vector<PlotPanel>& panels,
                   std::size_t columns,
                   const FigureSize& size = {});
+
+/// A figure that is not written yet, see write_figure().
+struct FigureFile {
+  std::filesystem::path file;
+  std::shared_ptr<const std::vector<PlotPanel>> panels;
+  std::size_t columns = 1;
+  FigureSize size = {};
+};
+
+/// Calls write_figure() for all of them, on all cores.
+void write_figures(const std::vector<FigureFile>& files);
 
 /// Every k-th point such that at most `most` remain, including the last one; for drawing only.
 std::vector<Vector3> thinned(const std::vector<Vector3>& points, std::size_t most);

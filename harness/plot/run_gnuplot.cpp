@@ -1,8 +1,8 @@
 #include "harness/plot/run_gnuplot.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,11 +33,15 @@ struct Descriptor {
   throw InputError(std::string("gnuplot cannot be started: ") + std::strerror(reason));
 }
 
-/// Stops early if gnuplot ends; then it has reported why.
+/// Stops early if gnuplot ends; then it has reported why. Run on a thread of its own, whose SIGPIPE
+/// is blocked and ends with it.
 void send_all_to(Descriptor& out, const std::string& script) {
+  sigset_t broken_pipe;
+  sigemptyset(&broken_pipe);
+  sigaddset(&broken_pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
   for (std::size_t done = 0; done < script.size();) {
-    const ssize_t count =
-        ::send(out.number, script.data() + done, script.size() - done, MSG_NOSIGNAL);
+    const ssize_t count = ::write(out.number, script.data() + done, script.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     done += static_cast<std::size_t>(count);
@@ -51,7 +55,8 @@ pid_t start_gnuplot(int in, int out) {
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   char name[] = "gnuplot";
-  char* const arguments[] = {name, nullptr};
+  char script[] = "/dev/stdin";  // opened by name it is read in blocks, otherwise byte by byte
+  char* const arguments[] = {name, script, nullptr};
   pid_t process = 0;
   const int reason = posix_spawnp(&process, name, &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -74,9 +79,9 @@ std::string read_until_end(int descriptor) {
 
 std::string drawn_by_gnuplot(const std::string& script) {
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail_to_start(errno);
-  Descriptor to_gnuplot{ends[0]};
-  Descriptor script_end{ends[1]};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
+  Descriptor script_end{ends[0]};
+  Descriptor to_gnuplot{ends[1]};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
   Descriptor from_gnuplot{ends[0]};
   Descriptor drawing_end{ends[1]};
@@ -85,7 +90,7 @@ std::string drawn_by_gnuplot(const std::string& script) {
   drawing_end.close_now();
   // In parallel: gnuplot draws before it has read all.
   std::thread sender([&] { send_all_to(to_gnuplot, script); });
-  std::string out = read_until_end(from_gnuplot.number);
+  const std::string out = read_until_end(from_gnuplot.number);
   sender.join();
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {

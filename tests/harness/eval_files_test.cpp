@@ -41,6 +41,26 @@ TEST(Eval, ReadsRpgsFolder) {
   EXPECT_NEAR(find(judged[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
 }
 
+// Several files are evaluated in parallel.
+TEST(Eval, ThreadsDoNotMatterForSeveralFiles) {
+  const std::vector<std::string> estimates{
+      golden("est_drift.txt"), golden("est_corrected.txt"), "absent.txt", golden("est_burst.txt")};
+  std::vector<std::string> words{golden("gt.txt"), "--protocol=loopbench,tum"};
+  words.insert(words.begin() + 1, estimates.begin(), estimates.end());
+  const Json all = eval_json(words, kExitSomeCellsFailed);
+  ASSERT_EQ(all.size(), 2 * estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const Json alone =
+        eval_json({words[0], estimates[i], words.back()}, i == 2 ? kExitSomeCellsFailed : kExitOk);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const char* key : {"estimate", "status", "why", "metrics", "pairs"}) {
+        EXPECT_EQ(all[2 * i + k].value(key, Json()), alone[k].value(key, Json()))
+            << estimates[i] << " " << key;
+      }
+    }
+  }
+}
+
 TEST(Eval, ReadsOvEvalsFolders) {
   const TemporaryFolder folder;
   const auto truths = folder.path() / "truths";
