@@ -120,7 +120,6 @@ void add_check(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(CLI::NonNegativeNumber)
       ->type_name("SHARE");
-  command->footer("Exit codes: 0 passed, 1 regression, 2 invalid input, 3 internal error.");
   command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }
 

@@ -26,11 +26,13 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("ESTIMATE");
   command
-      ->add_option("--method",
-                   c.method,
-                   "Method, or corrector + smoother, each with options, see `list methods`")
+      ->add_option(
+          "--method",
+          c.method,
+          "Method, or corrector + smoother; options follow a colon (dual:max_closures=50), "
+          "see `list methods`")
       ->required()
-      ->type_name("NAME[:OPTION=VALUE,...]");
+      ->type_name("METHOD");
   const auto file = [&](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("FILE");
   };

@@ -171,8 +171,12 @@ void add_doctor(CLI::App& app, int& exit_code) {
                    a->loops,
                    "Loop closures of EST (or of REF, if there is no EST), see `correct --help`")
       ->type_name("FILE");
-  command->add_option("--format", a->reading.format, "Format of the files")->type_name("WORD");
-  command->add_option("--repeats", a->reading.repeats, "Handling of equal stamps")
+  command
+      ->add_option("--format", a->reading.format, "Format of the files: " + choice_list<Format>())
+      ->type_name("WORD");
+  command
+      ->add_option(
+          "--repeats", a->reading.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
       ->type_name("WORD");
   command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
       ->type_name("PARENT.CHILD");

@@ -158,6 +158,36 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench verify mine.yaml --only 'my run / raw'\n"},
 };
 
+const std::string kUsualExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
+const std::string kComputeExitCodes =
+    "0 success, 2 invalid input or output, 3 internal error, 4 the build lacks a required part.";
+const std::string kSweepExitCodes =
+    "0 success, 1 failed cells, 2 invalid input or output, 3 internal error, 4 the build lacks a "
+    "required part, 130 interrupted.";
+
+/// Of commands whose codes are not the usual ones; "" is the program.
+const std::map<std::string, std::string> kExitCodes{
+    {"",
+     "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
+     "build lacks a required part, 130 interrupted."},
+    {"run", kSweepExitCodes},
+    {"reproduce", kComputeExitCodes},
+    {"calibrate", kComputeExitCodes},
+    {"verify",
+     "0 equal results, 1 differences, 2 invalid input or output, 3 internal error, 4 the build "
+     "lacks a required part, 130 interrupted."},
+    {"eval",
+     "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
+     "error."},
+    {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
+    {"salvage",
+     "0 nothing is lost, 1 something is lost, 2 nothing could be salvaged, 3 internal error."},
+    {"watch", "0 all cells are done and merged, 1 otherwise, 2 invalid input, 3 internal error."},
+    {"doctor",
+     "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "
+     "internal error."},
+};
+
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
 }
@@ -196,12 +226,14 @@ void add_help(CLI::App& app, int& exit_code) {
   });
 }
 
-void add_examples(CLI::App& app) {
+void add_footers(CLI::App& app) {
   const auto add = [](CLI::App& command, const std::string& name) {
-    const auto found = kExamples.find(name);
-    if (found == kExamples.end()) return;
-    const std::string before = command.get_footer();
-    command.footer("Examples:\n" + found->second + (before.empty() ? "" : "\n" + before));
+    const auto examples = kExamples.find(name);
+    std::string footer = examples == kExamples.end() ? "" : "Examples:\n" + examples->second + "\n";
+    if (!command.get_footer().empty()) footer += command.get_footer() + "\n\n";
+    const auto codes = kExitCodes.find(name);
+    command.footer(footer +
+                   "Exit codes: " + (codes == kExitCodes.end() ? kUsualExitCodes : codes->second));
   };
   add(app, "");
   const auto all = [](const CLI::App*) { return true; };

@@ -160,9 +160,10 @@ std::vector<ItemList> wanted_lists(const Catalogue& known, const ListArguments& 
   if (!out.empty()) return out;
   if (is_pattern(wanted)) throw InputError("list: no name matches '" + wanted + "'");
   const bool is_close = !closest(wanted, names).empty();
-  throw InputError(unknown_name(has_subject ? "entry" : "list or entry",
-                                wanted,
-                                is_close || has_subject ? names : kSubjects));
+  throw InputError(unknown_name(
+      has_subject ? arguments.subject.substr(0, arguments.subject.size() - 1) : "list or entry",
+      wanted,
+      is_close || has_subject ? names : kSubjects));
 }
 
 int list(const ListArguments& arguments) {

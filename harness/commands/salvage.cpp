@@ -82,8 +82,8 @@ void add_salvage(CLI::App& app, int& exit_code) {
   command->add_option("-o,--out", arguments->out, "Store to create, or a folder for it")
       ->required();
   command->footer(
-      "Prints what is lost and exits with 1 if anything is, with 2 if nothing could be salvaged. "
-      "STORE is only read. 'loopbench run CONFIG --out FOLDER' then recomputes the lost cells.");
+      "Prints what is lost. STORE is only read. 'loopbench run CONFIG --out FOLDER' then "
+      "recomputes the lost cells.");
   command->callback([arguments, &exit_code] {
     reject_standard_output("-o", arguments->out);
     std::filesystem::path out = arguments->out;

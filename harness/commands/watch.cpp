@@ -90,7 +90,6 @@ void add_watch(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   command->add_flag("--once", arguments->once, "Print one line and exit");
-  command->footer("Exit codes: 0 all cells are done and merged, 1 otherwise.");
   command->callback([arguments, &exit_code] {
     Watch watch(arguments->out);
     while (watch.step()) {

@@ -116,9 +116,6 @@ int main(int argc, char** argv) {
   app.formatter(help_formatter());
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 success, 1 failed cells or regressions, 2 invalid input or output, "
-      "3 internal error, 4 the build lacks a required part, 130 interrupted.");
   int exit_code = kExitOk;
   const Source source{source_commit, source_state, code_hash};
   add_run(app, exit_code, source);
@@ -145,7 +142,7 @@ int main(int argc, char** argv) {
   add_get(app, exit_code);
   add_help(app, exit_code);
   add_pages(app, exit_code);
-  add_examples(app);
+  add_footers(app);
   int print_errno = 0;
   const int out = run(app, words, exit_code, print_errno);
   // Output counts as written only after the buffer is flushed.
