@@ -25,7 +25,7 @@ std::string reasons_text(const std::vector<Record>& records) {
   std::vector<Missing> missing;
   for (const Record& r : records) {
     const std::string what = r.metric.empty() ? "" : field(r, "score");
-    if (r.status != "ok") missing.push_back({r.method, what, r.status, r.why});
+    if (r.status != Status::ok) missing.push_back({r.method, what, to_text(r.status), r.why});
   }
   std::string out;
   for (const std::string& line : grouped(missing)) out += "- " + printable(line) + "\n";

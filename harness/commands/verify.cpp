@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
-#include "harness/commands/verify_sample.hpp"
 #include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/progress.hpp"
 #include "harness/provenance/build.hpp"
+#include "harness/shards/stored_sample.hpp"
 #include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -27,6 +28,27 @@ struct VerifyArguments {
   SampleArguments sample;
 };
 
+int verify_sample(const SweepSetting& setting, const SampleArguments& arguments) {
+  const StopRequests& interrupted = install_interrupt_handler();
+  std::optional<Progress> progress;
+  const RecomputedSample sample = recompute_sample(
+      setting, arguments, interrupted, [&](std::size_t cells, const std::string& label) {
+        if (!progress) progress.emplace(cells);
+        progress->step(label);
+      });
+  progress.reset();
+  if (interrupted > 0) return kExitInterrupted;
+  for (const CellDifference& difference : sample.differences) {
+    fmt::print(
+        "{}: {} differs from the stored result\n", printable(difference.label), difference.part);
+  }
+  fmt::print("{} stored cells recomputed: {}\n",
+             sample.cells,
+             sample.differences.empty() ? "bit-identical"
+                                        : fmt::format("{} differ", sample.differences.size()));
+  return sample.differences.empty() ? kExitOk : kExitSomeCellsFailed;
+}
+
 int run_verify(const VerifyArguments& arguments, const Source& source) {
   const Catalogue known =
       catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
@@ -35,8 +57,8 @@ int run_verify(const VerifyArguments& arguments, const Source& source) {
     SampleArguments sample = arguments.sample;
     sample.only = arguments.only;
     if (sample.store.empty()) sample.store = "results/" + sweep.name;
-    return verify_sample(
-        sweep, known, data_root(sweep, arguments.data), build_id(source.code), sample);
+    const DataRoot root = data_root(sweep, arguments.data);
+    return verify_sample({sweep, known, root, build_id(source.code)}, sample);
   }
   sweep.timing = 1;  // times are not compared
   sweep.serial = false;

@@ -1,4 +1,4 @@
-#include "harness/commands/verify_sample.hpp"
+#include "harness/shards/stored_sample.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,15 +7,10 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/commands/commands.hpp"
-#include "harness/commands/interruption.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
-#include "harness/execution/run/progress.hpp"
-#include "harness/store/differing_cells.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/store.hpp"
 #include "harness/text/hash.hpp"
-#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -64,11 +59,12 @@ std::vector<Cell> sampled(const std::vector<Cell>& planned,
 
 }  // namespace
 
-int verify_sample(const Sweep& sweep,
-                  const Catalogue& catalogue,
-                  const DataRoot& root,
-                  const std::string& build,
-                  const SampleArguments& arguments) {
+RecomputedSample recompute_sample(
+    const SweepSetting& setting,
+    const SampleArguments& arguments,
+    const StopRequests& stop,
+    const std::function<void(std::size_t cells, const std::string& label)>& on_cell) {
+  const auto& [sweep, catalogue, root, build] = setting;
   const std::vector<bool> with_seed = seeded(sweep, catalogue);
   const std::vector<Cell> all = cells(sweep, with_seed, "");
   const std::vector<Cell> planned = cells(sweep, with_seed, arguments.only);
@@ -81,30 +77,20 @@ int verify_sample(const Sweep& sweep,
   }
   const SampleFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
-  const StopRequests& interrupted = install_interrupt_handler();
   {
     CellKeys own_keys(sweep, catalogue, root, build);
     Store store(file, own_keys, {});
-    Progress progress(sample.size());
     SandboxOptions sandbox;
     sandbox.unreachable = {arguments.store};
     const std::vector<Cell> missing = store.resume(all, sample, Retry::none).missing;
     run_isolated(
-        sweep, missing, catalogue, root, arguments.jobs, sandbox, interrupted, [&](const auto& r) {
+        sweep, missing, catalogue, root, arguments.jobs, sandbox, stop, [&](const auto& r) {
           if (r.status != Status::interrupted) store.write(r);
-          progress.step(sweep.datasets[r.cell.dataset].label);
+          on_cell(sample.size(), sweep.datasets[r.cell.dataset].label);
         });
   }
-  if (interrupted > 0) return kExitInterrupted;
-  const std::vector<CellDifference> found = differing_cells(file, arguments.store);
-  for (const CellDifference& difference : found) {
-    fmt::print(
-        "{}: {} differs from the stored result\n", printable(difference.label), difference.part);
-  }
-  fmt::print("{} stored cells recomputed: {}\n",
-             sample.size(),
-             found.empty() ? "bit-identical" : fmt::format("{} differ", found.size()));
-  return found.empty() ? kExitOk : kExitSomeCellsFailed;
+  if (stop > 0) return {sample.size(), {}};
+  return {sample.size(), differing_cells(file, arguments.store)};
 }
 
 }  // namespace loopbench::harness

@@ -1,4 +1,4 @@
-#include "harness/commands/run_part.hpp"
+#include "harness/shards/run_part.hpp"
 
 #include "datasets/core/error.hpp"
 #include "harness/shards/costs.hpp"

@@ -1,4 +1,4 @@
-#include "harness/commands/pin_instructions.hpp"
+#include "harness/provenance/pin_instructions.hpp"
 
 #include <unistd.h>
 
