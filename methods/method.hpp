@@ -1,14 +1,13 @@
 /// Interfaces of correctors, smoothers and joint methods, and the registry entry of a method.
 ///
 /// A Corrector adjusts keyframe poses using loop closures. A Smoother fits a curve to the keyframes
-/// and cannot remove drift. A Method does both: a joint method, or the composition of a corrector
-/// and a smoother (pipeline.hpp). All functions are const and pure: the same problem gives
-/// bit-identical results on any thread.
+/// and cannot remove drift. An Estimator does both: a joint method, or the composition of a
+/// corrector and a smoother (pipeline.hpp). All functions are const and pure: the same problem
+/// gives bit-identical results on any thread.
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,8 +24,8 @@ class Corrector {
  public:
   virtual ~Corrector() = default;
 
-  /// Returns the reason why the method cannot process this problem, or nullopt.
-  virtual std::optional<std::string> declines(const Problem&) const { return std::nullopt; }
+  /// Returns the reason why the method cannot process this problem; empty if it can.
+  virtual std::string why_declined(const Problem&) const { return ""; }
 
   /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
   /// std::runtime_error on failure.
@@ -38,25 +37,25 @@ class Smoother {
  public:
   virtual ~Smoother() = default;
 
-  virtual std::optional<std::string> declines(const Problem&) const { return std::nullopt; }
+  virtual std::string why_declined(const Problem&) const { return ""; }
 
   /// Returns a curve over exactly the time span of the keyframes. The curve owns its data.
   virtual std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const = 0;
 };
 
 /// From a problem to a curve. What derives from it in the catalogue is a joint method.
-class Method {
+class Estimator {
  public:
-  virtual ~Method() = default;
+  virtual ~Estimator() = default;
 
-  virtual std::optional<std::string> declines(const Problem&) const { return std::nullopt; }
+  virtual std::string why_declined(const Problem&) const { return ""; }
 
   virtual std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const = 0;
 };
 
 using Stage = std::variant<std::unique_ptr<const Corrector>,
                            std::unique_ptr<const Smoother>,
-                           std::unique_ptr<const Method>>;
+                           std::unique_ptr<const Estimator>>;
 
 enum class Kind { corrector, smoother, joint };
 inline auto choices(Kind) {
@@ -79,7 +78,7 @@ MethodEntry method(std::string name, std::string summary, typename T::Options de
   constexpr bool is_corrector = std::derived_from<T, Corrector>;
   constexpr bool is_smoother = std::derived_from<T, Smoother>;
   using Base = std::
-      conditional_t<is_corrector, Corrector, std::conditional_t<is_smoother, Smoother, Method>>;
+      conditional_t<is_corrector, Corrector, std::conditional_t<is_smoother, Smoother, Estimator>>;
   return {std::move(name),
           is_corrector  ? Kind::corrector
           : is_smoother ? Kind::smoother

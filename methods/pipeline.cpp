@@ -26,17 +26,17 @@ void require_same_stamps(const Trajectory& before, const Trajectory& after) {
   }
 }
 
-class Pipeline final : public Method {
+class Pipeline final : public Estimator {
  public:
   Pipeline(std::unique_ptr<const Corrector> corrector, std::unique_ptr<const Smoother> smoother)
       : corrector_(std::move(corrector)), smoother_(std::move(smoother)) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
+  std::string why_declined(const Problem& problem) const override {
     if (problem.keyframes.empty()) return "no keyframes";
     if (corrector_) {
-      if (auto why = corrector_->declines(problem)) return why;
+      if (std::string why = corrector_->why_declined(problem); !why.empty()) return why;
     }
-    return smoother_ ? smoother_->declines(problem) : std::nullopt;
+    return smoother_ ? smoother_->why_declined(problem) : "";
   }
 
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
@@ -88,8 +88,8 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
   return moved;
 }
 
-std::unique_ptr<const Method> compose(std::unique_ptr<const Corrector> corrector,
-                                      std::unique_ptr<const Smoother> smoother) {
+std::unique_ptr<const Estimator> compose(std::unique_ptr<const Corrector> corrector,
+                                         std::unique_ptr<const Smoother> smoother) {
   return std::make_unique<Pipeline>(std::move(corrector), std::move(smoother));
 }
 

@@ -13,7 +13,7 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes);
 /// Returns a method that runs `corrector` and then `smoother` on its result. A null corrector means
 /// no correction, a null smoother a polyline. `estimate` throws std::runtime_error when the
 /// corrector changes the number of keyframes or their stamps.
-std::unique_ptr<const Method> compose(std::unique_ptr<const Corrector> corrector,
-                                      std::unique_ptr<const Smoother> smoother);
+std::unique_ptr<const Estimator> compose(std::unique_ptr<const Corrector> corrector,
+                                         std::unique_ptr<const Smoother> smoother);
 
 }  // namespace loopbench::methods

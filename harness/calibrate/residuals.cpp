@@ -12,8 +12,8 @@ CalibrationResiduals residuals(const Sequence& sequence,
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty())
     throw InputError(label + ": has no reference for the calibration");
-  if (const auto fault = methods::chain_fault(problem)) {
-    throw InputError(label + ": " + *fault);
+  if (const std::string fault = methods::chain_fault(problem); !fault.empty()) {
+    throw InputError(label + ": " + fault);
   }
   if (metrics::is_position_only(sequence.reference)) {
     throw InputError(label + ": the reference has only positions, expected orientations as well");

@@ -214,7 +214,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
         const methods::Stage made = stages[i]->make(choice.stages[i].options);
         if (stages.size() > 1 &&
-            std::holds_alternative<std::unique_ptr<const methods::Method>>(made))
+            std::holds_alternative<std::unique_ptr<const methods::Estimator>>(made))
           throw OptionError("output",
                             "with these options it is a joint method and has no smoother");
       });

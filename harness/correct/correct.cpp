@@ -147,8 +147,8 @@ Correction correct(Problem problem,
                    const std::vector<double>& at,
                    const Catalogue& catalogue) {
   const auto method = make_method(choice, catalogue, {});
-  if (const auto why = method->declines(problem)) {
-    throw InputError(name + ": " + choice.label + " declines: " + *why);
+  if (const std::string why = method->why_declined(problem); !why.empty()) {
+    throw InputError(name + ": " + choice.label + " declines: " + why);
   }
   Correction out;
   out.problem = std::move(problem);

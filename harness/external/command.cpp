@@ -119,13 +119,13 @@ class CommandCorrector final : public methods::Corrector {
   CommandSetting setting_;
 };
 
-class DenseCommand final : public methods::Method {
+class DenseCommand final : public methods::Estimator {
  public:
   DenseCommand(CommandOptions options, CommandSetting setting)
       : options_(std::move(options)), setting_(std::move(setting)) {}
-  std::optional<std::string> declines(const Problem& problem) const override {
+  std::string why_declined(const Problem& problem) const override {
     if (problem.keyframes.size() < 2) return "fewer than two keyframes";
-    return std::nullopt;
+    return "";
   }
   std::unique_ptr<const Curve> estimate(const Problem& problem,
                                         methods::Report& report) const override {
@@ -164,7 +164,8 @@ std::vector<std::string> command_words(const std::string& option,
 methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting) {
   check_combination(options);
   if (options.output == ResultPoses::dense) {
-    return std::unique_ptr<const methods::Method>(std::make_unique<DenseCommand>(options, setting));
+    return std::unique_ptr<const methods::Estimator>(
+        std::make_unique<DenseCommand>(options, setting));
   }
   return std::unique_ptr<const methods::Corrector>(
       std::make_unique<CommandCorrector>(options, setting));

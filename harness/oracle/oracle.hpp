@@ -1,7 +1,7 @@
 /// Oracle methods with access to the reference, which quantify the gain from such a leak; never
 /// compared with other methods.
 ///
-/// A Method has a Problem as input, and no Problem contains the reference. Only the harness
+/// A method has a Problem as input, and no Problem contains the reference. Only the harness
 /// constructs the methods listed here with the reference; every row of theirs is marked.
 #pragma once
 

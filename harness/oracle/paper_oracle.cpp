@@ -65,9 +65,9 @@ methods::DmOptions in_given_axes(methods::DmOptions options) {
 PaperOracle::PaperOracle(const Options& options, Trajectory reference)
     : options_(options), dm_(in_given_axes(options.dm)), reference_(std::move(reference)) {}
 
-std::optional<std::string> PaperOracle::declines(const Problem& problem) const {
+std::string PaperOracle::why_declined(const Problem& problem) const {
   if (reference_.empty()) return "an oracle needs a reference";
-  return dm_.declines(problem);
+  return dm_.why_declined(problem);
 }
 
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,

@@ -25,7 +25,7 @@ class PaperOracle final : public methods::Smoother {
   /// positions, and the curve is rotated back. An empty reference is declined later.
   PaperOracle(const Options& options, Trajectory reference);
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// The name of what is used is added to the notes. Aligns the keyframes to the reference as a
   /// protocol does, and transforms the reference to their world frame by the inverse. Throws
@@ -63,8 +63,8 @@ class PaperLiteralOracle final : public methods::Smoother {
   PaperLiteralOracle(const Options& options, Trajectory reference)
       : oracle_(options.oracle, std::move(reference)) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
-    return oracle_.declines(problem);
+  std::string why_declined(const Problem& problem) const override {
+    return oracle_.why_declined(problem);
   }
   std::unique_ptr<const Curve> smooth(const Problem& problem,
                                       methods::Report& report) const override {

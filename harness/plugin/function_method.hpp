@@ -33,7 +33,7 @@ class FunctionCorrector final : public Corrector {
 };
 
 template <EstimatingFunction F>
-class FunctionMethod final : public Method {
+class FunctionMethod final : public Estimator {
  public:
   explicit FunctionMethod(F function) : function_(std::move(function)) {}
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report&) const override {
@@ -64,7 +64,7 @@ requires CorrectingFunction<F> || EstimatingFunction<F> MethodEntry method(std::
     if constexpr (CorrectingFunction<F>) {
       return std::unique_ptr<const Corrector>(std::make_unique<FunctionCorrector<F>>(function));
     } else {
-      return std::unique_ptr<const Method>(std::make_unique<FunctionMethod<F>>(function));
+      return std::unique_ptr<const Estimator>(std::make_unique<FunctionMethod<F>>(function));
     }
   };
   return out;

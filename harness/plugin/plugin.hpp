@@ -16,7 +16,7 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 3;  ///< raise when this file or the headers that it includes change shape
+  int interface = 4;  ///< raise when this file or the headers that it includes change shape
   long language = __cplusplus;
   int compiler = __GNUC__;
 #ifdef __clang__

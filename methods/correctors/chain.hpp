@@ -1,7 +1,6 @@
 /// A keyframe chain: one odometry edge between every two neighbouring keyframes.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@ namespace loopbench::methods {
 
 /// Returns why the odometry is not a complete chain, or nullopt. Edge i must join keyframes
 /// i and i + 1. O(n).
-inline std::optional<std::string> chain_fault(const Problem& problem) {
+inline std::string chain_fault(const Problem& problem) {
   const std::size_t expected = problem.keyframes.empty() ? 0 : problem.keyframes.size() - 1;
   if (problem.odometry.size() != expected) {
     return "odometry has " + std::to_string(problem.odometry.size()) +
@@ -25,11 +24,11 @@ inline std::optional<std::string> chain_fault(const Problem& problem) {
              std::to_string(i) + " and " + std::to_string(i + 1);
     }
   }
-  return std::nullopt;
+  return "";
 }
 
 /// Returns why a chain cannot be corrected by at most `max_closures` loops, or nullopt. O(n).
-inline std::optional<std::string> loops_fault(const Problem& problem, int max_closures) {
+inline std::string loops_fault(const Problem& problem, int max_closures) {
   if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(max_closures)) {
     return std::to_string(problem.closures.size()) +

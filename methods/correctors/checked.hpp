@@ -28,15 +28,15 @@ class PairwiseConsistent final : public Corrector {
   explicit PairwiseConsistent(const Options& options)
       : check_(options.check), base_(options.base) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
+  std::string why_declined(const Problem& problem) const override {
     if (problem.closures.empty()) return "the problem has no loop closures";
-    if (auto fault = chain_fault(problem)) return fault;
+    if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
     if (problem.closures.size() > static_cast<std::size_t>(check_.max_closures)) {
       return std::to_string(problem.closures.size()) +
              " closures exceed pcm.max_closures = " + std::to_string(check_.max_closures);
     }
     // What the base declines with a single closure, it declines with any of them.
-    return base_.declines(
+    return base_.why_declined(
         {problem.keyframes, problem.odometry, {problem.closures.front()}, {}, problem.planar});
   }
 
@@ -60,7 +60,9 @@ class PairwiseConsistent final : public Corrector {
       report.notes.push_back("no two closures are consistent: keyframes returned unchanged");
       return problem.keyframes;
     }
-    if (const auto why = base_.declines(reduced)) throw std::runtime_error(*why);
+    if (const std::string why = base_.why_declined(reduced); !why.empty()) {
+      throw std::runtime_error(why);
+    }
     return base_.correct(reduced, report);
   }
 

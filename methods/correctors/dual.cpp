@@ -14,7 +14,7 @@
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
-std::optional<std::string> Dual::declines(const Problem& problem) const {
+std::string Dual::why_declined(const Problem& problem) const {
   return loops_fault(problem, options_.max_closures);
 }
 

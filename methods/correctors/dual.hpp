@@ -47,7 +47,7 @@ class Dual final : public Corrector {
   };
   explicit Dual(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2), `chi2_per_dof`,
   /// and with `rescale` the factors `factor_t`, `factor_r` on standard deviations. Notes:

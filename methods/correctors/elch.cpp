@@ -114,9 +114,9 @@ void distribute_error(Trajectory& poses, const Edge& loop, const std::vector<dou
 
 }  // namespace
 
-std::optional<std::string> Elch::declines(const Problem& problem) const {
+std::string Elch::why_declined(const Problem& problem) const {
   if (problem.closures.empty()) return "the problem has no loop closures";
-  return std::nullopt;
+  return "";
 }
 
 Trajectory Elch::correct(const Problem& problem, Report& report) const {

@@ -26,7 +26,7 @@ class Elch final : public Corrector {
   };
   explicit Elch(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_gap_left` [m]. Throws std::runtime_error when closures are not
   /// sorted by (to, from) or refer to a missing keyframe.

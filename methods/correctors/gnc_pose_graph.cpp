@@ -31,7 +31,7 @@ bool any_edge_has_scale(const Problem& problem) {
 std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
   const ConsistencyOptions rules;
   if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
-  if (chain_fault(problem) || any_edge_has_scale(problem)) return {};
+  if (!chain_fault(problem).empty() || any_edge_has_scale(problem)) return {};
   std::vector<std::size_t> found = consistent_closures(problem, rules).kept;
   if (found.size() < 2) found.clear();
   return found;

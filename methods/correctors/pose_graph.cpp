@@ -51,20 +51,20 @@ std::size_t dimensions(Group group) {
 
 }  // namespace
 
-std::optional<std::string> PoseGraphOptimizer::declines(const Problem& problem) const {
+std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
   if (problem.closures.empty()) return "the problem has no loop closures";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
   if (options_.rescale) {
     if (changes_scale(problem))
       return "rescale requires edges of scale 1, but edges change the scale";
-    if (auto fault = chain_fault(problem)) return fault;
+    if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
   }
   if (const auto unreached = first_unconnected(problem)) {
     return "the graph is not connected: no path from keyframe 0 to keyframe " +
            std::to_string(*unreached);
   }
-  return std::nullopt;
+  return "";
 }
 
 Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) const {

@@ -56,7 +56,7 @@ class PoseGraphOptimizer final : public Corrector {
 
   /// Declines problems without closures, with unconnected keyframes, and non-planar ones with
   /// SE(2).
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations` (linear solves), `cost_before`, `cost` (half the sum of squared
   /// Mahalanobis errors, or of losses), without a loss `chi2_per_dof`, with `rescale` the factors

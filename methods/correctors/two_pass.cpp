@@ -91,9 +91,9 @@ class TwoPassChain {
 
 }  // namespace
 
-std::optional<std::string> TwoPass::declines(const Problem& problem) const {
+std::string TwoPass::why_declined(const Problem& problem) const {
   if (problem.closures.empty()) return "the problem has no loop closures";
-  return std::nullopt;
+  return "";
 }
 
 Trajectory TwoPass::correct(const Problem& problem, Report& report) const {

@@ -31,7 +31,7 @@ class TwoPass final : public Corrector {
   };
   explicit TwoPass(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_gap_left` [m]. Throws std::runtime_error when closures are not
   /// sorted by (to, from) or refer to a missing keyframe.

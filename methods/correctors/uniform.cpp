@@ -54,9 +54,9 @@ class UniformChain {
 
 }  // namespace
 
-std::optional<std::string> Uniform::declines(const Problem& problem) const {
+std::string Uniform::why_declined(const Problem& problem) const {
   if (problem.closures.empty()) return "the problem has no loop closures";
-  return std::nullopt;
+  return "";
 }
 
 Trajectory Uniform::correct(const Problem& problem, Report& report) const {

@@ -7,7 +7,7 @@
 
 namespace loopbench::methods {
 
-std::optional<std::string> SplineFit::declines(const Problem& problem) const {
+std::string SplineFit::why_declined(const Problem& problem) const {
   if (problem.keyframes.size() < static_cast<std::size_t>(options_.order)) {
     return std::to_string(problem.keyframes.size()) + " keyframes, fewer than the order " +
            std::to_string(options_.order);

@@ -16,7 +16,7 @@ namespace loopbench::methods {
 /// rejection. The initial values are the keyframes. O(n k^2) per iteration plus the fill-in of the
 /// closures; O(k^2) amortised per query. Sources: Furgale, Barfoot & Sibley 2012; Sommer et al.,
 /// CVPR 2020; Cioffi, Cieslewski & Scaramuzza 2022 (comparison with discrete-time optimisation).
-class SplineFit final : public Method {
+class SplineFit final : public Estimator {
  public:
   struct Options {
     int order = 4;
@@ -25,7 +25,7 @@ class SplineFit final : public Method {
   };
   explicit SplineFit(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `controls`, `iterations`, `cost_before`, `cost` (chi^2 / 2).
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override;

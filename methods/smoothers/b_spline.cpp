@@ -9,9 +9,9 @@
 
 namespace loopbench::methods {
 
-std::optional<std::string> BSplineThrough::declines(const Problem& problem) const {
+std::string BSplineThrough::why_declined(const Problem& problem) const {
   if (problem.keyframes.empty()) return "no keyframes";
-  return std::nullopt;
+  return "";
 }
 
 std::unique_ptr<const Curve> BSplineThrough::smooth(const Problem& problem, Report& report) const {

@@ -19,7 +19,7 @@ class BSplineThrough final : public Smoother {
   };
   explicit BSplineThrough(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations` of the rotation solve, and `great_arcs` with a note if there are any.
   /// Short intervals (stretches.hpp) are bridged by chords, with a note.

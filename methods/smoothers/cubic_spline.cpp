@@ -69,9 +69,9 @@ std::unique_ptr<const Curve> rotation_spline(const Trajectory& keyframes) {
 
 }  // namespace
 
-std::optional<std::string> CubicSpline::declines(const Problem& problem) const {
+std::string CubicSpline::why_declined(const Problem& problem) const {
   if (problem.keyframes.empty()) return "no keyframes";
-  return std::nullopt;
+  return "";
 }
 
 std::unique_ptr<const Curve> CubicSpline::smooth(const Problem& problem, Report& report) const {

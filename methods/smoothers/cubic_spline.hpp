@@ -18,7 +18,7 @@ class CubicSpline final : public Smoother {
   };
   explicit CubicSpline(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations` of the rotation solve. If no rotation spline through all keyframes
   /// exists, splines through parts of them are joined by great arcs, with the count `great_arcs`

@@ -107,8 +107,8 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   return std::make_unique<GpCurve<P>>(stamps(keyframes), posterior, std::move(states));
 }
 
-std::optional<std::string> GaussianProcess::declines(const Problem& problem) const {
-  if (problem.keyframes.size() >= min_keyframes()) return std::nullopt;
+std::string GaussianProcess::why_declined(const Problem& problem) const {
+  if (problem.keyframes.size() >= min_keyframes()) return "";
   return std::to_string(problem.keyframes.size()) + " keyframes, fewer than " +
          std::to_string(min_keyframes());
 }

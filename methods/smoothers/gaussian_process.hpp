@@ -31,7 +31,7 @@ class GaussianProcess final : public Smoother {
   };
   explicit GaussianProcess(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `sigma_t` [m], `sigma_r` [rad], `power_t`, `power_r` (per s^3 or s^5), `iterations`,
   /// `evaluations` of the evidence. Phases: `evidence`, `solve`. Throws std::runtime_error when the

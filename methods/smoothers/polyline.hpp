@@ -12,8 +12,8 @@ class PolylineSmoother final : public Smoother {
   struct Options {};
   explicit PolylineSmoother(const Options&) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
-    return problem.keyframes.empty() ? std::optional<std::string>("no keyframes") : std::nullopt;
+  std::string why_declined(const Problem& problem) const override {
+    return problem.keyframes.empty() ? "no keyframes" : "";
   }
 
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {

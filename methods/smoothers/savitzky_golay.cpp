@@ -163,9 +163,9 @@ SavitzkyGolay::SavitzkyGolay(const Options& options) : options_(options) {
   }
 }
 
-std::optional<std::string> SavitzkyGolay::declines(const Problem& problem) const {
+std::string SavitzkyGolay::why_declined(const Problem& problem) const {
   const auto needed = static_cast<std::size_t>(options_.degree + 1);
-  if (problem.keyframes.size() >= needed) return std::nullopt;
+  if (problem.keyframes.size() >= needed) return "";
   return std::to_string(problem.keyframes.size()) +
          " keyframes, fewer than degree + 1 = " + std::to_string(needed);
 }

@@ -25,7 +25,7 @@ class SavitzkyGolay final : public Smoother {
   /// Throws OptionError when the window holds fewer than degree + 1 keyframes.
   explicit SavitzkyGolay(const Options& options);
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `window`, the mean number of keyframes per window.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;

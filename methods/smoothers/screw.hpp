@@ -19,8 +19,8 @@ class Screw final : public Smoother {
   struct Options {};
   explicit Screw(const Options&) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
-    return problem.keyframes.empty() ? std::optional<std::string>("no keyframes") : std::nullopt;
+  std::string why_declined(const Problem& problem) const override {
+    return problem.keyframes.empty() ? "no keyframes" : "";
   }
 
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {

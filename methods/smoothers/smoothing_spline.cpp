@@ -109,10 +109,10 @@ Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
 
 }  // namespace
 
-std::optional<std::string> SmoothingSpline::declines(const Problem& problem) const {
+std::string SmoothingSpline::why_declined(const Problem& problem) const {
   if (problem.keyframes.size() < 3)
     return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
-  return std::nullopt;
+  return "";
 }
 
 std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Report& report) const {

@@ -27,7 +27,7 @@ class SmoothingSpline final : public Smoother {
   };
   explicit SmoothingSpline(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` with axes: each); `free_t`,
   /// `free_r`, residual degrees of freedom per axis, of n; `iterations` of the rotation fit. Adds a

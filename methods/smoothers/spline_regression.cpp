@@ -6,8 +6,8 @@
 
 namespace loopbench::methods {
 
-std::optional<std::string> SplineRegression::declines(const Problem& problem) const {
-  if (problem.keyframes.size() >= static_cast<std::size_t>(options_.order)) return std::nullopt;
+std::string SplineRegression::why_declined(const Problem& problem) const {
+  if (problem.keyframes.size() >= static_cast<std::size_t>(options_.order)) return "";
   return std::to_string(problem.keyframes.size()) + " keyframes, fewer than the order " +
          std::to_string(options_.order);
 }

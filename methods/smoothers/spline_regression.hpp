@@ -19,7 +19,7 @@ class SplineRegression final : public Smoother {
   };
   explicit SplineRegression(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `controls`, `iterations`, `cost` (half the sum of both terms [m^2, rad^2]).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;

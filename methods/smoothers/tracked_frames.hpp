@@ -18,9 +18,9 @@ class TrackedFrames final : public Smoother {
   explicit TrackedFrames(const Options&) {}
 
   /// Declines problems without keyframes, or without a tracked frame between them.
-  std::optional<std::string> declines(const Problem& problem) const override {
+  std::string why_declined(const Problem& problem) const override {
     if (problem.keyframes.empty()) return "no keyframes";
-    if (with_frames(problem).size() > problem.keyframes.size()) return std::nullopt;
+    if (with_frames(problem).size() > problem.keyframes.size()) return "";
     return "no tracked frames between the keyframes";
   }
 

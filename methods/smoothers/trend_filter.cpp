@@ -86,10 +86,10 @@ TrendChoice choose_fit(const Trend& trend,
 
 }  // namespace
 
-std::optional<std::string> TrendFilter::declines(const Problem& problem) const {
+std::string TrendFilter::why_declined(const Problem& problem) const {
   if (problem.keyframes.size() < 3)
     return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
-  return std::nullopt;
+  return "";
 }
 
 std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report& report) const {

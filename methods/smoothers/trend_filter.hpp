@@ -28,7 +28,7 @@ class TrendFilter final : public Smoother {
   };
   explicit TrendFilter(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `kinks_t`, `kinks_r`, `lambda_t` [m s], `lambda_r` [rad s], `iterations` (total Newton
   /// steps). Adds notes when a solve or the rotation rounds stop before convergence.

@@ -36,7 +36,7 @@ std::vector<Exemption> exemptions() {
 
 /// Composes a corrector with a polyline, or a smoother without a corrector; returns a joint method
 /// unchanged.
-std::unique_ptr<const Method> build(const MethodEntry& entry, const Params& params = {}) {
+std::unique_ptr<const Estimator> build(const MethodEntry& entry, const Params& params = {}) {
   Stage stage = entry.make(params);
   if (auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
     return compose(std::move(*corrector), nullptr);
@@ -44,7 +44,7 @@ std::unique_ptr<const Method> build(const MethodEntry& entry, const Params& para
   if (auto* smoother = std::get_if<std::unique_ptr<const Smoother>>(&stage)) {
     return compose(nullptr, std::move(*smoother));
   }
-  return std::get<std::unique_ptr<const Method>>(std::move(stage));
+  return std::get<std::unique_ptr<const Estimator>>(std::move(stage));
 }
 
 /// Times of all keyframes, and `between` evenly spaced times in every interval.
@@ -104,18 +104,18 @@ class Conformance : public ::testing::TestWithParam<MethodEntry> {
 
   Trajectory sampled(const Problem& problem) const { return sampled(*method_, problem); }
 
-  static Trajectory sampled(const Method& method, const Problem& problem) {
+  static Trajectory sampled(const Estimator& method, const Problem& problem) {
     Report report;
     return method.estimate(problem, report)->sample(query_times(problem.keyframes));
   }
 
-  std::unique_ptr<const Method> method_ = build(GetParam());
+  std::unique_ptr<const Estimator> method_ = build(GetParam());
 };
 
 TEST_P(Conformance, AcceptsOrdinaryProblems) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
-    EXPECT_EQ(method_->declines(problem), std::nullopt);
+    EXPECT_EQ(method_->why_declined(problem), "");
   }
 }
 
@@ -222,10 +222,7 @@ TEST_P(Conformance, DeclinesOrSolvesAwkwardProblems) {
   for (const auto& [name, problem] : awkward_problems()) {
     SCOPED_TRACE(name);
     ASSERT_NO_THROW(check(problem, name));
-    if (const auto why = method_->declines(problem)) {
-      EXPECT_FALSE(why->empty());
-      continue;
-    }
+    if (!method_->why_declined(problem).empty()) continue;
     Report report;
     const auto curve = method_->estimate(problem, report);
     ASSERT_NE(curve, nullptr);

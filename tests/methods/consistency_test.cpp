@@ -115,7 +115,7 @@ TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
   EXPECT_EQ(report.counts.front().value, 3.0);
   PairwiseConsistentOptions<Dual> few;
   few.check.max_closures = 3;
-  EXPECT_EQ(PairwiseConsistent<Dual>(few).declines(problem),
+  EXPECT_EQ(PairwiseConsistent<Dual>(few).why_declined(problem),
             "4 closures exceed pcm.max_closures = 3");
 }
 
@@ -124,11 +124,11 @@ TEST(Consistency, CheckedCorrectorDeclinesWhatItsBaseDeclines) {
   planar.base.group = PoseGraphOptimizer::Poses::se2;
   const Problem problem = line({{0, 8, 8.4}, {0, 9, 9.4}});
   ASSERT_FALSE(problem.planar);
-  EXPECT_EQ(PairwiseConsistent<PoseGraphOptimizer>(planar).declines(problem),
+  EXPECT_EQ(PairwiseConsistent<PoseGraphOptimizer>(planar).why_declined(problem),
             "group is se2, but the problem is not planar");
   PairwiseConsistentOptions<Dual> one;
   one.base.max_closures = 1;
-  EXPECT_EQ(PairwiseConsistent<Dual>(one).declines(problem), std::nullopt)
+  EXPECT_EQ(PairwiseConsistent<Dual>(one).why_declined(problem), "")
       << "how many closures are left is known after the check";
 }
 

@@ -134,12 +134,12 @@ TEST(Dual, ResultDoesNotDependOnTheInitialKeyframes) {
 
 TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {
   Problem problem = walk(1, 14, 0.05);
-  EXPECT_EQ(Dual({}).declines(problem), std::nullopt);
-  EXPECT_EQ(Dual({.max_closures = 2}).declines(problem), "3 closures exceed max_closures = 2");
+  EXPECT_EQ(Dual({}).why_declined(problem), "");
+  EXPECT_EQ(Dual({.max_closures = 2}).why_declined(problem), "3 closures exceed max_closures = 2");
   problem.odometry.pop_back();
-  EXPECT_EQ(Dual({}).declines(problem), "odometry has 12 edges, a complete chain has 13");
+  EXPECT_EQ(Dual({}).why_declined(problem), "odometry has 12 edges, a complete chain has 13");
   problem.closures.clear();
-  EXPECT_EQ(Dual({}).declines(problem), "the problem has no loop closures");
+  EXPECT_EQ(Dual({}).why_declined(problem), "the problem has no loop closures");
 }
 
 }  // namespace

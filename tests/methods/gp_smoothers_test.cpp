@@ -197,8 +197,8 @@ TEST(GaussianProcess, KeepsGivenNoise) {
 TEST(GaussianProcess, DeclinesTooFewKeyframes) {
   Problem problem;
   problem.keyframes = path(3);
-  EXPECT_EQ(GaussianProcess({}).declines(problem), std::nullopt);
-  EXPECT_EQ(GaussianProcess(wnoj()).declines(problem), "3 keyframes, fewer than 4");
+  EXPECT_EQ(GaussianProcess({}).why_declined(problem), "");
+  EXPECT_EQ(GaussianProcess(wnoj()).why_declined(problem), "3 keyframes, fewer than 4");
 }
 
 }  // namespace

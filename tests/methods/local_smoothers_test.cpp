@@ -25,7 +25,7 @@ std::unique_ptr<const Curve> smooth(const Trajectory& keyframes, const Params& p
   Problem problem;
   problem.keyframes = keyframes;
   const T smoother(with(typename T::Options{}, params));
-  EXPECT_EQ(smoother.declines(problem), std::nullopt);
+  EXPECT_EQ(smoother.why_declined(problem), "");
   auto curve = smoother.smooth(problem, report);
   EXPECT_TRUE(report.notes.empty());
   return curve;
@@ -282,7 +282,7 @@ TEST(SavitzkyGolay, RejectsAWindowSmallerThanItsDegree) {
   EXPECT_NO_THROW(SavitzkyGolay({.degree = 3, .window = 4}));
   Problem problem;
   problem.keyframes = hand_held_truth(3);
-  EXPECT_EQ(SavitzkyGolay({}).declines(problem), "3 keyframes, fewer than degree + 1 = 4");
+  EXPECT_EQ(SavitzkyGolay({}).why_declined(problem), "3 keyframes, fewer than degree + 1 = 4");
 }
 
 }  // namespace

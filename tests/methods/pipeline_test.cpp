@@ -114,9 +114,9 @@ TEST(Compose, DeclinesForEitherStage) {
   problem.closures.clear();
   const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
                             std::make_unique<CubicSpline>(CubicSpline::Options{}));
-  EXPECT_EQ(both->declines(problem), "the problem has no loop closures");
-  EXPECT_EQ(compose(nullptr, nullptr)->declines(Problem{}), "no keyframes");
-  EXPECT_EQ(compose(nullptr, nullptr)->declines(problem), std::nullopt);
+  EXPECT_EQ(both->why_declined(problem), "the problem has no loop closures");
+  EXPECT_EQ(compose(nullptr, nullptr)->why_declined(Problem{}), "no keyframes");
+  EXPECT_EQ(compose(nullptr, nullptr)->why_declined(problem), "");
 }
 
 }  // namespace

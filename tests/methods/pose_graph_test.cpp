@@ -212,7 +212,7 @@ TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
   Problem problem = walk(6, 30, 0.0);
   problem.odometry.erase(problem.odometry.begin() + 20);
   const PoseGraphOptimizer method({});
-  EXPECT_EQ(method.declines(problem), std::nullopt);  // a closure joins the two parts
+  EXPECT_EQ(method.why_declined(problem), "");  // a closure joins the two parts
   std::mt19937_64 random(1);
   const Trajectory truth = walk(6, 30, 0.0).keyframes;
   for (std::size_t i = 21; i < 30; ++i) {  // the second part starts from wrong poses
@@ -226,7 +226,7 @@ TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
   }
   std::erase_if(problem.closures, [](const Edge& e) { return e.from < 21 && e.to >= 21; });
   ASSERT_FALSE(problem.closures.empty());
-  EXPECT_EQ(method.declines(problem),
+  EXPECT_EQ(method.why_declined(problem),
             "the graph is not connected: no path from keyframe 0 to keyframe 21");
 }
 
@@ -241,7 +241,7 @@ TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
   EXPECT_NEAR(count(in_plane, "cost"), count(in_space, "cost"), 1e-9 * count(in_space, "cost"));
   Problem spatial = problem;
   spatial.planar = false;
-  EXPECT_EQ(PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se2}).declines(spatial),
+  EXPECT_EQ(PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se2}).why_declined(spatial),
             "group is se2, but the problem is not planar");
 }
 

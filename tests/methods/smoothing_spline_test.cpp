@@ -202,8 +202,8 @@ TEST(SmoothingSpline, EachAxisCanHaveItsOwnPenalty) {
 }
 
 TEST(SmoothingSpline, DeclinesTwoKeyframes) {
-  EXPECT_EQ(SmoothingSpline({}).declines(short_circle(2)), "2 keyframes, fewer than 3");
-  EXPECT_EQ(SmoothingSpline({}).declines(short_circle(3)), std::nullopt);
+  EXPECT_EQ(SmoothingSpline({}).why_declined(short_circle(2)), "2 keyframes, fewer than 3");
+  EXPECT_EQ(SmoothingSpline({}).why_declined(short_circle(3)), "");
 }
 
 }  // namespace

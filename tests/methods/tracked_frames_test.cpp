@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<const Method> tracked(std::unique_ptr<const Corrector> corrector = nullptr) {
+std::unique_ptr<const Estimator> tracked(std::unique_ptr<const Corrector> corrector = nullptr) {
   return compose(std::move(corrector), std::make_unique<TrackedFrames>(TrackedFrames::Options{}));
 }
 
@@ -56,12 +56,12 @@ TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
 
 TEST(TrackedFrames, DeclineAProblemWithoutFrames) {
   const TrackedFrames method{TrackedFrames::Options{}};
-  EXPECT_EQ(method.declines(circle()), "no tracked frames between the keyframes");
+  EXPECT_EQ(method.why_declined(circle()), "no tracked frames between the keyframes");
   Problem outside = circle();
   outside.frames.push_back({outside.keyframes.back().stamp + 1.0, Pose{}});
-  EXPECT_EQ(method.declines(outside), "no tracked frames between the keyframes");
-  EXPECT_EQ(method.declines(short_circle(0)), "no keyframes");
-  EXPECT_EQ(method.declines(hand_held()), std::nullopt);
+  EXPECT_EQ(method.why_declined(outside), "no tracked frames between the keyframes");
+  EXPECT_EQ(method.why_declined(short_circle(0)), "no keyframes");
+  EXPECT_EQ(method.why_declined(hand_held()), "");
 }
 
 }  // namespace

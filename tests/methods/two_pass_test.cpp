@@ -127,7 +127,7 @@ TEST(TwoPass, RejectsUnsortedClosures) {
   problem.closures = {{0, 5, {}, Matrix6::Identity()}, {0, 3, {}, Matrix6::Identity()}};
   EXPECT_THROW(corrected(problem), std::runtime_error);
   problem.closures.clear();
-  EXPECT_EQ(TwoPass({}).declines(problem), "the problem has no loop closures");
+  EXPECT_EQ(TwoPass({}).why_declined(problem), "the problem has no loop closures");
 }
 
 }  // namespace

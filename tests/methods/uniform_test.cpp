@@ -29,7 +29,7 @@ struct Result {
 Result corrected(const Problem& problem, const Params& params = {}) {
   Result out;
   const Uniform method(with(Uniform::Options{}, params));
-  EXPECT_EQ(method.declines(problem), std::nullopt);
+  EXPECT_EQ(method.why_declined(problem), "");
   out.poses = method.correct(problem, out.report);
   return out;
 }
@@ -56,7 +56,7 @@ void expect_place(const Vector3& result, const Vector3& expected) {
 }
 
 TEST(Uniform, DeclinesWithoutClosures) {
-  EXPECT_EQ(Uniform({}).declines(along_x({0, 1, 2})), "the problem has no loop closures");
+  EXPECT_EQ(Uniform({}).why_declined(along_x({0, 1, 2})), "the problem has no loop closures");
 }
 
 TEST(Uniform, DistributesAPositionErrorByIndexAndMovesTheTail) {

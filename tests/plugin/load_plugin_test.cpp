@@ -100,7 +100,7 @@ TEST(LoadPlugin, ItsCorrectorAndSmootherRunInOurPipeline) {
   EXPECT_THROW(curve->at(curve->end() + 1.0), std::out_of_range);
   Problem open = problem;
   open.closures.clear();
-  EXPECT_EQ(method->declines(open), "no closure to go half way to");
+  EXPECT_EQ(method->why_declined(open), "no closure to go half way to");
 }
 
 TEST(LoadPlugin, ExceptionsCrossTheFence) {
@@ -109,7 +109,7 @@ TEST(LoadPlugin, ExceptionsCrossTheFence) {
   const Stage stage = entries[2].make({});
   Report report;
   try {
-    std::get<std::unique_ptr<const Method>>(stage)->estimate(test::circle(), report);
+    std::get<std::unique_ptr<const Estimator>>(stage)->estimate(test::circle(), report);
     FAIL() << "did not throw";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "thrown inside the plugin");

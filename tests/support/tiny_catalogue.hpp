@@ -45,9 +45,9 @@ struct Shift final : Corrector {
     bool decline = false;
   };
   explicit Shift(const Options& o) : options(o) {}
-  std::optional<std::string> declines(const Problem&) const override {
+  std::string why_declined(const Problem&) const override {
     if (options.decline) return "set to decline";
-    return std::nullopt;
+    return "";
   }
   Trajectory correct(const Problem& problem, Report& report) const override {
     if (options.fail) throw std::runtime_error("set to fail");

@@ -79,7 +79,7 @@ struct TimedRun {
   double cpu_seconds = 0.0;
 };
 
-TimedRun timed_run(const methods::Method& method, const Problem& problem) {
+TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
   TimedRun out;
   const double cpu_begin = process_cpu_seconds();
   const auto begin = Clock::now();
@@ -93,7 +93,7 @@ TimedRun timed_run(const methods::Method& method, const Problem& problem) {
 /// Runs and measures the method; memory is measured outside the timed part. In a new process, the
 /// times of a short first run are replaced by those of another run; its result is kept.
 std::unique_ptr<const Curve> timed(CellResult& result,
-                                   const methods::Method& method,
+                                   const methods::Estimator& method,
                                    const Problem& problem,
                                    int runs) {
   const MethodGuard guard(problem);
@@ -226,10 +226,10 @@ void add_scores_without_reference(CellResult& result,
 
 }  // namespace
 
-std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
-                                                   const Catalogue& catalogue,
-                                                   const Trajectory& reference,
-                                                   const CommandSetting& setting) {
+std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
+                                                      const Catalogue& catalogue,
+                                                      const Trajectory& reference,
+                                                      const CommandSetting& setting) {
   std::unique_ptr<const methods::Corrector> corrector;
   std::unique_ptr<const methods::Smoother> smoother;
   for (const Choice& part : choice.stages) {
@@ -238,7 +238,7 @@ std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
     methods::Stage stage = oracle    ? oracle->make(part.options, reference)
                            : program ? program->make(part.options, setting)
                                      : find_method(catalogue, part.name).make(part.options);
-    if (auto* joint = std::get_if<std::unique_ptr<const methods::Method>>(&stage))
+    if (auto* joint = std::get_if<std::unique_ptr<const methods::Estimator>>(&stage))
       return std::move(*joint);
     if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
       corrector = std::move(*first);
@@ -259,9 +259,9 @@ CellResult run_cell(const Cell& cell,
   result.oracle_method = uses_reference(choice, catalogue);
   catch_errors(result, [&] {
     const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
-    if (auto why = method->declines(sequence.problem)) {
+    if (const std::string why = method->why_declined(sequence.problem); !why.empty()) {
       result.status = Status::declined;
-      result.why = why->empty() ? "declined without a reason" : stored_reason(*why);
+      result.why = stored_reason(why);
       return;
     }
     const std::unique_ptr<const Curve> curve =

@@ -11,10 +11,10 @@ namespace loopbench::harness {
 
 /// Combines the stages of a choice into one method; only an oracle has access to `reference`, and
 /// only a program uses `setting`. Throws InputError, OptionError.
-std::unique_ptr<const methods::Method> make_method(const MethodChoice& choice,
-                                                   const Catalogue& catalogue,
-                                                   const Trajectory& reference,
-                                                   const CommandSetting& setting = {});
+std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
+                                                      const Catalogue& catalogue,
+                                                      const Trajectory& reference,
+                                                      const CommandSetting& setting = {});
 
 /// Does not throw for errors of a method or metric: they are stored as status and why.
 CellResult run_cell(const Cell& cell,

@@ -144,7 +144,7 @@ double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>
 
 }  // namespace
 
-std::optional<std::string> MotionDrift::declines(const Problem& problem) const {
+std::string MotionDrift::why_declined(const Problem& problem) const {
   return loops_fault(problem, options_.max_closures);
 }
 

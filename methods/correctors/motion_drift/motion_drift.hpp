@@ -62,7 +62,7 @@ class MotionDrift final : public Corrector {
   };
   explicit MotionDrift(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations`; `log_evidence` of the gaps; `probability.*`, the posterior probabilities
   /// of the hypotheses; the variances of the most probable hypothesis by name (0: term excluded);

@@ -88,9 +88,9 @@ Dm::Dm(const Options& options) : options_(options), families_(read_families(opti
   }
 }
 
-std::optional<std::string> Dm::declines(const Problem& problem) const {
+std::string Dm::why_declined(const Problem& problem) const {
   if (problem.keyframes.empty()) return "no keyframes";
-  return std::nullopt;
+  return "";
 }
 
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {

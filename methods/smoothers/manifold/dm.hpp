@@ -21,7 +21,7 @@ class Dm final : public Smoother {
   /// Throws OptionError for contradictory options or an unknown family.
   explicit Dm(const Options& options);
 
-  std::optional<std::string> declines(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override;
 
   /// Smooths the keyframes. O(keyframes log frames). Counts: nodes, quasi_keyframes, gaps_left,
   /// segments and, if the stage is enabled, windows, split_windows, fallbacks, refused_families,

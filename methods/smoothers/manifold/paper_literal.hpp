@@ -14,8 +14,8 @@ class PaperLiteral final : public Smoother {
   /// Throws OptionError as Dm does.
   explicit PaperLiteral(const Options& options) : dm_(options.dm) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
-    return dm_.declines(problem);
+  std::string why_declined(const Problem& problem) const override {
+    return dm_.why_declined(problem);
   }
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
     return dm_.smooth(problem, report);

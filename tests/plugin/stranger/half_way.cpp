@@ -18,9 +18,9 @@ class HalfWay final : public Corrector {
   };
   explicit HalfWay(const Options& options) : options_(options) {}
 
-  std::optional<std::string> declines(const Problem& problem) const override {
+  std::string why_declined(const Problem& problem) const override {
     if (problem.closures.empty()) return "no closure to go half way to";
-    return std::nullopt;
+    return "";
   }
 
   Trajectory correct(const Problem& problem, Report& report) const override {
@@ -56,7 +56,7 @@ template <class Visit>
 void fields(Lines::Options&, Visit) {}
 
 /// Fails on every problem, to test the isolation of cells.
-class Thrower final : public Method {
+class Thrower final : public Estimator {
  public:
   struct Options {};
   explicit Thrower(const Options&) {}
