@@ -24,12 +24,12 @@ double coverage(const Record& r) {
 }
 
 Observed observed(const Record& r, const std::string& value_name) {
-  if (!r.metric.empty() && r.status == "ok") {
+  if (!r.metric.empty() && r.status == Status::ok) {
     const double number = value(r, value_name);
     if (std::isfinite(number)) return {number, false, "", coverage(r)};
     return {std::nullopt, true, "not finite"};
   }
-  return {std::nullopt, is_loss(r), r.status == "ok" ? "not evaluated" : r.status.text()};
+  return {std::nullopt, is_loss(r), r.status == Status::ok ? "not evaluated" : to_text(r.status)};
 }
 
 }  // namespace
@@ -42,8 +42,8 @@ std::string run_name(const Record& r) {
 std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) : r.group.text(); }
 
 bool is_loss(const Record& r) {
-  if (r.status == "ok") return false;
-  return r.metric.empty() || (r.status != "undefined" && r.status != "declined");
+  if (r.status == Status::ok) return false;
+  return r.metric.empty() || r.status != Status::declined;
 }
 
 ObservationsBuilder::ObservationsBuilder(std::string value)

@@ -133,14 +133,14 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
     record.content = recorded_content(contents.at({run.sequence, run.run}));
     record.times = "keyframes";
     if (!result.why_failed.empty()) {
-      record.status = "failed";
+      record.status = Status::failed;
       record.why = result.why_failed;
       out.push_back(record);
       continue;
     }
     record.protocol = result.protocol.label();
     record.protocol_version = result.protocol.version;
-    record.status = result.incomplete_reason.empty() ? "ok" : "incomplete";
+    record.status = result.incomplete_reason.empty() ? Status::ok : Status::incomplete;
     record.why = result.incomplete_reason;
     for (const EvaluatedMetric& metric : result.metrics) {
       for (const metrics::Score& score : metric.scores) {
@@ -173,7 +173,7 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const
     const Key key{r.sequence, r.method};
     if (runs[key].empty()) order.push_back(key);
     runs[key].insert(r.repeat);
-    if (r.status == "ok" && is_score(r, score)) values[key].push_back(r.statistics.rmse);
+    if (r.status == Status::ok && is_score(r, score)) values[key].push_back(r.statistics.rmse);
   }
   std::vector<RunSummary> out;
   for (const Key& key : order) {

@@ -24,8 +24,6 @@ bool is_dirty(const std::map<std::string, std::string>& build_summary) {
   return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
 }
 
-bool has_number(const std::string& status) { return status == "ok" || status == "incomplete"; }
-
 std::string sequence_name(const GateCell& cell) {
   return cell.sequence + (cell.repeat == 0 ? "" : " (repeat " + std::to_string(cell.repeat) + ")");
 }
@@ -84,7 +82,7 @@ GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
   out.better = r.better;
   out.target = r.target;
   out.status = r.status;
-  if (!has_number(r.status)) return out;
+  if (!has_numbers(r.status)) return out;
   out.pairs = r.pairs;
   out.possible = r.possible;
   out.count = static_cast<std::int64_t>(r.statistics.count);

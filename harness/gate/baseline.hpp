@@ -42,7 +42,7 @@ struct GateScore {
   std::string unit;
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;  ///< best value where `better` is target
-  std::string status = "ok";
+  Status status = Status::ok;
   std::int64_t pairs = 0;                ///< evaluated pose pairs
   std::int64_t possible = 0;             ///< possible pose pairs
   std::int64_t count = 0;                ///< errors behind the statistics, for example RPE pairs
@@ -57,7 +57,7 @@ struct GateCell {
   bool oracle_data = false;  ///< its loop closures were measured in the reference
   std::string group;         ///< see Record::group
   std::string content;       ///< see Record::content
-  std::string status = "ok";
+  Status status = Status::ok;
   std::vector<GateScore> scores;
 };
 
@@ -82,9 +82,6 @@ struct Baseline {
 
 /// Whether some of its cells were computed by a build with uncommitted changes.
 bool is_dirty(const std::map<std::string, std::string>& build_summary);
-
-/// Whether scores with the status have a number: ok or incomplete.
-bool has_number(const std::string& status);
 
 /// "room (repeat 2)", "room (repeat 2) / uniform".
 std::string sequence_name(const GateCell& cell);

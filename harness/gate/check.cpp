@@ -17,10 +17,10 @@ namespace loopbench::harness {
 namespace {
 
 /// Severity of a status: complete, low coverage, no number, no result.
-int severity(const std::string& status) {
-  if (status == "ok") return 0;
-  if (status == "incomplete") return 1;
-  return status == "declined" ? 2 : 3;
+int severity(Status status) {
+  if (status == Status::ok) return 0;
+  if (status == Status::incomplete) return 1;
+  return status == Status::declined ? 2 : 3;
 }
 
 /// Positive: worse.
@@ -87,18 +87,15 @@ class Checker {
   }
 
   /// Whether both have a number.
-  bool status(const std::string& before,
-              const std::string& now,
-              const std::string& cell,
-              const std::string& score) {
+  bool status(Status before, Status now, const std::string& cell, const std::string& score) {
     if (severity(now) != severity(before)) {
       find(
           severity(now) > severity(before) ? Finding::Kind::regression : Finding::Kind::improvement,
           cell,
           score,
-          "was " + before + ", is " + now);
+          "was " + to_text(before) + ", is " + to_text(now));
     }
-    return has_number(before) && has_number(now);
+    return has_numbers(before) && has_numbers(now);
   }
 
   void oracle(const GateCell& before, const GateCell& now) {

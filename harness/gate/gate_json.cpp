@@ -30,7 +30,7 @@ Json head(const GateCell& cell) {
   Json out{{"sequence", cell.sequence}, {"repeat", cell.repeat}, {"method", cell.method}};
   if (cell.oracle) out["oracle"] = true;
   if (cell.oracle_data) out["oracle_data"] = true;
-  out["status"] = cell.status;
+  out["status"] = to_text(cell.status);
   return out;
 }
 
@@ -52,9 +52,9 @@ Json cell_json(const GateCell& cell,
     }
     return values;
   };
-  const auto is_ok = [](const GateScore& score) { return score.status == "ok"; };
+  const auto is_ok = [](const GateScore& score) { return score.status == Status::ok; };
   if (!std::ranges::all_of(cell.scores, is_ok)) {
-    out["statuses"] = list([](const GateScore& score) { return score.status; });
+    out["statuses"] = list([](const GateScore& score) { return to_text(score.status); });
   }
   const Json pairs = list([](const GateScore& score) { return score.pairs; });
   const Json possible = list([](const GateScore& score) { return score.possible; });
@@ -64,7 +64,7 @@ Json cell_json(const GateCell& cell,
   if (counts != pairs) out["counts"] = counts;
   for (const std::string& statistic : statistics) {
     out[statistic] = list([&](const GateScore& score) {
-      return has_number(score.status) ? Json(score.values.at(statistic)) : Json(nullptr);
+      return has_numbers(score.status) ? Json(score.values.at(statistic)) : Json(nullptr);
     });
   }
   return out;

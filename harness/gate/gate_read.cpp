@@ -75,6 +75,13 @@ class BaselineReader {
     return found.get<std::string>();
   }
 
+  Status status_of(const Json& node, const std::string& at) const {
+    const auto status =
+        node.is_string() ? from_text<Status>(node.get<std::string>()) : std::nullopt;
+    if (!status) reject(at, "expected " + choice_list<Status>() + ", found " + node.dump());
+    return *status;
+  }
+
   double number(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
     if (!found.is_number() || found.get<double>() < 0.0) {
@@ -193,12 +200,9 @@ class BaselineReader {
     out.count = integer(node, node.contains("counts") ? "counts" : "pairs", i, at);
     if (node.contains("statuses")) {
       const Json& status = list(node, "statuses", at)[i];
-      if (!status.is_string()) {
-        reject(fmt::format("{}.statuses[{}]", at, i), "expected text, found " + status.dump());
-      }
-      out.status = status.get<std::string>();
+      out.status = status_of(status, fmt::format("{}.statuses[{}]", at, i));
     }
-    if (!has_number(out.status)) return out;
+    if (!has_numbers(out.status)) return out;
     for (const Tolerance& limit : limits) {
       for (const std::string& statistic : limit.values) {
         const Json& entry = list(node, statistic, at)[i];
@@ -221,7 +225,7 @@ class BaselineReader {
     out.method = text(node, "method", at);
     out.oracle = flag(node, "oracle");
     out.oracle_data = flag(node, "oracle_data");
-    out.status = text(node, "status", at);
+    out.status = status_of(member(node, "status", at), at + ".status");
     if (!node.contains("pairs")) return out;
     const Json& pairs = list(node, "pairs", at);
     for (std::size_t i = 0; i < questions_.size(); ++i) {

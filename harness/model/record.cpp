@@ -35,7 +35,7 @@ std::string field(const Record& record, const std::string& name) {
   if (name == "relation") return record.relation;
   if (name == "axis") return record.axis;
   if (name == "unit") return record.unit;
-  if (name == "status") return record.status;
+  if (name == "status") return to_text(record.status);
   if (name == "score") return short_score(record);
   throw InputError(unknown_name("column",
                                 name,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/model/status.hpp"
 #include "harness/text/shared_text.hpp"
 #include "methods/report.hpp"
 #include "metrics/better.hpp"
@@ -39,7 +40,7 @@ struct Record {
   std::int64_t pairs = 0;     ///< evaluated pose pairs
   std::int64_t possible = 0;  ///< possible pose pairs
   double span = 1.0;          ///< evaluated share of the reference's time, 0..1
-  SharedText status = "ok";
+  Status status = Status::ok;
   SharedText why;
 };
 
@@ -67,7 +68,7 @@ struct CellRecord {
   std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   std::optional<std::int64_t> allocations;
-  SharedText status;
+  Status status = Status::ok;
   SharedText signal;
   SharedText why;
   std::vector<methods::Phase> phases;

@@ -1,47 +1,19 @@
 /// Result of one cell.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/model/cells.hpp"
 #include "harness/model/sequence_metadata.hpp"
+#include "harness/model/status.hpp"
 #include "methods/report.hpp"
 #include "metrics/metric.hpp"
 
 namespace loopbench::harness {
-
-enum class Status {
-  ok,
-  declined,       ///< the method is not applicable, or a metric is undefined: not an error
-  failed,         ///< threw an exception other than Undefined, or returned non-finite values
-  incomplete,     ///< coverage below the sweep's min_coverage: stored, but not averaged or ranked
-  crashed,        ///< its worker process was ended by a signal
-  timeout,        ///< it exceeded the sweep's time limit
-  out_of_memory,  ///< it exceeded the sweep's memory limit, or an allocation failed
-  interrupted,    ///< the user abandoned it: not an error, not stored, and so run again
-};
-inline auto choices(Status) {
-  return std::array{std::pair{"ok", Status::ok},
-                    std::pair{"declined", Status::declined},
-                    std::pair{"failed", Status::failed},
-                    std::pair{"incomplete", Status::incomplete},
-                    std::pair{"crashed", Status::crashed},
-                    std::pair{"timeout", Status::timeout},
-                    std::pair{"out_of_memory", Status::out_of_memory},
-                    std::pair{"interrupted", Status::interrupted}};
-}
-
-/// Whether the status is an error, that is, not merely declined, incomplete or interrupted.
-inline bool is_failure(Status status) {
-  return status == Status::failed || status == Status::crashed || status == Status::timeout ||
-         status == Status::out_of_memory;
-}
 
 /// One metric under one protocol at one choice of times. If it is undefined, only status and why
 /// are set.

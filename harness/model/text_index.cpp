@@ -23,7 +23,6 @@ std::vector<SharedText Record::*> members_of(const std::string& field) {
       {"relation", {&Record::relation}},
       {"axis", {&Record::axis}},
       {"unit", {&Record::unit}},
-      {"status", {&Record::status}},
       {"score", {&Record::metric, &Record::label, &Record::relation, &Record::axis}},
       {"content", {&Record::content}},
       {"group", {&Record::group}}};
@@ -43,6 +42,8 @@ TextIndex::TextIndex(const std::vector<std::string>& fields, Derive derive)
       has_repeat_ = true;
     } else if (name == "oracle") {
       has_oracle_ = true;
+    } else if (name == "status") {
+      has_status_ = true;
     } else if (members.empty()) {
       field(Record{}, name);  // throws
     }
@@ -64,8 +65,9 @@ std::size_t TextIndex::KeyHash::operator()(const Key& key) const {
 TextIndex::Key TextIndex::key_of(const Record& record) const {
   Key out{};
   for (std::size_t i = 0; i < members_.size(); ++i) out[i] = id_of(record.*members_[i]);
-  if (has_repeat_) out[kParts - 2] = static_cast<std::uintptr_t>(record.repeat);
-  if (has_oracle_) out[kParts - 1] = record.oracle ? 1 : 0;
+  out[kRepeat] = repeat_of(record);
+  out[kOracle] = oracle_of(record);
+  out[kStatus] = status_of(record);
   return out;
 }
 
@@ -73,8 +75,8 @@ bool TextIndex::is_like(const Record& record, const Key& key) const {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (key[i] != id_of(record.*members_[i])) return false;
   }
-  return (!has_repeat_ || key[kParts - 2] == static_cast<std::uintptr_t>(record.repeat)) &&
-         (!has_oracle_ || key[kParts - 1] == (record.oracle ? 1 : 0));
+  return key[kRepeat] == repeat_of(record) && key[kOracle] == oracle_of(record) &&
+         key[kStatus] == status_of(record);
 }
 
 std::size_t TextIndex::combination_of(const Record& record) {

@@ -31,7 +31,8 @@ class TextIndex {
 
  private:
   static constexpr std::size_t kParts = 16;
-  using Key = std::array<std::uintptr_t, kParts>;  ///< of the members, then zeros
+  static constexpr std::size_t kStatus = kParts - 3, kRepeat = kParts - 2, kOracle = kParts - 1;
+  using Key = std::array<std::uintptr_t, kParts>;  ///< of the members, zeros, and these three
   struct KeyHash {
     std::size_t operator()(const Key& key) const;
   };
@@ -46,12 +47,23 @@ class TextIndex {
   void add_member(SharedText Record::*member);
   Key key_of(const Record& record) const;
   bool is_like(const Record& record, const Key& key) const;
+  // 0 if the text does not depend on it.
+  std::uintptr_t repeat_of(const Record& record) const {
+    return has_repeat_ ? static_cast<std::uintptr_t>(record.repeat) : 0;
+  }
+  std::uintptr_t oracle_of(const Record& record) const {
+    return has_oracle_ && record.oracle ? 1 : 0;
+  }
+  std::uintptr_t status_of(const Record& record) const {
+    return has_status_ ? static_cast<std::uintptr_t>(record.status) : 0;
+  }
   std::size_t combination_of(const Record& record);
 
   Derive derive_;
   std::vector<SharedText Record::*> members_;
   bool has_repeat_ = false;
   bool has_oracle_ = false;
+  bool has_status_ = false;
   std::vector<Combination> combinations_;
   std::size_t last_ = 0;  ///< combination of the last record
   std::unordered_map<Key, std::size_t, KeyHash> by_key_;

@@ -91,7 +91,7 @@ TextTable costs(const std::vector<CellRecord>& cells) {
     const std::vector<const CellRecord*> timed = timed_of(all);
     std::size_t failed = 0;
     for (const CellRecord* cell : all) {
-      if (!is_finished(*cell) && cell->status != "declined") ++failed;
+      if (!is_finished(*cell) && cell->status != Status::declined) ++failed;
       (cell->worker.text().find("serial") == std::string::npos ? shared : alone) = true;
     }
     out.rows.push_back(

@@ -54,7 +54,7 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
 
 /// Whether the method of the cell finished.
 inline bool is_finished(const CellRecord& cell) {
-  return cell.runs > 0 && (cell.status == "ok" || cell.status == "incomplete");
+  return cell.runs > 0 && has_numbers(cell.status);
 }
 
 }  // namespace loopbench::harness

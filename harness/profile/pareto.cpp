@@ -30,7 +30,7 @@ struct Chosen {
 
 bool is_score(const Record& r, const Accuracy& accuracy) {
   const bool is_metric = r.metric == accuracy.metric || metric_label(r) == accuracy.metric;
-  return r.status == "ok" && is_metric && r.relation == accuracy.relation &&
+  return r.status == Status::ok && is_metric && r.relation == accuracy.relation &&
          r.axis == accuracy.axis;
 }
 

@@ -29,7 +29,7 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
   const auto take = [&](const Record& r) {
     has_score = has_score || !r.metric.empty();
     metrics.add(r);
-    const bool has_value = r.status == "ok" || r.status == "incomplete";
+    const bool has_value = has_numbers(r.status);
     if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
     if (taken.empty() || has_room) taken.insert(r.sequence);

@@ -25,8 +25,8 @@ struct Affected {
 TextTable of_cells(const ReportContent& content) {
   std::map<Reason, Affected> reasons;
   for (const CellRecord& cell : content.cells) {
-    if (cell.status == "ok" && cell.why.empty()) continue;
-    const std::string status = cell.status == "ok" ? "not evaluated" : cell.status;
+    if (cell.status == Status::ok && cell.why.empty()) continue;
+    const std::string status = cell.status == Status::ok ? "not evaluated" : to_text(cell.status);
     const std::string why =
         cell.signal.empty() ? cell.why.text() : cell.signal + ": " + cell.why.text();
     Affected& affected = reasons[{status, cell.method, why}];
@@ -46,12 +46,12 @@ TextTable of_cells(const ReportContent& content) {
 TextTable of_scores(const ReportContent& content) {
   std::set<std::int64_t> ended;
   for (const CellRecord& cell : content.cells) {
-    if (cell.status == "ok" || cell.status == "incomplete") ended.insert(cell.position);
+    if (has_numbers(cell.status)) ended.insert(cell.position);
   }
   std::map<Reason, Affected> reasons;
   for (const Record& r : content.undefined) {
     if (!ended.contains(r.cell)) continue;
-    Affected& affected = reasons[{r.status, r.method, r.why}];
+    Affected& affected = reasons[{to_text(r.status), r.method, r.why}];
     affected.cells.insert(r.cell);
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));

@@ -41,7 +41,8 @@ std::string scores_json(const ReportContent& content) {
   nlohmann::json kinds = nlohmann::json::array();
   std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
   for (const Record& r : content.records) {
-    if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != "ok") continue;
+    if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != Status::ok)
+      continue;
     const auto [found, is_new] = index_of_kind.emplace(score_kind(r), kinds.size());
     if (is_new) {
       kinds.push_back({{"label", field(r, "score")},
@@ -86,7 +87,7 @@ std::string scores_json(const ReportContent& content) {
                          sequence.at(cell.sequence),
                          m,
                          cell.repeat,
-                         json_text(cell.status),
+                         json_text(to_text(cell.status)),
                          json_number(1e3 * cell.seconds),
                          values);
   }

@@ -72,7 +72,7 @@ std::string key_figure(const Comparison& c) {
 }  // namespace
 
 std::string summary_html(const ReportContent& content) {
-  std::map<std::string, std::size_t> statuses;
+  std::map<Status, std::size_t> statuses;
   std::set<std::int64_t> repeats;
   for (const CellRecord& cell : content.cells) {
     ++statuses[cell.status];
@@ -83,8 +83,8 @@ std::string summary_html(const ReportContent& content) {
                     fact(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
                     fact(repeats.size(), plural(repeats.size(), "repeat"));
   for (const auto& [status, number] : statuses) {
-    const bool is_bad = status != "ok" && status != "declined" && status != "incomplete";
-    out += fact(number, plural(number, "cell") + " " + status, is_bad ? "bad" : "");
+    const bool is_bad = is_failure(status);
+    out += fact(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
   }
   out += "</div>\n";
   if (content.shown < content.sequences.size()) {

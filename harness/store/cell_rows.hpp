@@ -24,7 +24,7 @@ struct CellRow {
   SharedText sequence_key;
   SharedText sequence;
   SharedText method;
-  SharedText status;
+  Status status = Status::ok;
   SharedText closures;
   SharedText why;
   double seconds = 0.0;         ///< CellRecord::seconds

@@ -90,8 +90,7 @@ CheckedStore check_rows(Database& database, bool traces) {
       continue;
     }
     // Only a failed cell can have none, because its sequence could not be loaded.
-    const auto status = from_text<Status>(cell.status);
-    if (lost && !(status && is_failure(*status))) cell.intact = false;
+    if (lost && !is_failure(cell.status)) cell.intact = false;
   }
   return out;
 }

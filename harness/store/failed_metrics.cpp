@@ -14,7 +14,7 @@ MetricKey metric_key(const Record& r) { return {r.protocol, r.times, r.metric, m
 
 /// A record without relation: the metric has no scores.
 bool is_failed_metric(const Record& r) {
-  return !r.metric.empty() && r.status != "ok" && r.relation.empty();
+  return !r.metric.empty() && r.status != Status::ok && r.relation.empty();
 }
 
 void add_score(Scores& scores, const Record& r) {

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "datasets/core/error.hpp"
 #include "harness/store/cell_rows.hpp"
@@ -17,6 +18,10 @@ std::optional<T> maybe(RowBytes& row, T (RowBytes::*read)()) {
   const bool none = row.is_null();
   const T value = (row.*read)();
   return none ? std::nullopt : std::optional<T>(value);
+}
+
+std::optional<Status> status_of(std::string_view text) {
+  return from_text<Status>(std::string(text));
 }
 
 /// A text of a column; neighbouring cells mostly have the same.
@@ -63,7 +68,7 @@ CellRecord record_of(RowBytes row, WithRecords with) {
   c.peak_memory = maybe(row, &RowBytes::integer);
   c.added_memory = maybe(row, &RowBytes::integer);
   c.allocations = maybe(row, &RowBytes::integer);
-  c.status = row.view();
+  c.status = status_of(row.view()).value_or(Status::failed);
   c.signal = text();
   c.why = text();
   return c;
@@ -98,7 +103,8 @@ class RowReader {
     row.skip();  // runs
     cell.seconds = row.real();
     for (int i = 0; i < 6; ++i) row.skip();  // seconds_min to allocations
-    cell.status = status_.read(row);
+    const std::optional<Status> status = status_of(row.view());
+    cell.status = status.value_or(Status::failed);
     row.skip();  // signal
     cell.why = why_.read(row);
     cell.failed_scores = row.integer();
@@ -106,7 +112,7 @@ class RowReader {
     RowsDigest all;
     all.add(bytes.substr(0, bytes.size() - row.rest().size()));
     cell.digest = parsed_digest(row.view());
-    cell.intact = all.value() == cell.digest;
+    cell.intact = status && all.value() == cell.digest;
     sum_.add(cell.digest);
     if (with_ != WithRecords::no) out_.records.push_back(record_of(RowBytes(bytes), with_));
   }
@@ -119,7 +125,6 @@ class RowReader {
   SharedColumn sequence_;
   SharedColumn method_;
   SharedColumn closures_;
-  SharedColumn status_;
   SharedColumn why_;
 };
 

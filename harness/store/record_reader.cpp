@@ -16,7 +16,6 @@ namespace {
 constexpr const char* kScoresFromCell = "SELECT * FROM scores WHERE cell >= ? ORDER BY cell";
 constexpr int kFewRows = 8;  ///< rows that are passed over faster than a search
 const std::size_t kScores = detail_number("scores");
-const SharedText kOk = "ok";
 
 constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
 
@@ -203,8 +202,8 @@ void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
   std::vector<std::string> own;  // empty: all are ok
   if (!statuses.empty()) own = split_statuses(statuses, list->size());
   // An incomplete cell can be complete at other times, so its scores have their own status.
-  const bool is_incomplete = cell.status == "incomplete";
-  const bool has_status = cell.status == "ok" || is_incomplete;
+  const bool is_incomplete = cell.status == Status::incomplete;
+  const bool has_status = cell.status == Status::ok || is_incomplete;
   const bool has_reason = cell.why.empty() || is_incomplete;
   const KeptScores& kept = kept_scores(*list);
   for (std::size_t i = 0; i < kept.index.size(); ++i) {
@@ -215,7 +214,12 @@ void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
     r.pairs = values.pairs;
     r.possible = values.possible;
     r.span = values.span;
-    if (has_status) r.status = own.empty() ? kOk : SharedText(own[2 * number]);
+    if (has_status) {
+      const std::optional<Status> status =
+          own.empty() ? Status::ok : from_text<Status>(own[2 * number]);
+      if (!status) fail(cell);
+      r.status = *status;
+    }
     if (has_reason) r.why = own.empty() ? SharedText() : SharedText(own[2 * number + 1]);
   }
 }

@@ -50,10 +50,7 @@ bool same_labels(const CellRow& row, const Cell& cell, const Sweep& sweep) {
          row.method == sweep.methods[cell.method].label;
 }
 
-bool has_failed(const CellRow& row) {
-  return is_failure(from_text<Status>(row.status).value_or(Status::failed)) ||
-         row.failed_scores > 0;
-}
+bool has_failed(const CellRow& row) { return is_failure(row.status) || row.failed_scores > 0; }
 
 constexpr auto kNoRow = static_cast<std::size_t>(-1);
 
@@ -172,7 +169,7 @@ Resumed match(Database& database,
     }
     ++out.there;
     if (has_failed(*row)) ++out.failed;
-    if (row->status == to_text(Status::incomplete)) ++out.incomplete;
+    if (row->status == Status::incomplete) ++out.incomplete;
   }
   return out;
 }

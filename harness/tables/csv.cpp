@@ -39,7 +39,7 @@ std::string quoted(const std::string& raw) {
 namespace {
 
 /// Incomplete scores have numbers, too; the status column marks them.
-bool has_numbers(const Record& r) { return r.status == "ok" || r.status == "incomplete"; }
+bool has_numbers(const Record& r) { return has_numbers(r.status); }
 
 }  // namespace
 
@@ -105,7 +105,7 @@ std::string csv_row(const Record& r) {
                                                            number(s.sse),
                                                            r.pairs,
                                                            r.possible);
-  out += fmt::format("{},{},{}\n", r.milliseconds, quoted(r.status), quoted(r.why));
+  out += fmt::format("{},{},{}\n", r.milliseconds, quoted(to_text(r.status)), quoted(r.why));
   return out;
 }
 

@@ -19,10 +19,9 @@ using RowPlace =
 
 const SharedText kAte = "ate";
 const SharedText kTranslation = "translation";
-const SharedText kOkStatus = "ok";
 
 bool is_gain_source(const Record& r) {
-  return r.metric == kAte && r.relation == kTranslation && r.status == kOkStatus;
+  return r.metric == kAte && r.relation == kTranslation && r.status == Status::ok;
 }
 
 /// NaN if the baseline has zero error.
@@ -38,7 +37,7 @@ std::vector<std::size_t> first_scores(const std::vector<Record>& records) {
   const Record* last = nullptr;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Record& r = records[i];
-    if (r.status != kOkStatus || r.metric.empty()) continue;
+    if (r.status != Status::ok || r.metric.empty()) continue;
     const bool is_like_last = last != nullptr && last->cell == r.cell &&
                               last->protocol == r.protocol && last->times == r.times;
     last = &r;
@@ -103,7 +102,7 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
       g.statistics.*number = gain(r.statistics.*number, b.*number);
     }
     if (!std::isfinite(g.statistics.rmse)) {
-      g.status = "declined";
+      g.status = Status::declined;
       g.why = "the error of the baseline " + baseline + " is zero";
     }
     out.push_back(g);

@@ -16,19 +16,19 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
   const std::size_t run = table.runs.index(record);
   if (run == table.group_of_run.size()) table.group_of_run.push_back(table.groups.index(record));
-  const bool is_ok = record.status == "ok";
+  const bool is_ok = record.status == Status::ok;
   if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
-    const bool is_complete_cell = record.metric.empty() || record.status == "incomplete";
+    const bool is_complete_cell = record.metric.empty() || record.status == Status::incomplete;
     const std::string what =
         is_complete_cell ? "" : fields_joined(record, {"label", "relation"}, " ");
-    table.missing.push_back({table.rows.texts()[row], what, record.status, record.why});
+    table.missing.push_back({table.rows.texts()[row], what, to_text(record.status), record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
     table.note(table.rows.texts()[row] + ": " + record.why.text());
   }
   if (record.metric.empty()) {
     if (is_ok) return;
-    table.row_status[row] = record.status;
+    table.row_status[row] = to_text(record.status);
     table.lost_by_row[row].insert(run);
     table.lost_by_method[record.method].insert(run);
     return;
@@ -45,7 +45,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   }
   entry.tried.insert(run);
   if (!is_ok) {
-    entry.status = record.status;
+    entry.status = to_text(record.status);
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }

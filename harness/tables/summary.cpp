@@ -61,8 +61,8 @@ std::map<std::string, std::string> derived_texts(const std::vector<Record>& reco
                                                  const std::string& value) {
   std::vector<Record> own;
   for (const Record& r : records) {
-    if (r.status == "ok" && r.times == lead.times && r.protocol == lead.protocol && is_derived(r) &&
-        metric_label(r) == label) {
+    if (r.status == Status::ok && r.times == lead.times && r.protocol == lead.protocol &&
+        is_derived(r) && metric_label(r) == label) {
       own.push_back(r);
     }
   }
@@ -128,8 +128,9 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
 std::vector<std::string> reasons(const std::vector<Record>& records) {
   std::vector<Missing> missing;
   for (const Record& r : records) {
-    if (r.status == "ok") continue;
-    missing.push_back({r.method, r.metric.empty() ? "" : metric_label(r), r.status, r.why});
+    if (r.status == Status::ok) continue;
+    missing.push_back(
+        {r.method, r.metric.empty() ? "" : metric_label(r), to_text(r.status), r.why});
   }
   std::vector<std::string> out = grouped(missing);
   if (out.size() > kMostReasons) {

@@ -46,7 +46,7 @@ TEST_F(CommandProcesses, ProcessesThatOutliveTheProgramAreKilled) {
                "cp $1/keyframes.txt $2\n");
   const auto done = cells(entry("forks", "'sh forks.sh {problem} {result}'"));
   ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "ok") << done[1].why;
+  EXPECT_EQ(done[1].status, Status::ok) << done[1].why;
   EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
   for (const char* time : {"8731", "8732", "8733", "8734"}) {
     EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
@@ -67,7 +67,7 @@ TEST_F(CommandProcesses, AForkBombIsEnded) {
   folder_.file("bomb.sh", "while :; do sleep 8771 & done\n");
   const auto done = cells(entry("bomb", "'sh bomb.sh {problem} {result}'"));
   ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "failed");
+  EXPECT_EQ(done[1].status, Status::failed);
   EXPECT_THAT(done[1].why, HasSubstr("more than 64 processes"));
   EXPECT_TRUE(ends_soon("sleep 8771"));
 }
@@ -77,7 +77,7 @@ TEST_F(CommandProcesses, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
   const auto done =
       cells(entry("hangs", "'sh hangs.sh {problem} {result}'"), "limits: {seconds: 5}\n");
   ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "timeout") << done[1].why;
+  EXPECT_EQ(done[1].status, Status::timeout) << done[1].why;
   EXPECT_TRUE(ends_soon("sleep 8741"));
   EXPECT_TRUE(ends_soon("sleep 8742"));
 }
@@ -103,7 +103,7 @@ TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
     ASSERT_EQ(done.size(), 2u);
     const bool is_free = *option != '\0';
     for (const CellRecord& cell : done) {
-      EXPECT_EQ(cell.status, "ok") << cell.why;
+      EXPECT_EQ(cell.status, Status::ok) << cell.why;
       const std::string said = notes(cell);
       EXPECT_EQ(said.find("has read the reference") != std::string::npos, is_free) << said;
       EXPECT_EQ(said.find("has written beside the config") != std::string::npos, is_free) << said;
@@ -142,7 +142,7 @@ TEST_F(CommandProcesses, MemoryOfTheTreeIsLimited) {
   const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
                           "limits: {memory: 700MiB}\n");
   ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, "out_of_memory") << done[1].why;
+  EXPECT_EQ(done[1].status, Status::out_of_memory) << done[1].why;
   EXPECT_THAT(done[1].why, HasSubstr("grew "));
 }
 

@@ -90,7 +90,7 @@ TEST_F(Command, ResultJsonStatesTimeCountsAndRefusals) {
   EXPECT_EQ(done[1].counts.front().value, 7.0);
   EXPECT_THAT(notes(done[1]), HasSubstr("hello\n"));
   EXPECT_THAT(notes(done[1]), HasSubstr("time: as stated by the program"));
-  EXPECT_EQ(done[2].status, "declined");
+  EXPECT_EQ(done[2].status, Status::declined);
   EXPECT_EQ(done[2].why, "too flat");
 }
 
@@ -139,7 +139,7 @@ TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
     EXPECT_THAT(done[i + 1].why.text(), HasSubstr(all[i][3])) << all[i][0];
     EXPECT_LT(done[i + 1].why.text().size(), 2200u) << "output is cut off";
   }
-  EXPECT_EQ(done.back().status, "ok");
+  EXPECT_EQ(done.back().status, Status::ok);
 }
 
 TEST_F(Command, CellsAreKeyedByTheProgramsFilesAndVersion) {

@@ -57,7 +57,7 @@ TEST_F(CommandDataset, ItsOutputIsCorrectedAndCached) {
   ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
   EXPECT_EQ(runs(), 1u);
   for (const CellRecord& cell : read_cells(folder_.path() / "r")) {
-    EXPECT_EQ(cell.status, "ok") << cell.why;
+    EXPECT_EQ(cell.status, Status::ok) << cell.why;
     EXPECT_EQ(cell.closures, "of the program");
     EXPECT_EQ(cell.closure_count, 1);
   }
@@ -82,8 +82,8 @@ TEST_F(CommandDataset, ItsClosedTrajectoryIsEvaluatedAsItIs) {
   const CommandResult done = run(program_ + ", use: closed");
   const std::vector<CellRecord> cells = read_cells(folder_.path() / "r");
   ASSERT_EQ(cells.size(), 2u) << done.err;
-  EXPECT_EQ(cells[0].status, "ok");
-  EXPECT_EQ(cells[1].status, "declined") << "no closures are left";
+  EXPECT_EQ(cells[0].status, Status::ok);
+  EXPECT_EQ(cells[1].status, Status::declined) << "no closures are left";
 }
 
 TEST_F(CommandDataset, ItsProgramCannotReadTheReferenceOrWriteElsewhere) {

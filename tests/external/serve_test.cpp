@@ -42,8 +42,8 @@ TEST_P(Serve, AMisbehavingProgramCostsOneCell) {
   EXPECT_EQ(cells[1].status, each.status) << cells[1].why;
   EXPECT_THAT(cells[1].why.text(), HasSubstr(each.why));
   EXPECT_LT(cells[1].why.text().size(), 2200u) << "output is cut off";
-  EXPECT_EQ(cells[0].status, "ok") << cells[0].why;
-  EXPECT_EQ(cells[2].status, "ok") << cells[2].why;
+  EXPECT_EQ(cells[0].status, Status::ok) << cells[0].why;
+  EXPECT_EQ(cells[2].status, Status::ok) << cells[2].why;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -71,8 +71,8 @@ class CheckOutput : public TinyStore {
         "metrics: [ate]\ntiming: 2\n");
     const std::vector<CellRecord> cells = read_cells(file_);
     EXPECT_EQ(cells.size(), 2u);
-    EXPECT_EQ(cells.at(0).status, "ok");
-    EXPECT_EQ(cells.at(1).status, "failed");
+    EXPECT_EQ(cells.at(0).status, Status::ok);
+    EXPECT_EQ(cells.at(1).status, Status::failed);
     return cells.at(1).why;
   }
   std::string why(const Correct& change) {
@@ -114,7 +114,7 @@ TEST_F(CheckOutput, RoundingOfAQuaternionIsAccepted) {
                                   }));
                             }});
   run("datasets: [line]\nmethods: [bad]\nmetrics: [ate]\n");
-  EXPECT_EQ(read_cells(file_).at(0).status, "ok");
+  EXPECT_EQ(read_cells(file_).at(0).status, Status::ok);
 }
 
 TEST_F(CheckOutput, RotationsThatAreNotANumberFailTheCell) {

@@ -37,7 +37,7 @@ std::vector<Record> failing(const std::string& status) {
       out.back().statistics.rmse = std::nan("");
     } else {
       out.back() = failed(sequence, 0, "good");
-      out.back().status = status;
+      out.back().status = from_text<Status>(status).value();
     }
   }
   return out;
@@ -105,9 +105,9 @@ TEST(Failures, OfAMetricAreNotTheMethods) {
     const Comparison c = compared(records);
     return std::pair{c.runs, std::ranges::find(c.methods, "dual", &MethodVerdict::method)->fails};
   };
-  records[2].status = "undefined";
+  records[2].status = Status::declined;
   EXPECT_EQ(fails(), (std::pair{std::size_t{7}, std::size_t{0}}));
-  records[2].status = "incomplete";
+  records[2].status = Status::incomplete;
   EXPECT_EQ(fails(), (std::pair{std::size_t{8}, std::size_t{1}}));
 }
 

@@ -31,7 +31,7 @@ Record failed(const std::string& method, const std::string& why) {
   Record r;
   r.sequence = "room";
   r.method = method;
-  r.status = "failed";
+  r.status = Status::failed;
   r.why = why;
   return r;
 }
@@ -52,7 +52,7 @@ TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
 
 TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
   const std::vector<Record> g = gains({ate("raw", 1e-16), ate("uniform", 0.15)}, "raw");
-  EXPECT_EQ(g[1].status, "declined");
+  EXPECT_EQ(g[1].status, Status::declined);
   EXPECT_EQ(g[1].why, "the error of the baseline raw is zero");
 }
 
@@ -112,7 +112,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   records.push_back(records[2]);
   records[3].axis = "x";
   for (const std::size_t i : {1u, 2u, 3u}) {
-    records[i].status = "incomplete";
+    records[i].status = Status::incomplete;
     records[i].why = "evaluated 1 of 9 poses";
   }
   records[1].repeat = 1;

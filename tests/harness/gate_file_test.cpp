@@ -20,8 +20,8 @@ using namespace gate_snapshot;
 TEST(BaselineFile, ReadsBackWhatWasWritten) {
   Baseline before = baseline();
   before.snapshot.cells[0].scores.clear();
-  before.snapshot.cells[0].status = "failed";
-  before.snapshot.cells[2].scores[0].status = "declined";
+  before.snapshot.cells[0].status = Status::failed;
+  before.snapshot.cells[2].scores[0].status = Status::declined;
   before.snapshot.cells[2].scores[0].pairs = 0;
   before.snapshot.cells[2].scores[0].values.clear();
   rmse(before.snapshot, 1) = 1.0 / 3.0;

@@ -43,15 +43,17 @@ TEST(Gate, ReportsImprovementsAndPasses) {
 TEST(Gate, FailsOnWhatVanishedOrFailsNewly) {
   EXPECT_FALSE(after([](Snapshot& now) { now.cells.pop_back(); }).passes());
   EXPECT_FALSE(after([](Snapshot& now) { now.cells[0].scores.clear(); }).passes());
-  for (const char* status : {"failed", "crashed", "timeout", "declined", "incomplete"}) {
+  for (const Status status :
+       {Status::failed, Status::crashed, Status::timeout, Status::declined, Status::incomplete}) {
     const GateReport report = after([&](Snapshot& now) {
       now.cells[0].status = status;
-      if (status != std::string("incomplete")) now.cells[0].scores.clear();
+      if (status != Status::incomplete) now.cells[0].scores.clear();
     });
-    ASSERT_EQ(report.findings.size(), 1u) << status;
-    EXPECT_EQ(report.findings[0].what, std::string("was ok, is ") + status);
+    ASSERT_EQ(report.findings.size(), 1u) << to_text(status);
+    EXPECT_EQ(report.findings[0].what, "was ok, is " + to_text(status));
   }
-  const GateReport score = after([](Snapshot& now) { now.cells[0].scores[0].status = "failed"; });
+  const GateReport score =
+      after([](Snapshot& now) { now.cells[0].scores[0].status = Status::failed; });
   EXPECT_EQ(score.findings.at(0).score, "ate translation 3d, dense, loopbench");
   const GateReport pairs = after([](Snapshot& now) { now.cells[0].scores[0].pairs = 399; });
   EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
@@ -66,7 +68,7 @@ TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
   EXPECT_EQ(added.findings.at(0).kind, Finding::Kind::added);
   EXPECT_EQ(added.findings.at(0).cell, "room / dual");
   Baseline broken = baseline();
-  broken.snapshot.cells[0].status = "failed";
+  broken.snapshot.cells[0].status = Status::failed;
   const GateReport repaired = check(broken, sweep());
   EXPECT_TRUE(repaired.passes());
   EXPECT_EQ(repaired.findings.at(0).kind, Finding::Kind::improvement);

@@ -56,7 +56,7 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
     records.push_back(ate("raw", 1.5 + repeat, repeat));
     records.push_back(ate("dm", 1.0, repeat));
     if (repeat == 0) continue;
-    records.back().status = "failed";
+    records.back().status = Status::failed;
     records.back().metric.clear();
   }
   const std::vector<Table> tables =
@@ -72,7 +72,7 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
 TEST(Pivot, ListsAFailureOnlyUnderItsOwnSequence) {
   std::vector<Record> records{ate("dm", 0.0)};
   records[0].sequence = "a";
-  records[0].status = "failed";
+  records[0].status = Status::failed;
   records[0].metric.clear();
   records[0].times.clear();
   for (const std::string sequence : {"a", "a2", "a, b"}) {
@@ -93,7 +93,7 @@ std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<
     for (std::size_t repeat = 0; repeat < values.size(); ++repeat) {
       out.push_back(ate(method, values[repeat], static_cast<int>(repeat)));
       if (!std::isnan(values[repeat])) continue;
-      out.back().status = "failed";
+      out.back().status = Status::failed;
       out.back().metric.clear();
     }
   }

@@ -96,7 +96,7 @@ TEST(PlantedRegression, OptionsOfAMethodChangedUnderItsLabel) {
 
 TEST(PlantedRegression, AnIncompleteCellWithAThousandTimesTheError) {
   std::vector<Record> before = records();
-  before[2].status = "incomplete";
+  before[2].status = Status::incomplete;
   Baseline incomplete = baseline();
   incomplete.snapshot = snapshot_of(before);
   EXPECT_EQ(caught(snapshot_of(before), incomplete), "");
@@ -107,7 +107,7 @@ TEST(PlantedRegression, AnIncompleteCellWithAThousandTimesTheError) {
 
 TEST(PlantedRegression, ACellThatBecameIncomplete) {
   expect_named(caught_records([](Record& r) {
-                 if (r.cell == 3) r.status = "incomplete";
+                 if (r.cell == 3) r.status = Status::incomplete;
                }),
                {"room (repeat 1) / uniform", "was ok, is incomplete"});
 }
@@ -147,7 +147,7 @@ TEST(PlantedRegression, ACellThatFailsNow) {
   for (Record& r : now) {
     if (r.cell != 5) continue;
     r.metric = r.label = "";
-    r.status = "crashed";
+    r.status = Status::crashed;
   }
   expect_named(caught(snapshot_of(now)), {"room (repeat 2) / uniform", "was ok, is crashed"});
 }

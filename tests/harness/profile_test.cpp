@@ -63,7 +63,7 @@ CellRecord cell(std::int64_t position,
   out.keyframes = keyframes;
   out.runs = 1;
   out.seconds = seconds;
-  out.status = "ok";
+  out.status = Status::ok;
   out.worker = "isolated";
   return out;
 }
@@ -136,7 +136,7 @@ TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
     cells[i].oracle_closures = true;
     if (i != 5) records.push_back(score(cells[i].position, "dense", i < 2 ? 1.0 : 0.5));
   }
-  cells[5].status = "failed";
+  cells[5].status = Status::failed;
   const TextTable listing = pareto(cells, records, {});
   using Row = std::vector<std::string>;
   ASSERT_EQ(listing.rows.size(), 3u);

@@ -81,7 +81,7 @@ class RunFailures : public TinyStore {
 TEST_F(RunFailures, OutputThatIsNotFiniteAtAKeyframeFailsTheCell) {
   const std::vector<Record> records = records_of("{method: gappy, bad: 3.0}");
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, "failed");
+  EXPECT_EQ(records[0].status, Status::failed);
   EXPECT_EQ(records[0].metric, "");
   EXPECT_EQ(records[0].why, "keyframe 4 of 4, at 3.0 s: the position is not finite");
 }
@@ -90,17 +90,17 @@ TEST_F(RunFailures, OutputThatIsNotFiniteBetweenKeyframesFailsTheCell) {
   const std::string method = "{method: gappy, bad: 0.5}";
   const std::vector<Record> records = records_of(method);
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, "failed");
+  EXPECT_EQ(records[0].status, Status::failed);
   EXPECT_EQ(records[0].why, "reference stamp 2 of 5, at 0.5 s: the position is not finite");
   const std::vector<Record> unseen = records_of(method, "metrics: [ate]\ntimes: keyframes\n");
   ASSERT_EQ(unseen.size(), 1u);
-  EXPECT_EQ(unseen[0].status, "ok") << "nobody looks between";
+  EXPECT_EQ(unseen[0].status, Status::ok) << "nobody looks between";
 }
 
 TEST_F(RunFailures, ASectionThatIsNotFiniteFailsItsCellAndNotTheSweep) {
   const std::vector<Record> records = records_of("bad_section");
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, "failed");
+  EXPECT_EQ(records[0].status, Status::failed);
   EXPECT_EQ(records[0].why, "section 2 ('window') is from 1.0 to nan s, expected finite stamps");
 }
 
@@ -121,7 +121,7 @@ TEST_F(RunFailures, AFailedMetricFailsTheScoresThatItGivesElsewhereAndNoOther) {
   ASSERT_EQ(records.size(), 6u);  // at keyframes, then densely
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Record& r = records[i];
-    EXPECT_EQ(r.status, i % 3 == 2 ? "ok" : "failed") << i;
+    EXPECT_EQ(r.status, i % 3 == 2 ? Status::ok : Status::failed) << i;
     EXPECT_EQ(r.label, i % 3 == 2 ? "other" : "ate");
     EXPECT_EQ(r.times, i < 3 ? "keyframes" : "dense");
     if (i % 3 == 2) continue;
@@ -139,7 +139,7 @@ TEST_F(RunFailures, AScoreThatIsNotFiniteFailsAlone) {
     return std::vector<Score>{infinite, single("rotation", "3d", "deg", 2.0)};
   };
   for (const Record& r : records_of("shift")) {
-    EXPECT_EQ(r.status, r.relation == "translation" ? "failed" : "ok");
+    EXPECT_EQ(r.status, r.relation == "translation" ? Status::failed : Status::ok);
     EXPECT_EQ(r.why, r.relation == "translation" ? "is not finite" : "");
   }
 }

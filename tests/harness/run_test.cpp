@@ -59,12 +59,12 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   const std::vector<Record> records = run(1);
   // 3 datasets x 3 repeats x (2 methods x 2 metrics + failed + declined)
   EXPECT_EQ(records.size(), 3u * 3u * 6u);
-  const auto count = [&](const SharedText& status) {
+  const auto count = [&](Status status) {
     return std::ranges::count(records, status, &Record::status);
   };
-  EXPECT_EQ(count("ok"), 18);
-  EXPECT_EQ(count("failed"), 9 + 18);  // the method, and the undefined metric of the others
-  EXPECT_EQ(count("declined"), 9);
+  EXPECT_EQ(count(Status::ok), 18);
+  EXPECT_EQ(count(Status::failed), 9 + 18);  // the method, and the undefined metric of the others
+  EXPECT_EQ(count(Status::declined), 9);
   const auto fails = std::ranges::find(records, SharedText("fails"), &Record::method);
   EXPECT_EQ(fails->why, "set to fail");
   const auto undefined = std::ranges::find(records, SharedText("undefined"), &Record::label);
@@ -101,7 +101,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   for (const Record& r : records) {
     const bool is_short = r.sequence.text().find("0.3") != std::string::npos;
     if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, is_short ? "incomplete" : "ok") << r.sequence;
+    EXPECT_EQ(r.status, is_short ? Status::incomplete : Status::ok) << r.sequence;
     EXPECT_GT(r.statistics.rmse, 0.0);  // stored nevertheless
     if (!is_short) continue;
     ++incomplete;
@@ -110,7 +110,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   EXPECT_EQ(incomplete, 3);
   for (const Record& r : records) {  // a failed metric remains failed
     if (r.label == "undefined") {
-      EXPECT_EQ(r.status, "failed");
+      EXPECT_EQ(r.status, Status::failed);
     }
   }
 }
@@ -126,7 +126,7 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   sweep_.times = {Times::keyframes, Times::dense};
   for (const Record& r : run(1)) {
     if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, r.times == "dense" ? "ok" : "incomplete");
+    EXPECT_EQ(r.status, r.times == "dense" ? Status::ok : Status::incomplete);
   }
 }
 
@@ -137,7 +137,7 @@ TEST_F(RunSweep, AMetricThatMeansNothingHereIsDeclinedNotFailed) {
   int declined = 0;
   for (const Record& r : run(1)) {
     if (r.why != "no closures") continue;
-    EXPECT_EQ(r.status, "declined");
+    EXPECT_EQ(r.status, Status::declined);
     ++declined;
   }
   EXPECT_EQ(declined, 36);
@@ -153,7 +153,7 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
   };
   for (const Record& r : run(1)) {
     if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, r.relation == "rotation" ? "declined" : "ok");
+    EXPECT_EQ(r.status, r.relation == "rotation" ? Status::declined : Status::ok);
     EXPECT_EQ(r.why, r.relation == "rotation" ? "positions only" : "");
     EXPECT_EQ(r.statistics.rmse, r.relation == "rotation" ? 0.0 : -2.0);
   }

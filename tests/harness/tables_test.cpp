@@ -52,7 +52,7 @@ TEST(Where, KeepsWhatEveryRuleKeeps) {
 TEST(Where, KeepsTheReasonsOfCellsWithoutScores) {
   Record failed;
   failed.method = "raw";
-  failed.status = "failed";
+  failed.status = Status::failed;
   EXPECT_TRUE(where({"metric=ate"})(failed));
   EXPECT_FALSE(where({"method=dm"})(failed));
   EXPECT_FALSE(where({"status=ok"})(failed));

@@ -26,7 +26,12 @@ TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
   EXPECT_NE(result.out.find("6 of 6 cells done, 4 failed"), std::string::npos) << result.out;
   const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
   ASSERT_EQ(cells.size(), 6u);
-  const char* const statuses[] = {"ok", "crashed", "timeout", "crashed", "out_of_memory", "ok"};
+  const Status statuses[] = {Status::ok,
+                             Status::crashed,
+                             Status::timeout,
+                             Status::crashed,
+                             Status::out_of_memory,
+                             Status::ok};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cells[i].status, statuses[i]) << cells[i].why;
   EXPECT_EQ(cells[1].signal, "SIGABRT");
   EXPECT_EQ(cells[2].signal, "SIGKILL");

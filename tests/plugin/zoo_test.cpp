@@ -160,7 +160,7 @@ class Zoo : public testing::Test {
     std::map<std::string, std::vector<double>> scores;
     for (const Record& record : read_records(folder_.path() / out)) {
       if (record.method != kHonest && !record.method.text().starts_with("honest")) continue;
-      EXPECT_EQ(record.status, "ok") << record.method << ": " << record.why;
+      EXPECT_EQ(record.status, Status::ok) << record.method << ": " << record.why;
       for (const double value : {record.statistics.rmse, record.statistics.max}) {
         scores[record.method].push_back(value);
       }
@@ -224,9 +224,9 @@ TEST_F(Zoo, EachBeastCostsItsOwnCellForTheRightReason) {
     for (const CellRecord& cell : read_cells(folder_.path() / "zoo")) cells[cell.method] = cell;
     for (const Fate& fate : kFates) {
       const CellRecord& cell = cells[fate.method];
-      EXPECT_FALSE(cell.status.empty()) << fate.method << " has no cell";
-      EXPECT_NE(std::string(fate.status).find(cell.status.text()), std::string::npos)
-          << cell.status << " " << fate.method << ": " << cell.why.text().substr(0, 200);
+      EXPECT_FALSE(cell.key.empty()) << fate.method << " has no cell";
+      EXPECT_NE(std::string(fate.status).find(to_text(cell.status)), std::string::npos)
+          << to_text(cell.status) << " " << fate.method << ": " << cell.why.text().substr(0, 200);
       EXPECT_NE(cell.why.text().find(fate.why), std::string::npos)
           << fate.method << ": " << cell.why.text().substr(0, 200);
     }
@@ -247,7 +247,7 @@ TEST_F(Zoo, ClocksPauseWhileTheSweepIsStopped) {
   kill(-sweep, SIGCONT);
   EXPECT_EQ(exit_code(sweep), 0) << read_all(folder_.path() / ".out");
   for (const CellRecord& cell : read_cells(folder_.path() / "naps")) {
-    EXPECT_EQ(cell.status, "ok") << cell.why;
+    EXPECT_EQ(cell.status, Status::ok) << cell.why;
   }
 }
 

@@ -92,7 +92,7 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         r.statistics.rmse = size * std::exp(truth.effects[m] + truth.dispersion * deviation);
         const bool fails = !truth.failures.empty() && uniform(bits) < truth.failures[m];
         if (fails) {
-          r.status = "failed";
+          r.status = Status::failed;
           r.metric.clear();
         }
         out.push_back(r);

@@ -32,7 +32,7 @@ inline Record failed(const std::string& sequence, int repeat, const std::string&
   r.sequence = sequence;
   r.repeat = repeat;
   r.method = method;
-  r.status = "failed";
+  r.status = Status::failed;
   return r;
 }
 

@@ -27,7 +27,7 @@ inline std::string store_text(const std::filesystem::path& file) {
     out += std::to_string(c.position) + "|" + c.key + "|" + c.sequence + "|" +
            std::to_string(c.repeat) + "|" + c.method + "|" + c.method_options + "|" +
            c.dataset_options + "|" + c.closures + "|" + std::to_string(c.keyframes) + "|" +
-           c.worker + "|" + c.status + "|" + c.signal + "|" + c.why + "\n";
+           c.worker + "|" + to_text(c.status) + "|" + c.signal + "|" + c.why + "\n";
     for (const Count& count : c.counts) out += count.name + "=" + exact(count.value) + "\n";
     for (const std::string& note : c.notes) out += "note " + note + "\n";
     for (const Section& s : traces.sections(c.position)) {
@@ -53,7 +53,7 @@ inline std::string store_text(const std::filesystem::path& file) {
     for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse}) {
       out += "|" + exact(value);
     }
-    out += "|" + std::to_string(r.pairs) + "|" + r.status + "|" + r.why + "\n";
+    out += "|" + std::to_string(r.pairs) + "|" + to_text(r.status) + "|" + r.why + "\n";
   }
   return out;
 }
