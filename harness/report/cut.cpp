@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -28,13 +26,9 @@ struct CutKind {
   }
 };
 
-std::string cut_text(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 }  // namespace
 
-std::string sections_json(const std::vector<methods::Section>& sections, double origin) {
+nlohmann::json sections_json(const std::vector<methods::Section>& sections, double origin) {
   std::vector<std::string> order;
   std::map<std::string, CutKind> kinds;
   for (const methods::Section& section : sections) {
@@ -42,19 +36,17 @@ std::string sections_json(const std::vector<methods::Section>& sections, double 
     if (is_new) order.push_back(section.kind);
     found->second.add(section, origin);
   }
-  std::string out;
+  nlohmann::json out = nlohmann::json::array();
   for (const std::string& name : order) {
     const CutKind& kind = kinds.at(name);
-    out += fmt::format("{}{{\"kind\":{},\"all\":{},\"b\":{},\"e\":{},\"names\":{},\"w\":{}}}",
-                       out.empty() ? "" : ",",
-                       cut_text(name),
-                       kind.all,
-                       packed(kind.begin),
-                       packed(kind.end),
-                       cut_text(kind.names),
-                       cut_text(kind.what));
+    out.push_back({{"kind", name},
+                   {"all", kind.all},
+                   {"b", packed(kind.begin)},
+                   {"e", packed(kind.end)},
+                   {"names", kind.names},
+                   {"w", kind.what}});
   }
-  return "[" + out + "]";
+  return out;
 }
 
 }  // namespace loopbench::harness

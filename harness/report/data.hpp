@@ -1,7 +1,7 @@
 /// Data for the report's figures, as JSON.
 #pragma once
 
-#include <string>
+#include <nlohmann/json_fwd.hpp>
 
 #include "harness/report/content.hpp"
 
@@ -11,7 +11,7 @@ namespace loopbench::harness {
 /// every cell to five digits. styles: {color, dash} of each method as in `plot`; usual: indices of
 /// the methods that are shown first. A cell is {s, m, n, st, ms, v}: indices of its sequence and
 /// method, repeat, status, time [ms], and for each kind null or its statistics.
-std::string scores_json(const ReportContent& content);
+nlohmann::json scores_json(const ReportContent& content);
 
 /// Amount of trace data in the report.
 struct Thinning {
@@ -30,11 +30,11 @@ bool reduce(Thinning& thinning, double share);
 /// {points, sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
 /// Cells: grid, errors, and sections of the path; the evaluation times of a cell are in its grid,
 /// which cells share.
-std::string traces_json(const ReportContent& content, const Thinning& thinning);
+nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);
 
 /// [{kind, all, b, e, names, w}], a list of sections for each kind: begin and end relative to
 /// `origin` [s], and indices into `names` of the choices. At most kMostSections per kind.
-std::string sections_json(const std::vector<methods::Section>& sections, double origin);
+nlohmann::json sections_json(const std::vector<methods::Section>& sections, double origin);
 
 /// Maximum number of poses drawn per cell if `cells` share `bytes`.
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes);

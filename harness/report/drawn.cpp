@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/report/data.hpp"
@@ -23,15 +22,12 @@ struct DrawnPath {
   Column t, x, y, z;
 };
 
-std::string json(const DrawnPath& path) {
-  return fmt::format("\"t\":{},\"x\":{},\"y\":{},\"z\":{}",
-                     packed(path.t),
-                     packed(path.x),
-                     packed(path.y),
-                     packed(path.z));
+nlohmann::json path_json(const DrawnPath& path) {
+  return {
+      {"t", packed(path.t)}, {"x", packed(path.x)}, {"y", packed(path.y)}, {"z", packed(path.z)}};
 }
 
-std::string reference_json(const SequenceTrace& trace, std::size_t most) {
+nlohmann::json reference_json(const SequenceTrace& trace, std::size_t most) {
   DrawnPath path;
   for (const std::size_t i : subsampled_indices(trace.reference.size(), most)) {
     const TracePose& pose = trace.reference[i];
@@ -40,18 +36,17 @@ std::string reference_json(const SequenceTrace& trace, std::size_t most) {
     path.y.push_back(pose.y);
     path.z.push_back(pose.z);
   }
-  return json(path);
+  return path_json(path);
 }
 
-std::string closures_json(const SequenceTrace& trace) {
-  std::string out;
+nlohmann::json closures_json(const SequenceTrace& trace) {
+  constexpr int kDigits = 7;
+  nlohmann::json closures = nlohmann::json::array();
   for (const std::size_t i : subsampled_indices(trace.closures.size(), kMostClosures)) {
-    out += fmt::format("{}[{:.7g},{:.7g}]",
-                       out.empty() ? "" : ",",
-                       trace.closures[i].from_stamp,
-                       trace.closures[i].to_stamp);
+    closures.push_back({rounded_number(trace.closures[i].from_stamp, kDigits),
+                        rounded_number(trace.closures[i].to_stamp, kDigits)});
   }
-  return fmt::format("{{\"closures\":[{}],\"all\":{}}}", out, trace.closures.size());
+  return {{"closures", std::move(closures)}, {"all", trace.closures.size()}};
 }
 
 struct CellErrors {
@@ -94,19 +89,10 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::
   return out;
 }
 
-/// A sequence under construction: its reference, then the closures of each of its repeats.
+/// The reference of a sequence with the closures of its repeats, and its origin [s].
 struct DrawnSequence {
-  double origin = 0.0;  ///< [s]
-  std::string reference;
-  std::map<std::int64_t, std::string> runs;
-
-  std::string text() const {
-    std::string all;
-    for (const auto& [repeat, closures] : runs) {
-      all += fmt::format("{}\"{}\":{}", all.empty() ? "" : ",", repeat, closures);
-    }
-    return fmt::format("{{{},\"runs\":{{{}}}}}", reference, all);
-  }
+  double origin = 0.0;
+  nlohmann::json json;
 };
 
 }  // namespace
@@ -143,58 +129,52 @@ bool reduce(Thinning& thinning, double share) {
   return true;
 }
 
-std::string traces_json(const ReportContent& content, const Thinning& thinning) {
+nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning) {
   Traces traces(content.store);
   std::map<std::string, DrawnSequence> sequences;
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
-  std::string grids;
-  std::string cells;
+  nlohmann::json grids = nlohmann::json::array();
+  nlohmann::json cells = nlohmann::json::object();
   for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
     const CellRecord& cell = content.shown_cells[i];
+    const std::string repeat = std::to_string(cell.repeat);
     DrawnSequence* sequence = nullptr;
     if (const auto known = sequences.find(cell.sequence);
-        known != sequences.end() && known->second.runs.contains(cell.repeat)) {
+        known != sequences.end() && known->second.json["runs"].contains(repeat)) {
       sequence = &known->second;
     } else if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
       sequence = &sequences[cell.sequence];
       sequence->origin = trace->origin.stamp;
-      if (sequence->reference.empty()) {
-        sequence->reference = reference_json(*trace, thinning.points);
-      }
-      sequence->runs.emplace(cell.repeat, closures_json(*trace));
+      if (sequence->json.is_null()) sequence->json = reference_json(*trace, thinning.points);
+      sequence->json["runs"][repeat] = closures_json(*trace);
     }
     const std::optional<CellTrace> trace = traces.cell(cell.position);
     if (!trace || trace->samples.empty()) continue;
     const CellErrors e = errors(*trace, thinning.points);
     const auto [grid, is_new] =
         grid_of.emplace(std::pair{cell.sequence, e.reference.t}, grid_of.size());
-    if (is_new) grids += (grids.empty() ? "{" : ",\n{") + json(e.reference) + "}";
+    if (is_new) grids.push_back(path_json(e.reference));
+    nlohmann::json& drawn = cells[std::to_string(i)];
+    drawn = {{"g", grid->second},
+             {"times", to_text(trace->times)},
+             {"x", packed(e.x)},
+             {"y", packed(e.y)},
+             {"z", packed(e.z)},
+             {"a", packed(e.angle)}};
     const std::vector<methods::Section> sections = traces.sections(cell.position);
-    const std::string cut = sections.empty() || sequence == nullptr
-                                ? ""
-                                : ",\"cut\":" + sections_json(sections, sequence->origin);
-    cells +=
-        fmt::format("{}\"{}\":{{\"g\":{},\"times\":\"{}\",\"x\":{},\"y\":{},\"z\":{},\"a\":{}{}}}",
-                    cells.empty() ? "" : ",\n",
-                    i,
-                    grid->second,
-                    to_text(trace->times),
-                    packed(e.x),
-                    packed(e.y),
-                    packed(e.z),
-                    packed(e.angle),
-                    cut);
+    if (!sections.empty() && sequence != nullptr) {
+      drawn["cut"] = sections_json(sections, sequence->origin);
+    }
   }
-  std::string all;
+  nlohmann::json all = nlohmann::json::array();
   for (const std::string& name : content.shown_sequences()) {
     const auto found = sequences.find(name);
-    all += (all.empty() ? "" : ",\n") + (found == sequences.end() ? "null" : found->second.text());
+    all.push_back(found == sequences.end() ? nullptr : std::move(found->second.json));
   }
-  return fmt::format("{{\"points\":{},\"sequences\":[{}],\"grids\":[{}],\"cells\":{{{}}}}}",
-                     thinning.points,
-                     all,
-                     grids,
-                     cells);
+  return {{"points", thinning.points},
+          {"sequences", std::move(all)},
+          {"grids", std::move(grids)},
+          {"cells", std::move(cells)}};
 }
 
 }  // namespace loopbench::harness

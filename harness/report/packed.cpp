@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace loopbench::harness {
@@ -26,7 +27,7 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-std::string packed(const std::vector<double>& values) {
+nlohmann::json packed(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const double value : values) {
@@ -44,7 +45,15 @@ std::string packed(const std::vector<double>& values) {
     bytes += static_cast<char>(word & 255U);
     bytes += static_cast<char>(word >> 8U);
   }
-  return fmt::format("{{\"lo\":{:.7g},\"step\":{:.7g},\"b\":\"{}\"}}", low, step, base64(bytes));
+  constexpr int kDigits = 7;
+  return {{"lo", rounded_number(low, kDigits)},
+          {"step", rounded_number(step, kDigits)},
+          {"b", base64(bytes)}};
+}
+
+nlohmann::json rounded_number(double value, int digits) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
 std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most) {

@@ -1,6 +1,7 @@
 /// Compact encoding of columns of numbers.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,10 @@ std::string base64(std::string_view bytes);
 
 /// The JSON object {lo, step, b}: value = lo + step * word, 16-bit little-endian words in base64;
 /// 65535 is NaN. The error is at most half a step: 1/131068 of the range, far below a pixel.
-std::string packed(const std::vector<double>& values);
+nlohmann::json packed(const std::vector<double>& values);
+
+/// The number to `digits` digits; null unless it is finite.
+nlohmann::json rounded_number(double value, int digits);
 
 /// At most `most` evenly spaced indices of 0..count-1, including both ends.
 std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
@@ -82,11 +83,15 @@ std::string policy() {
   return out;
 }
 
+std::string data_text(const nlohmann::json& data) {
+  return data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// The smallest page, or the first that is smaller than `bytes`.
 std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
-  const std::string scores = "{\"scores\":" + scores_json(content) +
-                             ",\"comparisons\":" + json(content.comparisons, -1) + ",\"traces\":";
+  nlohmann::json data{{"scores", scores_json(content)},
+                      {"comparisons", nlohmann::json::parse(json(content.comparisons, -1))}};
   Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
                       {"policy", policy()},
                       {"style", style()},
@@ -98,11 +103,12 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"costs", costs_html(content)},
                       {"provenance", provenance_html(content)},
                       {"scripts", script_elements()}};
-  std::size_t taken = scores.size();
+  std::size_t taken = data_text(data).size();
   for (const auto& [name, text] : values) taken += text.size();
   Thinning thinning = initial_thinning(content, bytes - std::min(bytes, taken));
   for (;;) {
-    values["data"] = script_text(scores + traces_json(content, thinning) + "}");
+    data["traces"] = traces_json(content, thinning);
+    values["data"] = script_text(data_text(data));
     std::string html = filled(asset_text("page/report.html"), values);
     if (html.size() <= bytes) return html;
     const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));

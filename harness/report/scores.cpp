@@ -1,24 +1,14 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "harness/plot/style.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/drawn_methods.hpp"
+#include "harness/report/packed.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-std::string json_text(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "null";
-}
 
 using ScoreKind =
     std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
@@ -27,16 +17,19 @@ ScoreKind score_kind(const Record& r) {
   return {r.protocol, r.times, metric_label(r), r.relation, r.axis, r.unit};
 }
 
-std::string better_name(const Record& r) {
-  for (const auto& [name, value] : choices(metrics::Better())) {
-    if (value == r.better) return name;
+/// As the report names the statistics: rmse, mean, median, max.
+nlohmann::json statistics_json(const metrics::Statistics& s) {
+  constexpr int kDigits = 5;
+  nlohmann::json out = nlohmann::json::array();
+  for (const double value : {s.rmse, s.mean, s.median, s.max}) {
+    out.push_back(rounded_number(value, kDigits));
   }
-  return "neither";
+  return out;
 }
 
 }  // namespace
 
-std::string scores_json(const ReportContent& content) {
+nlohmann::json scores_json(const ReportContent& content) {
   std::map<ScoreKind, std::size_t> index_of_kind;
   nlohmann::json kinds = nlohmann::json::array();
   std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
@@ -52,7 +45,7 @@ std::string scores_json(const ReportContent& content) {
                        {"relation", r.relation},
                        {"axis", r.axis},
                        {"unit", r.unit},
-                       {"better", better_name(r)}});
+                       {"better", to_text(r.better)}});
     }
     scores[r.cell][found->second] = &r;
   }
@@ -62,34 +55,22 @@ std::string scores_json(const ReportContent& content) {
   for (const std::string& name : content.methods) method.emplace(name, method.size());
   std::vector<bool> oracle(content.methods.size(), false);
 
-  std::string cells;
+  nlohmann::json cells = nlohmann::json::array();
   for (const CellRecord& cell : content.shown_cells) {
     const std::size_t m = method.at(cell.method);
     if (cell.oracle) oracle[m] = true;
-    std::string values;
+    nlohmann::json values = nlohmann::json::array();
     const auto& own = scores[cell.position];
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto found = own.find(k);
-      values += k == 0 ? "" : ",";
-      if (found == own.end()) {
-        values += "null";
-        continue;
-      }
-      const metrics::Statistics& s = found->second->statistics;
-      values += fmt::format("[{},{},{},{}]",
-                            json_number(s.rmse),
-                            json_number(s.mean),
-                            json_number(s.median),
-                            json_number(s.max));
+      values.push_back(found == own.end() ? nullptr : statistics_json(found->second->statistics));
     }
-    cells += fmt::format("{}{{\"s\":{},\"m\":{},\"n\":{},\"st\":{},\"ms\":{},\"v\":[{}]}}",
-                         cells.empty() ? "" : ",\n",
-                         sequence.at(cell.sequence),
-                         m,
-                         cell.repeat,
-                         json_text(to_text(cell.status)),
-                         json_number(1e3 * cell.seconds),
-                         values);
+    cells.push_back({{"s", sequence.at(cell.sequence)},
+                     {"m", m},
+                     {"n", cell.repeat},
+                     {"st", to_text(cell.status)},
+                     {"ms", rounded_number(1e3 * cell.seconds, 5)},
+                     {"v", std::move(values)}});
   }
   const std::vector<std::string> order = style_order(content);
   nlohmann::json styles = nlohmann::json::array();
@@ -103,17 +84,15 @@ std::string scores_json(const ReportContent& content) {
     if (const auto known = method.find(name); known != method.end()) usual.push_back(known->second);
   }
   const auto baseline = content.run.find("baseline");
-  return fmt::format(
-      "{{\"methods\":{},\"styles\":{},\"usual\":{},\"oracle\":{},\"sequences\":{},\"baseline\":{},"
-      "\"statistics\":[\"rmse\",\"mean\",\"median\",\"max\"],\"kinds\":{},\"cells\":[{}]}}",
-      json_text(content.methods),
-      json_text(styles),
-      json_text(usual),
-      json_text(oracle),
-      json_text(content.shown_sequences()),
-      json_text(baseline == content.run.end() ? "" : baseline->second),
-      json_text(kinds),
-      cells);
+  return {{"methods", content.methods},
+          {"styles", std::move(styles)},
+          {"usual", std::move(usual)},
+          {"oracle", oracle},
+          {"sequences", content.shown_sequences()},
+          {"baseline", baseline == content.run.end() ? "" : baseline->second},
+          {"statistics", {"rmse", "mean", "median", "max"}},
+          {"kinds", std::move(kinds)},
+          {"cells", std::move(cells)}};
 }
 
 }  // namespace loopbench::harness

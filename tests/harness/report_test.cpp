@@ -144,7 +144,7 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
 
 TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
   const ReportContent content = read_report_content(folder_->path());
-  const nlohmann::json scores = nlohmann::json::parse(scores_json(content));
+  const nlohmann::json scores = scores_json(content);
   const std::vector<std::string> usual = usual_methods(content);
   Traces traces(content.store);
   const SequenceFigures figures =
