@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "datasets/hash.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -56,10 +58,9 @@ void TextIndex::add_member(SharedText Record::*member) {
 }
 
 std::size_t TextIndex::KeyHash::operator()(const Key& key) const {
-  constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // 2^64 / golden ratio
   std::uint64_t out = 0;
-  for (const std::uintptr_t part : key) out = (std::rotl(out, 5) ^ part) * kFactor;
-  return static_cast<std::size_t>(out ^ (out >> 32));
+  for (const std::uintptr_t part : key) out = mixed(out, part);
+  return static_cast<std::size_t>(out);
 }
 
 TextIndex::Key TextIndex::key_of(const Record& record) const {

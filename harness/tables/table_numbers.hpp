@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/hash.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/model/text_index.hpp"
 #include "harness/tables/by_run.hpp"
@@ -24,7 +25,7 @@ using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
 struct TablePositionHash {
   std::size_t operator()(const TablePosition& position) const {
-    return position.first * 0x9e3779b97f4a7c15 + position.second;
+    return mixed(position.first, position.second);
   }
 };
 
