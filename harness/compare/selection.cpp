@@ -82,9 +82,9 @@ CommonRuns select_common(const Observations& all, Comparison& out) {
     possible_sequences.insert(all.runs[run].sequence);
     const bool is_known = std::ranges::all_of(
         kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
-    const bool is_judged =
+    const bool has_value =
         std::ranges::any_of(kept.methods, [&](std::size_t m) { return at(m).value.has_value(); });
-    if (!is_known || !is_judged) continue;
+    if (!is_known || !has_value) continue;
     kept.runs.push_back(run);
     sequences.insert(all.runs[run].sequence);
     if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);

@@ -30,29 +30,30 @@ std::vector<std::optional<Pose>> truth_of(const Trajectory& keyframes,
   return out;
 }
 
-class Judge {
+/// Pairs of keyframes according to the reference.
+class ClosureTruth {
  public:
-  Judge(const Problem& problem, const Trajectory& reference, const DetectionRule& options)
+  ClosureTruth(const Problem& problem, const Trajectory& reference, const DetectionRule& options)
       : problem_(problem), truth_(truth_of(problem.keyframes, reference)), options_(options) {}
 
-  bool known(std::size_t i) const { return truth_[i].has_value(); }
+  bool is_known(std::size_t i) const { return truth_[i].has_value(); }
 
-  bool same_place(std::size_t from, std::size_t to) const {
-    if (!known(from) || !known(to)) return false;
+  bool is_same_place(std::size_t from, std::size_t to) const {
+    if (!is_known(from) || !is_known(to)) return false;
     const double gap = problem_.keyframes[to].stamp - problem_.keyframes[from].stamp;
     return gap >= options_.min_gap &&
            is_close(*truth_[from], *truth_[to], options_.radius, options_.angle / kDegrees);
   }
 
-  bool revisit(std::size_t to) const {
+  bool is_revisit(std::size_t to) const {
     for (std::size_t from = 0; from < to; ++from) {
-      if (same_place(from, to)) return true;
+      if (is_same_place(from, to)) return true;
     }
     return false;
   }
 
-  bool wrong(const Edge& edge) const {
-    if (!known(edge.from) || !known(edge.to)) return false;
+  bool is_wrong(const Edge& edge) const {
+    if (!is_known(edge.from) || !is_known(edge.to)) return false;
     const Pose truth = truth_[edge.from]->inverse() * *truth_[edge.to];
     return !is_close(
         truth, edge.from_from_to, options_.wrong_metres, options_.wrong_degrees / kDegrees);
@@ -64,8 +65,8 @@ class Judge {
   const DetectionRule& options_;
 };
 
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+double share(std::size_t part, std::size_t all) {
+  return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
 /// In descending order of score; visits equal scores together.
@@ -95,23 +96,23 @@ Detection evaluate_detection(const Problem& problem,
                              const std::vector<LoopCandidate>& candidates,
                              const DetectionRule& rule) {
   if (reference.empty()) throw std::runtime_error("loop detection: needs a reference");
-  const Judge judge(problem, reference, rule);
+  const ClosureTruth truth(problem, reference, rule);
   Detection out;
   for (std::size_t to = 0; to < problem.keyframes.size(); ++to) {
-    if (judge.revisit(to)) ++out.revisits;
+    if (truth.is_revisit(to)) ++out.revisits;
   }
   std::vector<Scored> scored;
   std::size_t right = 0;
   for (const LoopCandidate& candidate : candidates) {
-    if (!judge.known(candidate.from) || !judge.known(candidate.to)) continue;
-    const bool same = judge.same_place(candidate.from, candidate.to);
+    if (!truth.is_known(candidate.from) || !truth.is_known(candidate.to)) continue;
+    const bool same = truth.is_same_place(candidate.from, candidate.to);
     scored.push_back({candidate.score, same});
     if (!candidate.accepted) continue;
     ++out.accepted;
     if (same) ++right;
   }
   for (const Edge& edge : problem.closures) {
-    if (judge.wrong(edge)) ++out.wrong_pose;
+    if (truth.is_wrong(edge)) ++out.wrong_pose;
   }
   if (out.accepted > 0) out.precision = share(right, out.accepted);
   if (out.revisits == 0) return out;

@@ -47,13 +47,13 @@ class EvalCoverage : public testing::Test {
 
 TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   const std::vector<std::string> both{reference_, complete_, short_};
-  const Json judged = eval_json(both, kExitSomeCellsFailed);
-  EXPECT_EQ(judged[0]["status"], "ok");
-  EXPECT_EQ(judged[1]["status"], "incomplete");
-  EXPECT_EQ(judged[1]["coverage"], 1.0);  // all of its own five poses
-  EXPECT_LT(judged[1]["span"], 0.01);
+  const Json results = eval_json(both, kExitSomeCellsFailed);
+  EXPECT_EQ(results[0]["status"], "ok");
+  EXPECT_EQ(results[1]["status"], "incomplete");
+  EXPECT_EQ(results[1]["coverage"], 1.0);  // all of its own five poses
+  EXPECT_LT(results[1]["span"], 0.01);
   EXPECT_EQ(
-      judged[1]["why"],
+      results[1]["why"],
       "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
       "% of another estimate");
   const std::string table = eval(both, kExitSomeCellsFailed);

@@ -19,12 +19,12 @@ TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "short.txt").string();
   std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
-  const Json judged = eval_json({file, file});
-  EXPECT_EQ(find(judged, "ate", "translation")["count"], 3);
-  ASSERT_EQ(judged["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
-  EXPECT_EQ(judged["undefined"][0]["why"],
+  const Json results = eval_json({file, file});
+  EXPECT_EQ(find(results, "ate", "translation")["count"], 3);
+  ASSERT_EQ(results["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
+  EXPECT_EQ(results["undefined"][0]["why"],
             "rpe: found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
-  EXPECT_EQ(judged["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
+  EXPECT_EQ(results["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
   EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
 }
 
@@ -59,14 +59,14 @@ TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
   const std::vector<std::string> files{golden("gt.txt"), bad, golden("est_corrected.txt")};
   EXPECT_EQ(refusal<InputError>({golden("gt.txt"), bad}), why);  // a single estimate is an error
 
-  const Json judged = eval_json(files, kExitSomeCellsFailed);
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[0]["status"], "failed");
-  EXPECT_EQ(judged[0]["why"], why);
-  EXPECT_TRUE(judged[0]["metrics"].empty());
-  EXPECT_FALSE(judged[0].contains("pairs"));
-  EXPECT_EQ(judged[1]["status"], "ok");
-  EXPECT_EQ(judged[1]["pairs"], 635);
+  const Json results = eval_json(files, kExitSomeCellsFailed);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["status"], "failed");
+  EXPECT_EQ(results[0]["why"], why);
+  EXPECT_TRUE(results[0]["metrics"].empty());
+  EXPECT_FALSE(results[0].contains("pairs"));
+  EXPECT_EQ(results[1]["status"], "ok");
+  EXPECT_EQ(results[1]["pairs"], 635);
 
   std::vector<std::string> as_csv = files;
   as_csv.push_back("--csv");
@@ -87,11 +87,11 @@ TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
 TEST(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
   const std::vector<std::string> both{
       golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,kitti"};
-  const Json judged = eval_json(both, kExitSomeCellsFailed);
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[0]["status"], "ok");
-  EXPECT_EQ(judged[1]["status"], "failed");
-  EXPECT_EQ(judged[1]["protocol"]["name"], "kitti");
+  const Json results = eval_json(both, kExitSomeCellsFailed);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["status"], "ok");
+  EXPECT_EQ(results[1]["status"], "failed");
+  EXPECT_EQ(results[1]["protocol"]["name"], "kitti");
   EXPECT_NE(eval(both, kExitSomeCellsFailed).find("\n- " + golden("est_drift.txt") + ": failed: "),
             std::string::npos);
   EXPECT_EQ(refusal<InputError>({golden("absent.txt"), golden("gt.txt"), golden("gt.txt")}),
@@ -99,12 +99,13 @@ TEST(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
 }
 
 TEST(EvalFailures, NothingThatWasAskedForIsNoSuccess) {
-  const Json judged =
+  const Json results =
       eval_json({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
-  EXPECT_EQ(judged["status"], "undefined");
-  EXPECT_EQ(judged["why"], "none of the requested metrics is defined");
-  EXPECT_TRUE(judged["metrics"].empty());
-  EXPECT_EQ(judged["undefined"][0]["why"], "rpe: none of 635 poses is 1e+09 frames before another");
+  EXPECT_EQ(results["status"], "undefined");
+  EXPECT_EQ(results["why"], "none of the requested metrics is defined");
+  EXPECT_TRUE(results["metrics"].empty());
+  EXPECT_EQ(results["undefined"][0]["why"],
+            "rpe: none of 635 poses is 1e+09 frames before another");
   const std::string text =
       eval({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
   EXPECT_NE(text.find(" undefined: rpe: none of 635 poses"), std::string::npos) << text;

@@ -35,10 +35,10 @@ TEST(Eval, ReadsRpgsFolder) {
         golden("est_drift.txt"),
         folder.path() / (std::string("stamped_traj_estimate") + run + ".txt"));
   }
-  const Json judged = eval_json({folder.path().string(), "--protocol=rpg"});
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_NE(judged[0]["estimate"].get<std::string>().find("estimate0"), std::string::npos);
-  EXPECT_NEAR(find(judged[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
+  const Json results = eval_json({folder.path().string(), "--protocol=rpg"});
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_NE(results[0]["estimate"].get<std::string>().find("estimate0"), std::string::npos);
+  EXPECT_NEAR(find(results[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
 }
 
 // Several files are evaluated in parallel.
@@ -72,10 +72,10 @@ TEST(Eval, ReadsOvEvalsFolders) {
   std::filesystem::copy_file(golden("gt.txt"), truths / "eight.txt");
   std::filesystem::copy_file(golden("est_drift.txt"), runs / "00.txt");
   std::filesystem::copy_file(golden("est_corrected.txt"), runs / "01.txt");
-  const Json judged = eval_json({truths.string(), algorithms, "--protocol=ov_eval"});
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[1]["estimate"], (runs / "01.txt").string());
-  EXPECT_EQ(judged[1]["alignment"]["type"], "posyaw");
+  const Json results = eval_json({truths.string(), algorithms, "--protocol=ov_eval"});
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[1]["estimate"], (runs / "01.txt").string());
+  EXPECT_EQ(results[1]["alignment"]["type"], "posyaw");
   const auto other = folder.path() / "algorithms/mine/nine";
   std::filesystem::create_directories(other);
   std::filesystem::copy_file(golden("est_drift.txt"), other / "00.txt");
@@ -128,10 +128,10 @@ TEST(Eval, TellsWhatReadingMended) {
   const std::string estimate = written(folder.path() / "estimate.txt",
                                        "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1.005\n1 9 9 9 0 0 0 1\n"
                                        "2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 0.998\n");
-  const Json judged = eval_json({reference, estimate, "--repeats=keep_first"});
-  EXPECT_NEAR(judged["diagnosis"]["off_unit"].get<double>(), 0.005, 1e-12);
-  EXPECT_EQ(judged["diagnosis"]["left_out"], 1.0);
-  EXPECT_NEAR(find(judged, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
+  const Json results = eval_json({reference, estimate, "--repeats=keep_first"});
+  EXPECT_NEAR(results["diagnosis"]["off_unit"].get<double>(), 0.005, 1e-12);
+  EXPECT_EQ(results["diagnosis"]["left_out"], 1.0);
+  EXPECT_NEAR(find(results, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-12);
 }
 
 /// A curved path of 100 poses, tracked at the lever arm `aside`.
@@ -226,12 +226,12 @@ TEST(Eval, JsonIsAListAlsoOfOne) {
 TEST(Eval, AFailedEstimateKeepsTheBodyOfTheReference) {
   const TemporaryFolder folder;
   const std::string bad = folder.file("bad.txt", "not a pose\n").string();
-  const Json judged = eval_json({golden("gt.txt"), bad, golden("gt.txt"), "--ref-body=0.1,0,0"},
-                                kExitSomeCellsFailed);
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[0]["status"], "failed");
-  EXPECT_EQ(judged[0]["reference_body"], "0.1,0,0");
-  EXPECT_EQ(judged[1]["reference_body"], "0.1,0,0");
+  const Json results = eval_json({golden("gt.txt"), bad, golden("gt.txt"), "--ref-body=0.1,0,0"},
+                                 kExitSomeCellsFailed);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["status"], "failed");
+  EXPECT_EQ(results[0]["reference_body"], "0.1,0,0");
+  EXPECT_EQ(results[1]["reference_body"], "0.1,0,0");
 }
 
 TEST(Eval, ErrorsOfPosesHaveTheStampsOfBoth) {

@@ -21,8 +21,8 @@ using namespace test;
 double rmse(const std::vector<std::string>& options, const std::string& metric) {
   std::vector<std::string> arguments{golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo"};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const Json judged = eval_json(arguments);
-  for (const Json& row : judged["metrics"]) {
+  const Json results = eval_json(arguments);
+  for (const Json& row : results["metrics"]) {
     if (row["metric"] == metric && row["axis"] == "3d") return row["rmse"];
   }
   ADD_FAILURE() << "no " << metric;
@@ -50,17 +50,17 @@ TEST(Eval, KnowsEvosHabits) {
 }
 
 TEST(Eval, TellsTheProtocolInFull) {
-  const Json judged = eval_json({golden("gt.txt"),
-                                 golden("est_drift.txt"),
-                                 "--protocol=evo",
-                                 "--align=origin",
-                                 "--set=ddof=1"});
-  const Json& protocol = judged["protocol"];
+  const Json results = eval_json({golden("gt.txt"),
+                                  golden("est_drift.txt"),
+                                  "--protocol=evo",
+                                  "--align=origin",
+                                  "--set=ddof=1"});
+  const Json& protocol = results["protocol"];
   EXPECT_EQ(protocol["name"], "evo");
   EXPECT_EQ(protocol["version"], "26d0953");
   EXPECT_EQ(protocol["changes"], (Json{{"align", "origin"}, {"ddof", 1}}));
   EXPECT_EQ(protocol["rules"]["association"], "evo");
-  EXPECT_EQ(judged["alignment"]["type"], "origin");
+  EXPECT_EQ(results["alignment"]["type"], "origin");
 }
 
 TEST(Eval, SeveralProtocolsAndEstimatesAreATable) {
@@ -85,22 +85,22 @@ TEST(Eval, CsvHoldsALinePerScoreInFull) {
       << got;
 }
 
-TEST(Eval, JudgesKittiByTheDigitsOfItsFiles) {
-  const Json judged =
+TEST(Eval, EvaluatesKittiByTheDigitsOfItsFiles) {
+  const Json results =
       eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt"), "--protocol=kitti-double"});
   double mean = 0.0;
-  for (const Json& row : judged["metrics"]) {
+  for (const Json& row : results["metrics"]) {
     if (row["relation"] == "rotation" && row["axis"] == "all") mean = row["mean"];
   }
   EXPECT_NEAR(mean, 0.0128037720163, 1e-9 * 0.0128);
 }
 
 TEST(Eval, DrawsTumsRandomPairsOnce) {
-  const Json judged = eval_json(
+  const Json results = eval_json(
       {golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum", "--set=pairs=tum_random"});
-  EXPECT_NEAR(find(judged, "rpe", "translation")["rmse"], 1.5566026278354204, 1e-9);
+  EXPECT_NEAR(find(results, "rpe", "translation")["rmse"], 1.5566026278354204, 1e-9);
   int rows = 0;
-  for (const Json& row : judged["metrics"]) rows += row["metric"] == "rpe" ? 1 : 0;
+  for (const Json& row : results["metrics"]) rows += row["metric"] == "rpe" ? 1 : 0;
   EXPECT_EQ(rows, 5);
 }
 
@@ -109,10 +109,10 @@ TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
       golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
   const std::string why =
       "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
-  const Json judged = eval_json(asked, kExitSomeCellsFailed);
-  EXPECT_EQ(judged["status"], "incomplete");
-  EXPECT_EQ(judged["why"], why);
-  EXPECT_GT(find(judged, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
+  const Json results = eval_json(asked, kExitSomeCellsFailed);
+  EXPECT_EQ(results["status"], "incomplete");
+  EXPECT_EQ(results["why"], why);
+  EXPECT_GT(find(results, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
   EXPECT_NE(eval(asked, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
             std::string::npos);
   const Json enough = eval_json({asked[0], asked[1], "--min-coverage=0.96"});

@@ -21,27 +21,27 @@ using namespace test;
 
 // Values of golden.json, evo APE translation_part at max_diff 0.01.
 TEST(Eval, EqualsEvoUnderEvosAssociation) {
-  const auto judged = [](const std::string& align) {
+  const auto results = [](const std::string& align) {
     return eval_json({golden("gt.txt"),
                       golden("est_drift.txt"),
                       "--association=evo",
                       "--max-diff=0.01",
                       "--align=" + align});
   };
-  const Json se3 = judged("se3");
+  const Json se3 = results("se3");
   EXPECT_EQ(se3["pairs"], 635);
   EXPECT_EQ(se3["alignment"]["type"], "se3");
   EXPECT_NEAR(find(se3, "ate", "translation")["rmse"], 0.676208260682124, 1e-12);
   EXPECT_NEAR(find(se3, "rpe", "translation")["rmse"], 0.0269779727282208, 1e-12);
-  const Json sim3 = judged("sim3");
+  const Json sim3 = results("sim3");
   EXPECT_NEAR(sim3["alignment"]["scale"], 0.9848728953975282, 1e-12);
   EXPECT_NEAR(find(sim3, "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
-  EXPECT_NEAR(find(judged("none"), "ate", "translation")["rmse"], 12.6565235225568, 1e-10);
-  EXPECT_NEAR(find(judged("origin"), "ate", "translation")["rmse"], 2.12100433850654, 1e-11);
+  EXPECT_NEAR(find(results("none"), "ate", "translation")["rmse"], 12.6565235225568, 1e-10);
+  EXPECT_NEAR(find(results("origin"), "ate", "translation")["rmse"], 2.12100433850654, 1e-11);
 }
 
 TEST(Eval, JsonHasThePromisedKeys) {
-  const Json judged = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
+  const Json results = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
   for (const char* key : {"reference",
                           "estimate",
                           "protocol",
@@ -55,12 +55,12 @@ TEST(Eval, JsonHasThePromisedKeys) {
                           "metrics",
                           "undefined",
                           "failed"}) {
-    EXPECT_TRUE(judged.contains(key)) << key;
+    EXPECT_TRUE(results.contains(key)) << key;
   }
-  EXPECT_EQ(judged["coverage"].get<double>(),
-            judged["pairs"].get<double>() / judged["possible"].get<double>());
+  EXPECT_EQ(results["coverage"].get<double>(),
+            results["pairs"].get<double>() / results["possible"].get<double>());
   std::map<std::string, int> rows;
-  for (const Json& row : judged["metrics"]) {
+  for (const Json& row : results["metrics"]) {
     ++rows[row["metric"]];
     for (const char* key : {"metric",
                             "relation",
@@ -83,9 +83,9 @@ TEST(Eval, JsonHasThePromisedKeys) {
 }
 
 TEST(Eval, DiagnosesWhatItWasGiven) {
-  const Json judged = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
-  EXPECT_EQ(judged["diagnosis"]["matched"], 635.0);
-  EXPECT_EQ(judged["diagnosis"]["position_only_reference"], 0.0);
+  const Json results = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
+  EXPECT_EQ(results["diagnosis"]["matched"], 635.0);
+  EXPECT_EQ(results["diagnosis"]["position_only_reference"], 0.0);
   EXPECT_NE(eval({golden("gt.txt"), golden("est_corrected.txt")})
                 .find("\ndiagnosis  matched 635, possible 657, largest_gap 1.86 s, repeated 0,\n"),
             std::string::npos);
@@ -98,10 +98,10 @@ TEST(Eval, RefusesRotationOfPositionsAlone) {
     std::ofstream out(file);
     for (int i = 0; i < 20; ++i) out << i << " " << i << " " << i * i << " 0 0 0 0 1\n";
   }
-  const Json judged = eval_json({file, file});
-  EXPECT_EQ(find(judged, "ate", "translation")["count"], 20);
-  EXPECT_EQ(judged["undefined"][0]["metric"], "ate");
-  EXPECT_EQ(judged["undefined"][0]["relation"], "rotation");
+  const Json results = eval_json({file, file});
+  EXPECT_EQ(find(results, "ate", "translation")["count"], 20);
+  EXPECT_EQ(results["undefined"][0]["metric"], "ate");
+  EXPECT_EQ(results["undefined"][0]["relation"], "rotation");
   const std::string text = eval({file, file});
   EXPECT_NE(text.find("\nate rotation, rpe 1 frames translation, rpe 1 frames translation x, "),
             std::string::npos)
@@ -110,18 +110,18 @@ TEST(Eval, RefusesRotationOfPositionsAlone) {
   EXPECT_EQ(text.find("the reference has a constant"), text.rfind("the reference has a constant"));
 }
 
-TEST(Eval, SeveralEstimatesAreSeveralJudgements) {
-  const Json judged =
+TEST(Eval, SeveralEstimatesAreSeveralResults) {
+  const Json results =
       eval_json({golden("gt.txt"), golden("est_drift.txt"), golden("est_corrected.txt")});
-  ASSERT_TRUE(judged.is_array());
-  ASSERT_EQ(judged.size(), 2u);
-  EXPECT_EQ(judged[1]["estimate"], golden("est_corrected.txt"));
+  ASSERT_TRUE(results.is_array());
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[1]["estimate"], golden("est_corrected.txt"));
 }
 
 TEST(Eval, PairsKittiPosesByTheirNumber) {
-  const Json judged = eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt")});
-  EXPECT_EQ(judged["pairs"], 1200);
-  EXPECT_EQ(judged["coverage"], 1.0);
+  const Json results = eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt")});
+  EXPECT_EQ(results["pairs"], 1200);
+  EXPECT_EQ(results["coverage"], 1.0);
 }
 
 TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
@@ -131,10 +131,10 @@ TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
     std::ofstream out(times);
     for (int i = 0; i < 1200; ++i) out << 1000.0 + 0.5 * i << "\n";
   }
-  const Json judged =
+  const Json results =
       eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt"), "--times=" + times});
-  EXPECT_EQ(judged["pairs"], 1200);
-  for (const Json& row : judged["metrics"]) {
+  EXPECT_EQ(results["pairs"], 1200);
+  for (const Json& row : results["metrics"]) {
     // 0.5 s apart, so 1 s is two poses on.
     const bool is_second = row["options"] == Json{{"delta", 1.0}, {"unit", "s"}};
     if (is_second) {
@@ -191,7 +191,7 @@ TEST(Eval, WritesOverNoneOfItsInputs) {
   EXPECT_EQ(std::filesystem::file_size(mine), std::filesystem::file_size(golden("est_drift.txt")));
 }
 
-TEST(Eval, RefusesWhatItCannotJudge) {
+TEST(Eval, RefusesWhatItCannotEvaluate) {
   const std::string kitti = golden("kitti_gt.txt");
   const std::string tum = golden("gt.txt");
   EXPECT_EQ(refusal<InputError>({tum, kitti, "--period=0.1"})

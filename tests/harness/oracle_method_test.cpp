@@ -25,7 +25,7 @@ SequenceMetadata with_source(const std::string& source) {
   return out;
 }
 
-TEST(OracleMethod, IsOneTrainedOnTheJudgedReference) {
+TEST(OracleMethod, IsOneTrainedOnTheEvaluatedReference) {
   MethodChoice method{"learnt", {}, {"c.yaml", {"kitti 06"}, {"reference:06", "reference:07"}}};
   const auto why = [&](const std::string& label, const std::string& source) {
     return trained_on_evaluated(method, {label, {}}, with_source(source));

@@ -85,7 +85,7 @@ PaperCell on_curve(const PrintedCurve& curve, double offset) {
   return out;
 }
 
-TEST(CoefficientItems, AreJudgedByTheAteOfTheArticlesTable) {
+TEST(CoefficientItems, AreEvaluatedByTheAteOfTheArticlesTable) {
   const PrintedCurve& parabola = printed_curves().front();  // N = 3 on fr1_room, ATE 0.0365 m
   const auto verdict = [&](double offset) {
     return item(coefficient_items({on_curve(parabola, offset)}), parabola.text).verdict;

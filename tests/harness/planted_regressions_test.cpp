@@ -187,7 +187,7 @@ TEST(PlantedRegression, ClosuresMeasuredInTheReference) {
                {"room / raw", "oracle: closures are measured in the reference, was not"});
 }
 
-TEST(PlantedRegression, LessOfTheTrajectoryJudged) {
+TEST(PlantedRegression, LessOfTheTrajectoryEvaluated) {
   expect_named(caught_records([](Record& r) {
                  if (r.cell == 1) r.pairs = 399;
                }),

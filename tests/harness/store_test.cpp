@@ -91,7 +91,7 @@ TEST_F(StoreTest, TwoCellsOfOneContentKeepTheirNames) {
   EXPECT_EQ(methods_of("a"), (Labels{"straight", "one", "two"}));
 }
 
-TEST_F(StoreTest, WhatJudgesIsContent) {
+TEST_F(StoreTest, WhatEvaluatesIsContent) {
   run(kUsual);
   for (const char* more : {"min_coverage: 0.5\n",
                            "times: keyframes\n",

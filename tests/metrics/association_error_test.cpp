@@ -26,7 +26,7 @@ Trajectory round_trip(double rate, double shift, double speed) {
   return out;
 }
 
-Evaluation judged(const Trajectory& reference, const Trajectory& estimate, Association how) {
+Evaluation evaluated(const Trajectory& reference, const Trajectory& estimate, Association how) {
   return evaluate(reference,
                   estimate,
                   {.association = how, .max_diff = 0.02, .max_gap = 0.1, .align = Align::none});
@@ -37,7 +37,7 @@ TEST(AssociationError, IsWhatAPerfectEstimatePays) {
   const Trajectory reference = round_trip(25.0, 0.0, 15.0);
   const Trajectory perfect = round_trip(10.0, 0.013, 15.0);
   for (const Association how : {Association::nearest, Association::tum, Association::evo}) {
-    const Evaluation got = judged(reference, perfect, how);
+    const Evaluation got = evaluated(reference, perfect, how);
     const auto found = association_error(reference, got);
     ASSERT_TRUE(found);
     const double error = find(ate(got, {}), "translation", "3d").rmse;
@@ -46,7 +46,7 @@ TEST(AssociationError, IsWhatAPerfectEstimatePays) {
     EXPECT_LE(found->largest_difference, 0.02);
     EXPECT_GT(found->largest_difference, 0.01);
   }
-  const Evaluation between = judged(reference, perfect, Association::interpolate);
+  const Evaluation between = evaluated(reference, perfect, Association::interpolate);
   EXPECT_FALSE(association_error(reference, between));
   EXPECT_LT(find(ate(between, {}), "translation", "3d").rmse, 1e-3);
 }
@@ -54,7 +54,7 @@ TEST(AssociationError, IsWhatAPerfectEstimatePays) {
 TEST(AssociationError, IsZeroForEqualStampsAndUsesTheOffset) {
   const Trajectory reference = round_trip(10.0, 0.0, 15.0);
   EXPECT_EQ(
-      association_error(reference, judged(reference, reference, Association::nearest))->metres,
+      association_error(reference, evaluated(reference, reference, Association::nearest))->metres,
       0.0);
   Trajectory late = reference;
   for (StampedPose& pose : late) pose.stamp -= 100.0;

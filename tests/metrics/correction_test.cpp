@@ -98,7 +98,7 @@ TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
   EXPECT_EQ(gained(Statistic::median).why_undefined, "the error before correction is zero");
 }
 
-TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreJudged) {
+TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreEvaluated) {
   const Trajectory truth = test::hand_held_truth();
   const Problem problem = test::drifting(truth, twist({0.002, 0, 0}, {0, 0, 0.003}), {{0, 59}});
   for (const Times times : {Times::keyframes, Times::dense}) {

@@ -44,7 +44,7 @@ std::vector<Score> scores(const MetricEntry& entry, int ddof) {
 }
 
 TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
-  std::set<std::string> judged;
+  std::set<std::string> evaluated;
   for (const MetricEntry& entry : metrics::metrics()) {
     std::vector<Score> plain, unbiased;
     try {
@@ -60,7 +60,7 @@ TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
       const auto n = static_cast<double>(s.count);
       EXPECT_NEAR(unbiased[i].statistics.std, s.std * std::sqrt(n / (n - 1.0)), 1e-12 * s.std)
           << entry.name << " " << plain[i].relation;
-      judged.insert(entry.name);
+      evaluated.insert(entry.name);
     }
   }
   for (const char* name : {"ate",
@@ -72,7 +72,7 @@ TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
                            "jumps",
                            "local_shape",
                            "smoothing_headroom"}) {
-    EXPECT_TRUE(judged.contains(name)) << name;
+    EXPECT_TRUE(evaluated.contains(name)) << name;
   }
 }
 

@@ -47,7 +47,7 @@ std::vector<double> ends(double step) {
   return out;
 }
 
-TEST(Evaluation, TimeLostIsNotJudged) {
+TEST(Evaluation, TimeLostIsNotEvaluated) {
   const auto span = [](const Trajectory& reference, const Trajectory& estimate) {
     return evaluate(reference, estimate, kPlain).coverage.span;
   };
@@ -61,14 +61,14 @@ TEST(Evaluation, TimeLostIsNotJudged) {
   EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: at rest, no keyframes expected
 }
 
-TEST(Evaluation, ABridgedTrackingGapIsNotJudged) {
+TEST(Evaluation, ABridgedTrackingGapIsNotEvaluated) {
   const Trajectory complete = at(every(0.5, 0.0, 40.0));
   const std::vector<double> keyframes = ends(0.5);  // none from 3.5 to 36.5 s
   const Polyline chord(at(keyframes));
-  const auto judged = [&](const Protocol& rules, const std::vector<double>& tracked = {}) {
+  const auto evaluated = [&](const Protocol& rules, const std::vector<double>& tracked = {}) {
     return evaluate(complete, chord, keyframes, Times::dense, rules, tracked).coverage;
   };
-  const Coverage limited = judged(kPlain);
+  const Coverage limited = evaluated(kPlain);
   EXPECT_EQ(limited.pairs, keyframes.size());
   EXPECT_EQ(limited.possible, complete.size());
   EXPECT_EQ(limited.span, 7.0 / 40.0);
@@ -76,15 +76,15 @@ TEST(Evaluation, ABridgedTrackingGapIsNotJudged) {
 
   Protocol any = kPlain;
   any.max_estimate_gap = 0.0;
-  const Coverage all = judged(any);
+  const Coverage all = evaluated(any);
   EXPECT_EQ(all.pairs, complete.size());
   EXPECT_EQ(all.span, 1.0);
   EXPECT_EQ(all.bridged, 33.0);
   Protocol longer = kPlain;
   longer.max_estimate_gap = 34.0;
-  EXPECT_EQ(judged(longer).bridged, 0.0);
+  EXPECT_EQ(evaluated(longer).bridged, 0.0);
 
-  const Coverage tracked = judged(kPlain, stamps(complete));  // frames between the keyframes
+  const Coverage tracked = evaluated(kPlain, stamps(complete));  // frames between the keyframes
   EXPECT_EQ(tracked.pairs, complete.size());
   EXPECT_EQ(tracked.bridged, 0.0);
 }
@@ -167,7 +167,7 @@ TEST(Evaluation, SaysThatTheAlignmentIsDegenerate) {
   EXPECT_THROW(evaluate(straight, straight, {.align = Align::se3}), std::runtime_error);
 }
 
-TEST(Evaluation, JudgesACurveAtItsKeyframes) {
+TEST(Evaluation, EvaluatesACurveAtItsKeyframes) {
   const Polyline curve(at({1, 2, 4}));
   const Evaluation got =
       evaluate(at({0, 1, 2, 3, 4, 5}), curve, {1, 2, 4}, Times::keyframes, kPlain);
@@ -176,7 +176,7 @@ TEST(Evaluation, JudgesACurveAtItsKeyframes) {
   EXPECT_EQ(got.coverage.span, 0.6);
 }
 
-TEST(Evaluation, JudgesACurveAtEveryReferenceStampInsideItsSpan) {
+TEST(Evaluation, EvaluatesACurveAtEveryReferenceStampInsideItsSpan) {
   const Polyline curve(at({1, 2, 4}));
   const Evaluation got = evaluate(at({0, 1, 2.5, 3, 4, 5}), curve, {}, Times::dense, kPlain);
   EXPECT_EQ(stamps(got.reference), (std::vector<double>{1, 2.5, 3, 4}));

@@ -74,7 +74,7 @@ std::string label(Json row) {
   return row.dump();
 }
 
-Evaluation judged(const Json& row, const std::string& name, const Params& changes) {
+Evaluation evaluated(const Json& row, const std::string& name, const Params& changes) {
   return evaluate(file("gt.txt"), file(row["est"]), named_protocol(name, changes).rules);
 }
 
@@ -94,7 +94,7 @@ void evo_ape(const Json& row) {
   const bool is_first_100 = row["align"] == "se3_n100";
   changes["align"] = is_first_100 ? "se3" : row["align"].get<std::string>();
   if (is_first_100) changes["align_first"] = std::int64_t{100};
-  const Evaluation got = judged(row, "evo", changes);
+  const Evaluation got = evaluated(row, "evo", changes);
   if (row.contains("scale")) expect_same(got.alignment.scale, row["scale"], label(row));
   const std::vector<Score> scores = ape(got, {relation(row)});
   expect_same(scores.at(0).statistics, row["stats"], label(row));
@@ -112,7 +112,7 @@ void evo_rpe(const Json& row) {
       .pairs_from = is_reference ? RpePairsFrom::reference : RpePairsFrom::protocol,
       .pairs = row["all_pairs"] == 1 ? RpePairs::all : RpePairs::protocol,
       .relation = relation(row)};
-  const std::vector<Score> scores = rpe(judged(row, "evo", {}), options);
+  const std::vector<Score> scores = rpe(evaluated(row, "evo", {}), options);
   expect_same(scores.at(0).statistics, row["stats"], label(row));
 }
 
@@ -129,7 +129,7 @@ RpeOptions tum_stretch(const Json& row) {
 
 void tum_rpe(const Json& row) {
   RpeOptions options = tum_stretch(row);
-  const Evaluation paired = judged(row, "tum", {});
+  const Evaluation paired = evaluated(row, "tum", {});
   expect_same(find(rpe(paired, options), "translation", "3d"), row["trans"], label(row));
   options.relation = Relation::rotation_angle_rad;
   const Statistics got = rpe(paired, options).at(0).statistics;
@@ -138,7 +138,7 @@ void tum_rpe(const Json& row) {
 
 void tum_pairs_in_evos_form(const Json& row) {
   const Params form{{"form", std::string("evo")}};
-  const std::vector<Score> got = rpe(judged(row, "tum", form), tum_stretch(row));
+  const std::vector<Score> got = rpe(evaluated(row, "tum", form), tum_stretch(row));
   expect_same(find(got, "translation", "3d"), row["trans"], label(row));
 }
 
@@ -146,7 +146,7 @@ void tum_pairs_in_evos_form(const Json& row) {
 void rpg(const Json& row) {
   std::string align = row["align"];
   if (row["n_frames"] == 1) align = align == "se3" ? "origin" : "posyaw_origin";
-  const Evaluation got = judged(row, "rpg", {{"align", align}});
+  const Evaluation got = evaluated(row, "rpg", {{"align", align}});
   expect_same(got.reference_length, row["length"], label(row));
   expect_same(got.alignment.scale, row["scale"], label(row));
   expect_same(find(ate(got, {}), "translation", "3d"), row["abs_trans"], label(row));
@@ -214,9 +214,9 @@ TEST(Golden, BurstSeparatesTheAssociations) {
 TEST(Golden, TumRpeOfRandomPairs) {
   const Params random{{"pairs", std::string("tum_random")}};
   const auto expect = [&](const char* name, std::size_t n, double rmse, double mean, double deg) {
-    const Evaluation judged =
+    const Evaluation evaluated =
         evaluate(file("gt.txt"), file(name), named_protocol("tum", random).rules);
-    const std::vector<Score> got = rpe(judged, {});
+    const std::vector<Score> got = rpe(evaluated, {});
     const Statistics translation = find(got, "translation", "3d");
     EXPECT_EQ(translation.count, n) << name;
     expect_same(translation.rmse, rmse, name);
@@ -230,11 +230,11 @@ TEST(Golden, TumRpeOfRandomPairs) {
 
 TEST(Golden, RandomPairsHaveNoDelta) {
   const Params random{{"pairs", std::string("tum_random")}};
-  const Evaluation judged =
+  const Evaluation evaluated =
       evaluate(file("gt.txt"), file("est_drift.txt"), named_protocol("tum", random).rules);
-  EXPECT_EQ(why<Undefined>([&] { rpe(judged, {.delta = 1.0, .unit = DeltaUnit::s}); }),
+  EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, {.delta = 1.0, .unit = DeltaUnit::s}); }),
             "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
-  EXPECT_EQ(rpe(judged, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
+  EXPECT_EQ(rpe(evaluated, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
             620u);
 }
 

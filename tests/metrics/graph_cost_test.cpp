@@ -11,11 +11,11 @@ using namespace metrics;
 namespace {
 
 /// Two steps of 1 m and a closure over both; each test adds its own error to the estimate.
-struct Judged {
+struct Evaluated {
   Problem problem;
   Trajectory estimate;
 
-  Judged() {
+  Evaluated() {
     for (int i = 0; i < 3; ++i) {
       problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0.0, 0.0)}});
     }
@@ -39,10 +39,10 @@ struct Judged {
 };
 
 TEST(GraphCost, IsTheSumOfSquaresByHand) {
-  Judged judged;
-  judged.estimate[2].world_from_body.translation.x() += 0.1;
+  Evaluated evaluated;
+  evaluated.estimate[2].world_from_body.translation.x() += 0.1;
   for (const GraphError error : {GraphError::twist, GraphError::quaternion, GraphError::chordal}) {
-    const auto cost = judged.cost(error);  // (0.1)^2 times 4 and times 100
+    const auto cost = evaluated.cost(error);  // (0.1)^2 times 4 and times 100
     ASSERT_EQ(cost.size(), 3u);
     EXPECT_NEAR(cost[0], 1.04, 1e-12) << to_text(error);
     EXPECT_NEAR(cost[1], 0.04, 1e-12);
@@ -51,24 +51,24 @@ TEST(GraphCost, IsTheSumOfSquaresByHand) {
 }
 
 TEST(GraphCost, CountsATurnAsEachConventionDoes) {
-  Judged judged;
-  judged.problem.odometry.resize(1);
-  judged.problem.closures.clear();
-  judged.problem.odometry[0].from_from_to = {};
-  judged.estimate[1].world_from_body = {exp_so3({0.0, 0.0, 1.0}), Vector3::Zero()};
-  EXPECT_NEAR(judged.cost(GraphError::twist)[0], 1.0, 1e-12);
-  EXPECT_NEAR(judged.cost(GraphError::quaternion)[0], std::pow(2.0 * std::sin(0.5), 2), 1e-12);
+  Evaluated evaluated;
+  evaluated.problem.odometry.resize(1);
+  evaluated.problem.closures.clear();
+  evaluated.problem.odometry[0].from_from_to = {};
+  evaluated.estimate[1].world_from_body = {exp_so3({0.0, 0.0, 1.0}), Vector3::Zero()};
+  EXPECT_NEAR(evaluated.cost(GraphError::twist)[0], 1.0, 1e-12);
+  EXPECT_NEAR(evaluated.cost(GraphError::quaternion)[0], std::pow(2.0 * std::sin(0.5), 2), 1e-12);
   // |R - I|^2 = 4 (1 - cos 1), kappa = 3 / (2 * 3).
-  EXPECT_NEAR(judged.cost(GraphError::chordal)[0], 2.0 * (1.0 - std::cos(1.0)), 1e-12);
-  judged.problem.planar = true;
-  EXPECT_NEAR(judged.cost(GraphError::quaternion)[0], 1.0, 1e-12);
-  EXPECT_NEAR(judged.cost(GraphError::chordal)[0], 4.0 * (1.0 - std::cos(1.0)), 1e-12);
+  EXPECT_NEAR(evaluated.cost(GraphError::chordal)[0], 2.0 * (1.0 - std::cos(1.0)), 1e-12);
+  evaluated.problem.planar = true;
+  EXPECT_NEAR(evaluated.cost(GraphError::quaternion)[0], 1.0, 1e-12);
+  EXPECT_NEAR(evaluated.cost(GraphError::chordal)[0], 4.0 * (1.0 - std::cos(1.0)), 1e-12);
 }
 
 TEST(GraphCost, NeedsEdgesOfOneUnit) {
-  Judged judged;
-  judged.problem.closures[0].scale = 2.0;
-  EXPECT_THROW(judged.cost(GraphError::twist), std::runtime_error);
+  Evaluated evaluated;
+  evaluated.problem.closures[0].scale = 2.0;
+  EXPECT_THROW(evaluated.cost(GraphError::twist), std::runtime_error);
   EXPECT_THROW(graph_cost({}, {}), std::runtime_error);
 }
 

@@ -20,7 +20,7 @@ Sequence out_and_back() {
   return out;
 }
 
-Detection judged(const Sequence& sequence) {
+Detection evaluated(const Sequence& sequence) {
   DetectionRule rule;
   rule.radius = 0.5;
   rule.min_gap = 1.5;
@@ -31,7 +31,7 @@ TEST(LoopDetection, AllRightIsOneThroughout) {
   Sequence s = out_and_back();
   s.loop_candidates = {{2, 4, 9.0, true}, {1, 5, 8.0, true}, {0, 6, 7.0, true}};
   s.problem.closures = {{2, 4, {}}, {1, 5, {}}};
-  const auto score = judged(s);
+  const auto score = evaluated(s);
   EXPECT_EQ(score.revisits, 3u);
   EXPECT_EQ(score.average_precision, 1.0);
   EXPECT_EQ(score.full_precision_recall, 1.0);
@@ -46,7 +46,7 @@ TEST(LoopDetection, AWrongOneInTheMiddleCostsWhatTheDefinitionSays) {
   // Right, wrong, right: precision 1, 1/2, 2/3 at recall 1/3, 1/3, 2/3.
   s.loop_candidates = {{2, 4, 9.0, true}, {3, 5, 8.0, true}, {0, 6, 7.0, false}};
   s.problem.closures = {{2, 4, {}}, {3, 5, {Rotation::Identity(), Vector3(-1.0, 0.0, 0.0)}}};
-  const auto score = judged(s);
+  const auto score = evaluated(s);
   EXPECT_NEAR(score.average_precision, 1.0 / 3.0 + 2.0 / 3.0 / 3.0, 1e-12);
   EXPECT_NEAR(score.full_precision_recall, 1.0 / 3.0, 1e-12);
   EXPECT_EQ(score.precision, 0.5);
@@ -60,11 +60,11 @@ TEST(LoopDetection, AWrongOneInTheMiddleCostsWhatTheDefinitionSays) {
 TEST(LoopDetection, EqualScoresCountTogether) {
   Sequence s = out_and_back();
   s.loop_candidates = {{2, 4, 9.0, true}, {3, 5, 9.0, true}};
-  EXPECT_NEAR(judged(s).average_precision, 0.5 / 3.0, 1e-12);
-  EXPECT_EQ(judged(s).full_precision_recall, 0.0);
+  EXPECT_NEAR(evaluated(s).average_precision, 0.5 / 3.0, 1e-12);
+  EXPECT_EQ(evaluated(s).full_precision_recall, 0.0);
 }
 
-TEST(LoopDetection, GivesRowsAndDeclinesWhereThereIsNothingToJudge) {
+TEST(LoopDetection, GivesRowsAndDeclinesWhereThereIsNothingToEvaluate) {
   Sequence s = out_and_back();
   s.loop_candidates = {{2, 4, 9.0, true}, {3, 5, 8.0, true}, {0, 6, 7.0, false}};
   Evaluation evaluation;
@@ -100,10 +100,10 @@ TEST(LoopDetection, NeedsAReferenceAndFindsNoRevisitWhereThereIsNone) {
   Sequence s = out_and_back();
   s.reference.resize(4);
   s.problem.keyframes.resize(4);
-  EXPECT_EQ(judged(s).revisits, 0u);
-  EXPECT_EQ(judged(s).precision, 1.0);
+  EXPECT_EQ(evaluated(s).revisits, 0u);
+  EXPECT_EQ(evaluated(s).precision, 1.0);
   s.reference.clear();
-  EXPECT_THROW(judged(s), std::runtime_error);
+  EXPECT_THROW(evaluated(s), std::runtime_error);
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(TumMotions, OfMoreThanMaxPairsAreThoseThatTheToolDraws) {
   for (const Json& wanted : sampled()["rpe"]) {
     const Protocol rules =
         named_protocol("tum", {{"max_pairs", wanted["max_pairs"].get<std::int64_t>()}}).rules;
-    const Evaluation judged = evaluate(reference, estimate, rules);
+    const Evaluation evaluated = evaluate(reference, estimate, rules);
     RpeOptions options{.delta = wanted["delta"], .unit = DeltaUnit::s};
     const auto expect = [&](const Statistics& got, const Json& row) {
       ASSERT_EQ(got.count, row["n"].get<std::size_t>());
@@ -204,9 +204,9 @@ TEST(TumMotions, OfMoreThanMaxPairsAreThoseThatTheToolDraws) {
         EXPECT_NEAR(value, row[name].get<double>(), 1e-9) << name << " of " << wanted["delta"];
       }
     };
-    expect(find(rpe(judged, options), "translation", "3d"), wanted["trans"]);
+    expect(find(rpe(evaluated, options), "translation", "3d"), wanted["trans"]);
     options.relation = Relation::rotation_angle_rad;
-    expect(rpe(judged, options).front().statistics, wanted["rot_rad"]);
+    expect(rpe(evaluated, options).front().statistics, wanted["rot_rad"]);
   }
 }
 

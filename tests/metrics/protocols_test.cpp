@@ -110,9 +110,9 @@ Trajectory road(int size) {
   return out;
 }
 
-Evaluation judged(const std::string& name,
-                  const Trajectory& reference,
-                  const Trajectory& estimate) {
+Evaluation evaluated(const std::string& name,
+                     const Trajectory& reference,
+                     const Trajectory& estimate) {
   return evaluate(reference, estimate, named_protocol(name).rules);
 }
 
@@ -122,7 +122,7 @@ TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
   const double tilt = 0.1;
   const Pose elsewhere{exp_so3(Vector3(0.0, 0.0, 0.3)) * exp_so3(Vector3(0.0, tilt, 0.0)),
                        Vector3(1.0, 2.0, 3.0)};
-  const Evaluation got = judged("ov_eval", road(21), moved_by(elsewhere, 1.0, road(21)));
+  const Evaluation got = evaluated("ov_eval", road(21), moved_by(elsewhere, 1.0, road(21)));
   EXPECT_EQ(got.alignment.scale, 1.0);
   const std::vector<Score> scores = ate(got, {});
   EXPECT_NEAR(find(scores, "rotation", "3d").min, kDegrees * tilt, 1e-9);
@@ -135,7 +135,7 @@ TEST(OvEval, AlignsYawAndPositionAndLeavesTheTilt) {
 TEST(OvEval, SegmentsStartEverywhereAndStdDividesByOneLess) {
   Trajectory estimate = road(21);
   estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the path
-  const std::vector<Score> got = segments(judged("ov_eval", road(21), estimate), {});
+  const std::vector<Score> got = segments(evaluated("ov_eval", road(21), estimate), {});
   std::set<std::string> axes;
   for (const Score& score : got) axes.insert(score.axis);
   EXPECT_EQ(axes, (std::set<std::string>{"all", "8 m", "16 m"}));  // 24 m and more are too long
@@ -156,9 +156,9 @@ TEST(OvEval, SegmentsStartEverywhereAndStdDividesByOneLess) {
 TEST(OvEval, AnEndExactlyHalfAMetreOffIsNone) {
   Trajectory off = road(2);
   off[1].world_from_body.translation.x() = 7.5;
-  EXPECT_THROW(segments(judged("ov_eval", off, off), {}), Undefined);
+  EXPECT_THROW(segments(evaluated("ov_eval", off, off), {}), Undefined);
   off[1].world_from_body.translation.x() = 7.6;
-  EXPECT_EQ(find(segments(judged("ov_eval", off, off), {}), "translation", "8 m").count, 1u);
+  EXPECT_EQ(find(segments(evaluated("ov_eval", off, off), {}), "translation", "8 m").count, 1u);
 }
 
 /// 40 steps along x, then 40 along y, 10 ms each, rotating; `at` is the number of steps done.
@@ -175,7 +175,7 @@ TEST(Eth3d, InterpolatesTheReferenceOverAtMostASeventyFifth) {
     if (i != 20) reference.push_back({0.01 * i, on_the_corner(0.1, i)});
     if (i < 80) estimate.push_back({0.01 * (i + 0.5), on_the_corner(0.1, i + 0.5)});
   }
-  const Evaluation got = judged("eth3d", reference, estimate);
+  const Evaluation got = evaluated("eth3d", reference, estimate);
   EXPECT_EQ(got.coverage.pairs, 78u);
   EXPECT_NEAR(find(ate(got, {}), "translation", "3d").max, 0.0, 1e-12);
 }
@@ -187,7 +187,7 @@ TEST(Eth3d, ErrorsAreOfTheMetresGoneAndNothingIsScaled) {
     reference.push_back({0.01 * i, on_the_corner(0.101, i)});
     estimate.push_back({0.01 * i, on_the_corner(1.01 * 0.101, i)});
   }
-  const Evaluation got = judged("eth3d", reference, estimate);
+  const Evaluation got = evaluated("eth3d", reference, estimate);
   EXPECT_EQ(got.alignment.scale, 1.0);
   // Five steps are 0.505 m for 0.5 m and 1 % too long: error 1 % of the distance travelled, less
   // across the corner. 20 steps are 2.02 m.

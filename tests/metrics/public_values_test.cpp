@@ -27,7 +27,7 @@ class PublicValues : public testing::Test {
     }
   }
 
-  Evaluation judged(const std::string& estimate, const Protocol& protocol) const {
+  Evaluation evaluated(const std::string& estimate, const Protocol& protocol) const {
     // Published ground truths have repeated stamps.
     ReadOptions options;
     options.repeats = Repeats::keep_first;
@@ -49,7 +49,7 @@ void expect_ate(const Evaluation& got, std::size_t pairs, double rmse) {
 TEST_F(PublicValues, Fr2DeskOrbSlam) {
   const std::string file = "fr2_desk/orbslam_frames_evo.txt";
   const auto evo = [&](Align type) {
-    return judged(file, {.association = Association::evo, .max_diff = 0.01, .align = type});
+    return evaluated(file, {.association = Association::evo, .max_diff = 0.01, .align = type});
   };
   const Evaluation se3 = evo(Align::se3);
   expect_ate(se3, 2174, 0.00811897756204491);
@@ -59,14 +59,14 @@ TEST_F(PublicValues, Fr2DeskOrbSlam) {
   expect_ate(evo(Align::sim3), 2174, 0.00612316303015723);
   expect_ate(evo(Align::origin), 2174, 0.0420155117134367);
 
-  expect_ate(judged(file, {.association = Association::tum}), 2223, 0.00814396716951911);
-  const Evaluation rpg = judged(file, {.association = Association::tum, .align = Align::sim3});
+  expect_ate(evaluated(file, {.association = Association::tum}), 2223, 0.00814396716951911);
+  const Evaluation rpg = evaluated(file, {.association = Association::tum, .align = Align::sim3});
   EXPECT_NEAR(rpg.alignment.scale, 0.9970022884061697, 1e-12);
   expect_ate(rpg, 2223, 0.0061856729003283);
 
   const RpeOptions second{.delta = 1.0, .unit = DeltaUnit::s};
   const auto tum = [&](const Params& changes) {
-    return rpe(judged(file, named_protocol("tum", changes).rules), second);
+    return rpe(evaluated(file, named_protocol("tum", changes).rules), second);
   };
   const Statistics metres = find(tum({}), "translation", "3d");
   EXPECT_EQ(metres.count, 1998u);
@@ -81,7 +81,8 @@ TEST_F(PublicValues, RpgPairsStartsWithOtherStartsEnds) {
   const std::string file = "fr2_desk/orbslam_frames_evo.txt";
   const auto over_2_metres = [&](const std::string& name) {
     const Params rigid{{"align", std::string("se3")}};
-    const std::vector<Score> scores = segments(judged(file, named_protocol(name, rigid).rules), {});
+    const std::vector<Score> scores =
+        segments(evaluated(file, named_protocol(name, rigid).rules), {});
     for (const Score& score : scores) {
       if (score.relation == "translation" && score.axis == "10%" && score.unit == "m") {
         return score.statistics.rmse;
@@ -95,11 +96,12 @@ TEST_F(PublicValues, RpgPairsStartsWithOtherStartsEnds) {
 
 TEST_F(PublicValues, Fr1XyzRgbdSlam) {
   const std::string file = "fr1_xyz/rgbdslam_frames.txt";
-  expect_ate(
-      judged(file, {.association = Association::evo, .max_diff = 0.01}), 785, 0.0134700888497337);
-  expect_ate(judged(file, {.association = Association::tum}), 786, 0.0134734677699068);
+  expect_ate(evaluated(file, {.association = Association::evo, .max_diff = 0.01}),
+             785,
+             0.0134700888497337);
+  expect_ate(evaluated(file, {.association = Association::tum}), 786, 0.0134734677699068);
   const std::vector<Score> got =
-      rpe(judged(file, named_protocol("tum").rules), {.delta = 1.0, .unit = DeltaUnit::s});
+      rpe(evaluated(file, named_protocol("tum").rules), {.delta = 1.0, .unit = DeltaUnit::s});
   EXPECT_EQ(find(got, "translation", "3d").count, 753u);
   EXPECT_NEAR(find(got, "translation", "3d").rmse, 0.0212174440791267, 1e-9 * 0.02);
 }

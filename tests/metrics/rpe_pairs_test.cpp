@@ -29,17 +29,17 @@ TEST(RpePairs, OnePairOfManyPosesIsNoNumber) {
   std::mt19937_64 random(11);
   const Trajectory reference = sparse(random);
   const Trajectory estimate = noisy(random, reference, 0.1, 0.1);
-  const Evaluation judged = evaluate(reference, estimate, Protocol{});
-  EXPECT_EQ(judged.coverage.pairs, 70u);
-  EXPECT_EQ(why<Undefined>([&] { rpe(judged, kSecond); }),
+  const Evaluation evaluated = evaluate(reference, estimate, Protocol{});
+  EXPECT_EQ(evaluated.coverage.pairs, 70u);
+  EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, kSecond); }),
             "rpe: found 1 pair 1.0 s apart among 70 poses, fewer than min_pairs = 10");
 
   RpeOptions any = kSecond;
   any.min_pairs = 1.0;
-  EXPECT_EQ(find(rpe(judged, any), "translation", "3d").count, 1u);
+  EXPECT_EQ(find(rpe(evaluated, any), "translation", "3d").count, 1u);
   RpeOptions wide = kSecond;
   wide.tolerance = 0.5;
-  EXPECT_EQ(find(rpe(judged, wide), "translation", "3d").count, 69u);
+  EXPECT_EQ(find(rpe(evaluated, wide), "translation", "3d").count, 69u);
 }
 
 TEST(RpePairs, OtherToolsTakeAnyNumber) {
@@ -55,8 +55,10 @@ TEST(RpePairs, ConsecutiveSecondsAreThoseAskedFor) {
     reference[i].stamp = static_cast<double>(i) / 15.0;  // 15 Hz
   }
   const Trajectory estimate = noisy(random, reference, 0.1, 0.1);
-  const Evaluation judged = evaluate(reference, estimate, named_protocol("evo").rules);
-  const auto of = [&](double delta) { return rpe(judged, {.delta = delta, .unit = DeltaUnit::s}); };
+  const Evaluation evaluated = evaluate(reference, estimate, named_protocol("evo").rules);
+  const auto of = [&](double delta) {
+    return rpe(evaluated, {.delta = delta, .unit = DeltaUnit::s});
+  };
   EXPECT_EQ(why<Undefined>([&] { of(0.1); }), "rpe: none of 301 poses is 0.1 s before another");
   EXPECT_EQ(find(of(0.2), "translation", "3d").count, 100u);
 }
@@ -67,9 +69,9 @@ TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
   const Trajectory estimate = noisy(random, reference, 0.2, 0.5);
   for (const char* name : {"loopbench", "evo", "tum", "kitti"}) {
     Params same_length{{"align", std::string("se3")}};
-    const Evaluation judged =
+    const Evaluation evaluated =
         evaluate(reference, estimate, named_protocol(name, same_length).rules);
-    const auto scores = rpe(judged, {.delta = 5.0});
+    const auto scores = rpe(evaluated, {.delta = 5.0});
     const Statistics complete = find(scores, "translation", "3d");
     double squares = 0.0;
     for (const char* axis : {"x", "y", "z"}) {

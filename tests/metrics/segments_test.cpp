@@ -149,8 +149,9 @@ TEST(Segments, OfPositionsAloneAreRefused) {
   for (int i = 0; i < 50; ++i) {
     poses.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0.1 * i * i, 0.0)}});
   }
-  const Evaluation judged = evaluate(poses, poses, named_protocol("loopbench").rules);
-  EXPECT_EQ(why<Undefined>([&] { segments(judged, {}); }).find("the reference has a constant"), 0u);
+  const Evaluation evaluated = evaluate(poses, poses, named_protocol("loopbench").rules);
+  EXPECT_EQ(why<Undefined>([&] { segments(evaluated, {}); }).find("the reference has a constant"),
+            0u);
 }
 
 TEST(Segments, WithoutAnySaysSo) {

@@ -13,7 +13,7 @@ const std::vector<GroupRatios> kGroups{
     {"b", "b", {{std::log(1.0), std::log(0.8)}}},
     {"c", "c", {{std::log(1.2), std::log(1.1)}, {std::log(1.2), std::log(1.0)}}}};
 
-TEST(LeftOut, ChoosesWithoutTheGroupItJudges) {
+TEST(LeftOut, ChoosesWithoutTheGroupItIsTestedOn) {
   EXPECT_NEAR(mean_log(kGroups[2], 1), 0.5 * std::log(1.1), 1e-15);
   const LeftOutEstimate found = left_out(kGroups);
   EXPECT_EQ(found.chosen, (std::vector<std::size_t>{1, 0, 0}));

@@ -61,8 +61,8 @@ std::string refusal(const std::vector<std::string>& arguments) {
   return "";
 }
 
-inline Json find(const Json& judged, const std::string& metric, const std::string& relation) {
-  for (const Json& row : judged["metrics"]) {
+inline Json find(const Json& results, const std::string& metric, const std::string& relation) {
+  for (const Json& row : results["metrics"]) {
     if (row["metric"] == metric && row["relation"] == relation && row["axis"] == "3d") return row;
   }
   ADD_FAILURE() << "no " << metric << " " << relation;
