@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/msg.h>
+#include <sys/resource.h>
 #include <sys/sem.h>
 #include <sys/shm.h>
 #include <sys/socket.h>
@@ -32,11 +33,11 @@ namespace {
 /// Exit code of `work` in a sandbox, in a process of its own.
 int in_sandbox(const SandboxOptions& options,
                const std::function<int()>& work,
-               FileAttributes attributes = FileAttributes::changeable) {
+               Privileges privileges = Privileges::of_programs) {
   const Sandbox sandbox(options, {getpid()});
   const pid_t child = fork();
   if (child == 0) {
-    sandbox.enter(attributes);
+    sandbox.enter(privileges);
     _exit(work());
   }
   int status = 0;
@@ -73,6 +74,22 @@ TEST_F(Sandboxed, FilesAreReadableExceptUnreachableOnesAndWritableNowhere) {
   EXPECT_EQ(in_sandbox(options, [&] { return error_of(unlink(shown.c_str())); }), EACCES);
 }
 
+TEST_F(Sandboxed, ResultsBesideAnUnreachablePathAreUnreachable) {
+  if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
+  for (const char* name : {"own", "other", "sharded/shards/1-of-2", "data/shards/1"}) {
+    std::filesystem::create_directories(folder_.path() / name);
+  }
+  const std::string shown = file("data/shards/1/points");
+  SandboxOptions options;
+  options.unreachable = {folder_.path() / "own"};
+  for (const char* name :
+       {"results.sqlite", "other/results.sqlite", "sharded/shards/1-of-2/results.sqlite"}) {
+    const std::string hidden = file(name);
+    EXPECT_EQ(in_sandbox(options, [&] { return read_error(hidden); }), EACCES) << name;
+  }
+  EXPECT_EQ(in_sandbox(options, [&] { return read_error(shown); }), 0);
+}
+
 TEST_F(Sandboxed, AProgramCanBeStartedAndWriteIntoItsFolder) {
   if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
   const std::string outside = file("outside.txt");
@@ -90,12 +107,14 @@ TEST_F(Sandboxed, AProgramCanBeStartedAndWriteIntoItsFolder) {
   EXPECT_NE(shell("echo new > '" + outside + "' 2>/dev/null"), 0);
 }
 
-TEST_F(Sandboxed, NetworkSocketsAreRefusedAndLocalOnesAreNot) {
+TEST_F(Sandboxed, NetworkSocketsAreRefusedAndLocalOnesToMethodsOnly) {
   if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
   for (const int family : {AF_INET, AF_INET6, AF_PACKET, AF_NETLINK}) {
     EXPECT_EQ(in_sandbox({}, [&] { return error_of(socket(family, SOCK_DGRAM, 0)); }), EPERM);
   }
-  EXPECT_EQ(in_sandbox({}, [] { return error_of(socket(AF_UNIX, SOCK_STREAM, 0)); }), 0);
+  const auto local = [] { return error_of(socket(AF_UNIX, SOCK_STREAM, 0)); };
+  EXPECT_EQ(in_sandbox({}, local, Privileges::of_methods), EPERM);
+  EXPECT_EQ(in_sandbox({}, local, Privileges::of_programs), 0);
 }
 
 TEST_F(Sandboxed, MemoryAndMessagesThatOutliveACellAreRefused) {
@@ -138,7 +157,7 @@ TEST_F(Sandboxed, OnlyProgramsChangeModesAndTimesOfFiles) {
   const auto open_file = [&] { return error_of(fchmod(open(reference.c_str(), O_RDONLY), 0600)); };
   for (const std::function<int()>& change :
        std::initializer_list<std::function<int()>>{mode, times, owner, attribute, open_file}) {
-    EXPECT_EQ(in_sandbox({}, change, FileAttributes::fixed), EPERM);
+    EXPECT_EQ(in_sandbox({}, change, Privileges::of_methods), EPERM);
   }
   EXPECT_EQ(in_sandbox({}, mode), 0);
   EXPECT_EQ(in_sandbox({}, times), 0);
@@ -158,6 +177,40 @@ TEST_F(Sandboxed, GuardedProcessesCannotBeSignalled) {
                          return error_of(kill(child, SIGKILL));
                        }),
             0);
+}
+
+TEST_F(Sandboxed, GuardedProcessesCannotBeSlowedDown) {
+  if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
+  const auto priority = [](int which, int who) {
+    return [=] { return error_of(setpriority(static_cast<__priority_which>(which), who, 1)); };
+  };
+  const auto core_of = [](pid_t process) {
+    cpu_set_t cores;
+    sched_getaffinity(process, sizeof cores, &cores);
+    return error_of(sched_setaffinity(process, sizeof cores, &cores));
+  };
+  EXPECT_EQ(in_sandbox({}, priority(PRIO_PROCESS, getpid())), EPERM);
+  EXPECT_EQ(in_sandbox({}, priority(PRIO_PGRP, 0)), EPERM);
+  EXPECT_EQ(in_sandbox({}, priority(PRIO_USER, 0)), EPERM);
+  EXPECT_EQ(in_sandbox({}, priority(PRIO_PROCESS, 0)), 0);
+  EXPECT_EQ(in_sandbox({}, [&] { return core_of(getppid()); }), EPERM);
+  EXPECT_EQ(in_sandbox({}, [&] { return core_of(0); }), 0);
+  EXPECT_EQ(in_sandbox({},
+                       [] {
+                         const sched_param parameters{};
+                         return error_of(sched_setscheduler(getppid(), SCHED_IDLE, &parameters));
+                       }),
+            EPERM);
+}
+
+TEST_F(Sandboxed, AFolderOfProcIsNoDescriptorForSignals) {
+  if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
+  const auto signal_parent = [] {
+    const std::string parent = "/proc/" + std::to_string(getppid());
+    const int descriptor = open(parent.c_str(), O_RDONLY | O_DIRECTORY);
+    return error_of(syscall(SYS_pidfd_send_signal, descriptor, 0, nullptr, 0));
+  };
+  EXPECT_EQ(in_sandbox({}, signal_parent), ENOSYS);
 }
 
 TEST_F(Sandboxed, MemoryIsOutOfReachOfProcessesThatItStarts) {

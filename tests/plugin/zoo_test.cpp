@@ -99,6 +99,9 @@ const Fate kFates[] = {
     {"open_socket", "failed", "socket: Operation not permitted"},
     {"trace_parent", "failed", "ptrace: "},
     {"read_file", "failed", "open: Permission denied"},
+    {"read_other_results", "failed", "open: Permission denied"},
+    {"open_local_socket", "failed", "socket: Operation not permitted"},
+    {"slow_parent", "failed", "setpriority: Operation not permitted"},
     {"write_file", "failed", "create: Permission denied"},
     {"share_memory", "failed", "shmget: Operation not permitted"},
     {"change_mode", "failed", "chmod: Operation not permitted"},
@@ -137,6 +140,9 @@ class Zoo : public testing::Test {
       methods += std::string("  - {method: ") + fate.method + ", label: " + fate.method;
       if (fate.method == std::string("read_file") || fate.method == std::string("change_mode")) {
         methods += ", path: " + (folder_.path() / "truth.txt").string();
+      }
+      if (fate.method == std::string("read_other_results")) {
+        methods += ", path: " + (folder_.path() / "honest/results.sqlite").string();
       }
       if (fate.method == std::string("write_file")) {
         methods += ", path: " + (folder_.path() / "zoo/results.sqlite").string();

@@ -109,8 +109,8 @@ const Sandbox& CellProcesses::sandbox_for(const LoadedSequences::Entry& entry) {
     SandboxOptions options = context_.sandbox;
     if (scratch_ != nullptr) options.writable.push_back(scratch_->path());
     for (const InputFile& input : inputs) options.unreachable.emplace_back(input.path);
-    // Without a PID namespace: this process, the sweep, their group, all processes, init.
-    std::vector<pid_t> guarded;
+    // This process, and without a PID namespace the sweep, their group, all processes, init.
+    std::vector<pid_t> guarded{getpid()};
     if (getpid() != 1) guarded = {getpid(), context_.sweep_process, -getpgrp(), -1, 1};
     sandbox_.emplace(options, guarded);
   }

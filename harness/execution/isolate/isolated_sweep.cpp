@@ -11,6 +11,7 @@
 #include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_child.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
+#include "harness/execution/isolate/hard_links.hpp"
 #include "harness/execution/isolate/killed_cells.hpp"
 #include "harness/execution/isolate/subreaper.hpp"
 #include "harness/execution/isolate/unpack_answer.hpp"
@@ -50,8 +51,8 @@ class IsolatedSweep {
   void work() {
     for (;;) {
       for (WorkerSlot& slot : slots_) fill(slot);
-      if (std::ranges::all_of(slots_, [](const WorkerSlot& slot) { return slot.jobs.empty(); }))
-        return;
+      const auto is_done = [](const WorkerSlot& slot) { return slot.jobs.empty(); };
+      if (std::ranges::all_of(slots_, is_done)) return;
       wait();
       for (WorkerSlot& slot : slots_) {
         if (!slot.process) continue;
@@ -178,9 +179,9 @@ class IsolatedSweep {
       throw InputError(metadata->inputs.front().path +
                        " or a file read with it changed during the run");
     }
-    if (kept) return;
-    // Every worker loads its own copy, but the notes are printed once.
-    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label, metadata->notes);
+    if (kept) return;  // every worker loads its own copy, but the notes are printed once
+    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label,
+                printed_notes(*metadata, context_.sandbox.enabled));
     kept = std::move(metadata);
   }
 

@@ -51,6 +51,19 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
   return end == folder.end();
 }
 
+constexpr const char* kStore = "results.sqlite";
+
+/// Whether the path is a store of results, or a folder with one or with those of its shards.
+bool has_results(const fs::path& folder) {
+  std::error_code error;
+  if (folder.filename() == kStore) return true;
+  if (fs::exists(folder / kStore, error)) return true;
+  for (const fs::directory_entry& shard : fs::directory_iterator(folder / "shards", error)) {
+    if (fs::exists(shard.path() / kStore, error)) return true;
+  }
+  return false;
+}
+
 void permit_reading(int rules, const fs::path& path, const std::vector<fs::path>& unreachable) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
@@ -59,6 +72,10 @@ void permit_reading(int rules, const fs::path& path, const std::vector<fs::path>
   const bool is_folder = fs::is_directory(status);
   const bool all = std::ranges::none_of(
       unreachable, [&](const fs::path& hidden) { return is_inside(hidden, path); });
+  const bool is_beside = std::ranges::any_of(unreachable, [&](const fs::path& hidden) {
+    return hidden.parent_path() == path.parent_path();
+  });
+  if (all && is_beside && has_results(path)) return;
   if (all) return add_rule(rules, path, is_folder ? kRead : kReadFile);
   if (!is_folder) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {

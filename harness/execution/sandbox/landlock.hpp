@@ -11,7 +11,8 @@ int landlock_version();
 
 /// Descriptor of a rule set that permits reading everything but `unreachable` and writing in
 /// `writable` only; -1 if the system has no Landlock. Folders that contain an unreachable path are
-/// permitted entry by entry, so entries created there later cannot be read.
+/// permitted entry by entry, so entries created there later cannot be read, and neither can results
+/// of other sweeps beside an unreachable path.
 int landlock_rules(const std::vector<std::filesystem::path>& unreachable,
                    const std::vector<std::filesystem::path>& writable);
 

@@ -11,21 +11,24 @@
 namespace loopbench::harness {
 
 Sandbox::Sandbox(const SandboxOptions& options, const std::vector<pid_t>& guarded)
-    : enabled_(options.enabled), guarded_(guarded) {
-  if (enabled_) landlock_ = landlock_rules(options.unreachable, options.writable);
+    : enabled_(options.enabled) {
+  if (!enabled_) return;
+  landlock_ = landlock_rules(options.unreachable, options.writable);
+  for_methods_ = system_call_filter(guarded, Privileges::of_methods);
+  for_programs_ = system_call_filter(guarded, Privileges::of_programs);
 }
 
 Sandbox::~Sandbox() {
   if (landlock_ >= 0) close(landlock_);
 }
 
-void Sandbox::enter(FileAttributes attributes) const {
+void Sandbox::enter(Privileges privileges) const {
   if (!enabled_) return;
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   if (landlock_ >= 0) landlock_restrict(landlock_);
   drop_capabilities();
   prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);  // hides /proc/PID/mem from programs that it starts
-  restrict_system_calls(guarded_, attributes);
+  restrict_system_calls(privileges == Privileges::of_methods ? for_methods_ : for_programs_);
 }
 
 bool enter_pid_namespace() {

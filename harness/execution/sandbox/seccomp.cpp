@@ -2,9 +2,9 @@
 
 #include <linux/audit.h>
 #include <linux/capability.h>
-#include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -13,8 +13,9 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
+#include <utility>
+
+#include "harness/execution/sandbox/filter_program.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -110,103 +111,112 @@ constexpr std::uint32_t kX32 = 0;
 /// user, PID, network.
 constexpr std::uint32_t kNewNamespaces = 0x7e020000;
 
-/// System calls whose first argument is a process.
-constexpr std::array kSignals{
-    SYS_kill, SYS_tkill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_pidfd_open};
+/// System calls whose first argument is a process, or a group as a negative number: signals, and
+/// what would slow the processes of later cells down.
+constexpr std::array kOfProcesses{
+    SYS_kill,
+    SYS_tkill,
+    SYS_tgkill,
+    SYS_rt_sigqueueinfo,
+    SYS_rt_tgsigqueueinfo,
+    SYS_pidfd_open,
+    SYS_sched_setaffinity,
+    SYS_sched_setattr,
+    SYS_sched_setparam,
+    SYS_sched_setscheduler,
+    SYS_migrate_pages,
+    SYS_move_pages,
+};
 
 constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW;
 constexpr std::uint32_t kRefuse = SECCOMP_RET_ERRNO | EPERM;
 constexpr std::uint32_t kUnknown = SECCOMP_RET_ERRNO | ENOSYS;
+constexpr std::uint32_t kPriorityOfProcess = 1;  ///< IOPRIO_WHO_PROCESS
 
-class Filter {
+/// Instructions of a rule.
+class RuleCode {
  public:
-  void load(std::size_t offset) {
-    add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
+  /// Loads the low half of an argument (little endian).
+  RuleCode& load(std::size_t argument) {
+    return add(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args) + 8 * argument);
   }
-  /// Ends with `action` if the loaded value is equal (or not equal) to `value`.
-  void if_equal(std::uint32_t value, std::uint32_t action) {
-    jump(value, 0, 1);
-    add(BPF_RET | BPF_K, action);
+  /// Ends with `action` if the loaded value is `value`.
+  RuleCode& if_equal(std::uint32_t value, std::uint32_t action) {
+    code_.push_back({BPF_JMP | BPF_JEQ | BPF_K, 0, 1, value});
+    return end(action);
   }
-  void if_not_equal(std::uint32_t value, std::uint32_t action) {
-    jump(value, 1, 0);
-    add(BPF_RET | BPF_K, action);
+  RuleCode& if_not_equal(std::uint32_t value, std::uint32_t action) {
+    code_.push_back({BPF_JMP | BPF_JEQ | BPF_K, 1, 0, value});
+    return end(action);
   }
   /// Ends with `action` if the loaded value has any of the bits.
-  void if_any(std::uint32_t bits, std::uint32_t action) {
+  RuleCode& if_any(std::uint32_t bits, std::uint32_t action) {
     code_.push_back({BPF_JMP | BPF_JSET | BPF_K, 0, 1, bits});
-    add(BPF_RET | BPF_K, action);
+    return end(action);
   }
-  /// Skips `count` instructions unless the loaded value is equal to `value`.
-  void skip_unless(std::uint32_t value, std::size_t count) {
-    jump(value, 0, static_cast<std::uint8_t>(count));
+  /// Refuses the call if the loaded value is one of the processes.
+  RuleCode& refuse(std::span<const pid_t> guarded) {
+    for (const pid_t process : guarded) if_equal(static_cast<std::uint32_t>(process), kRefuse);
+    return *this;
   }
-  void end(std::uint32_t action) { add(BPF_RET | BPF_K, action); }
+  RuleCode& end(std::uint32_t action) { return add(BPF_RET | BPF_K, action); }
 
-  sock_fprog program() { return {static_cast<unsigned short>(code_.size()), code_.data()}; }
+  operator std::vector<sock_filter>() const { return code_; }
 
  private:
-  void add(int code, std::uint32_t value) {
-    code_.push_back({static_cast<std::uint16_t>(code), 0, 0, value});
-  }
-  void jump(std::uint32_t value, std::uint8_t if_true, std::uint8_t if_false) {
-    code_.push_back({BPF_JMP | BPF_JEQ | BPF_K, if_true, if_false, value});
+  RuleCode& add(int code, std::size_t value) {
+    code_.push_back({static_cast<std::uint16_t>(code), 0, 0, static_cast<std::uint32_t>(value)});
+    return *this;
   }
 
   std::vector<sock_filter> code_;
 };
 
-constexpr std::size_t kNumber = offsetof(seccomp_data, nr);
-constexpr std::size_t kFirstArgument = offsetof(seccomp_data, args);  // low half, little endian
-
-std::uint32_t to_value(long number) { return static_cast<std::uint32_t>(number); }
-
-Filter filter_for(std::span<const pid_t> guarded, FileAttributes attributes) {
-  Filter filter;
-  filter.load(offsetof(seccomp_data, arch));
-  filter.if_not_equal(kArchitecture, kRefuse);
-  filter.load(kNumber);
-  filter.if_any(kX32, kRefuse);
-  for (const long number : kDenied) filter.if_equal(to_value(number), kRefuse);
-  if (attributes == FileAttributes::fixed) {
-    for (const long number : kFileAttributes) filter.if_equal(to_value(number), kRefuse);
-    for (const long number : kOlderFileAttributes) filter.if_equal(to_value(number), kRefuse);
-  }
-  // Its flags are in memory, out of reach of a filter; the C library then uses clone().
-  filter.if_equal(SYS_clone3, kUnknown);
-  filter.skip_unless(SYS_clone, 4);
-  filter.load(kFirstArgument);
-  filter.if_any(kNewNamespaces, kRefuse);
-  filter.end(kAllow);
-  filter.skip_unless(SYS_socket, 4);
-  filter.load(kFirstArgument);
-  filter.if_equal(AF_UNIX, kAllow);
-  filter.end(kRefuse);
-  filter.skip_unless(SYS_prlimit64, 4);
-  filter.load(kFirstArgument);
-  filter.if_equal(0, kAllow);  // its own limits
-  filter.end(kRefuse);
-  for (const long number : kSignals) {
-    if (guarded.empty()) break;
-    filter.skip_unless(to_value(number), 2 + 2 * guarded.size());
-    filter.load(kFirstArgument);
-    for (const pid_t process : guarded) {
-      filter.if_equal(static_cast<std::uint32_t>(process), kRefuse);
-    }
-    filter.end(kAllow);
-  }
-  filter.end(kAllow);
-  return filter;
+/// The same code for several system calls.
+template <class Numbers>
+void add_rules(std::vector<CallRule>& rules, const Numbers& numbers, const RuleCode& code) {
+  for (const long number : numbers) rules.push_back({static_cast<std::uint32_t>(number), code});
 }
 
 }  // namespace
 
 bool has_seccomp() { return kArchitecture != 0 && prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0; }
 
-bool restrict_system_calls(const std::vector<pid_t>& guarded, FileAttributes attributes) {
+std::vector<sock_filter> system_call_filter(std::span<const pid_t> guarded, Privileges privileges) {
+  const RuleCode refused = RuleCode().end(kRefuse);
+  const RuleCode unknown = RuleCode().end(kUnknown);
+  std::vector<CallRule> rules;
+  add_rules(rules, kDenied, refused);
+  RuleCode socket = refused;
+  if (privileges == Privileges::of_methods) {
+    add_rules(rules, kFileAttributes, refused);
+    add_rules(rules, kOlderFileAttributes, refused);
+  } else {
+    socket = RuleCode().load(0).if_equal(AF_UNIX, kAllow).end(kRefuse);
+  }
+  // Flags in memory, out of reach of a filter; the C library then uses clone(). Descriptors of
+  // processes can be folders of /proc.
+  add_rules(rules, std::array{SYS_clone3, SYS_pidfd_send_signal}, unknown);
+  const auto add = [&](long number, const RuleCode& code) {
+    add_rules(rules, std::array{number}, code);
+  };
+  add(SYS_clone, RuleCode().load(0).if_any(kNewNamespaces, kRefuse).end(kAllow));
+  add(SYS_socket, socket);
+  add(SYS_prlimit64, RuleCode().load(0).if_equal(0, kAllow).end(kRefuse));  // 0: its own limits
+  add_rules(rules, kOfProcesses, RuleCode().load(0).refuse(guarded).end(kAllow));
+  // Not of groups and users, which contain other processes.
+  const auto priority = [&](std::uint32_t which) {
+    return RuleCode().load(0).if_not_equal(which, kRefuse).load(1).refuse(guarded).end(kAllow);
+  };
+  add(SYS_setpriority, priority(PRIO_PROCESS));
+  add(SYS_ioprio_set, priority(kPriorityOfProcess));
+  return filter_program({kArchitecture, kX32}, kRefuse, std::move(rules));
+}
+
+bool restrict_system_calls(std::span<const sock_filter> filter) {
   if (!has_seccomp()) return false;
-  Filter filter = filter_for(guarded, attributes);
-  const sock_fprog program = filter.program();
+  const sock_fprog program{static_cast<unsigned short>(filter.size()),
+                           const_cast<sock_filter*>(filter.data())};  // the kernel copies it
   // Without the flag, some systems would switch off speculation and slow the method down.
   return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW, &program) ==
          0;
