@@ -147,6 +147,28 @@ TEST(Doctor, PeriodicSpeedsHaveNoOffset) {
   EXPECT_NEAR(found->offset, 0.5, 0.01);
 }
 
+/// Odometry with a constant bias on a circle at constant speed: all offsets correlate equally.
+TEST(Doctor, AnOffsetThatDoesNotRaiseTheCorrelationIsNoFinding) {
+  for (const double bias : {0.003, 0.01, 0.04}) {
+    Trajectory reference, estimate;
+    for (int i = 0; i < 240; ++i) {
+      const double t = 0.1 * i, angle = 0.1 * M_PI * t;
+      reference.push_back(
+          {t, {exp_so3({0, 0, angle}), {5 * std::cos(angle), 5 * std::sin(angle), 0}}});
+      if (i == 0) {
+        estimate = reference;
+        continue;
+      }
+      const Pose step = reference[reference.size() - 2].world_from_body.inverse() *
+                        reference.back().world_from_body;
+      const Pose error = exp_se3(0.1 * bias * twist({1, -0.5, 0.3}, {-0.4, 0.7, 0.2}));
+      estimate.push_back({t, normalized(estimate.back().world_from_body * step * error)});
+    }
+    EXPECT_THAT(faults(reference, estimate), testing::Not(testing::Contains(Fault::time_offset)))
+        << bias;
+  }
+}
+
 TEST(Doctor, FilesWithoutCommonTime) {
   Trajectory in_milliseconds = sampled(20), other = sampled(20);
   for (StampedPose& pose : in_milliseconds) pose.stamp *= 1000.0;
