@@ -7,6 +7,7 @@
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/time_offset.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::doctor_test {
 namespace {
@@ -117,6 +118,19 @@ TEST(Doctor, InvertedRotationsOfSmallSize) {
   };
   EXPECT_THAT(faults(path(100, false), path(20, false)), IsEmpty());
   EXPECT_THAT(faults(path(100, false), path(20, true)), ElementsAre(Fault::conjugated));
+}
+
+/// Rotations mostly about one axis, whose inverses fit after a constant rotation; heading drifts.
+TEST(Doctor, InvertedRotationsUnderDrift) {
+  const Trajectory reference = test::hand_held_truth(120);
+  const Trajectory estimate =
+      test::drifting(reference, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {}).keyframes;
+  const auto conjugated = [](const Pose& p) -> Pose {
+    return {p.rotation.conjugate(), p.translation};
+  };
+  EXPECT_THAT(faults(reference, estimate), IsEmpty());
+  EXPECT_THAT(faults(reference, each(estimate, conjugated)), ElementsAre(Fault::conjugated));
+  EXPECT_THAT(faults(each(reference, conjugated), estimate), ElementsAre(Fault::conjugated));
 }
 
 TEST(Doctor, ConventionsAreComparedAtTheTimeOffset) {
