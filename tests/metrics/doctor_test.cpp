@@ -250,6 +250,15 @@ TEST(Doctor, UnitsAndScale) {
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1.03))), IsEmpty());
 }
 
+TEST(Doctor, LeverArm) {
+  const Pose other{Rotation::Identity(), {0.5, -0.3, 0.2}};
+  const Trajectory estimate = each(sampled(20), [&](const Pose& p) { return p * other; });
+  EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::lever_arm));
+  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  EXPECT_NEAR(found[0].value, other.translation.norm(), 0.05);
+  EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body="));
+}
+
 TEST(Doctor, ExchangedFilesByNameOrRate) {
   const auto all = diagnose(sampled(20), truth(), "run.txt", "groundtruth.txt");
   ASSERT_FALSE(all.empty());
