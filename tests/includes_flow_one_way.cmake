@@ -51,7 +51,8 @@ set(order
   "metrics/evaluation"
   "metrics/better"
   "metrics/metric"
-  "metrics/errors metrics/correction metrics/checks metrics/doctor"
+  "metrics/errors metrics/correction metrics/checks"
+  "metrics/doctor"
   "metrics/metrics"
 
   "harness/text harness/statistics"

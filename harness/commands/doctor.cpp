@@ -12,6 +12,7 @@
 #include "harness/trajectory/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/graph_repair.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -21,7 +22,7 @@ struct DoctorArguments {
   std::vector<std::string> estimates;
   ReadArguments reading;
   std::string loops;  ///< closures of a trajectory; empty: none
-  std::string apply;  ///< folder for estimates with corrected stamps; empty: none
+  std::string apply;  ///< folder for corrected estimates or graphs; empty: none
   bool json = false;
 };
 
@@ -43,14 +44,34 @@ Diagnosed of_closures(const std::string& name, const Problem& problem) {
   return out;
 }
 
-Diagnosed of_graph(const std::string& file) {
-  const PoseGraph graph = read_g2o(file);
+Problem problem_of(const PoseGraph& graph, const std::string& file) {
   GraphParts parts = split_graph(graph, file);
-  Problem problem;
-  problem.keyframes = initial_poses(graph, ReadOptions{}.period);
-  problem.odometry = std::move(parts.odometry);
-  problem.closures = std::move(parts.closures);
-  return of_closures(file, problem);
+  Problem out;
+  out.keyframes = initial_poses(graph, ReadOptions{}.period);
+  out.odometry = std::move(parts.odometry);
+  out.closures = std::move(parts.closures);
+  out.planar = graph.planar;
+  return out;
+}
+
+/// Writes the graph with corrected edges to the folder.
+void apply_to_graph(const DoctorArguments& a,
+                    PoseGraph graph,
+                    Problem problem,
+                    const std::vector<metrics::InputFinding>& findings) {
+  const std::string folder = a.apply.ends_with('/') ? a.apply : a.apply + "/";
+  const std::string out = output_files({a.reference}, folder, Format::g2o).front();
+  reject_overwriting({a.reference}, out);
+  const std::size_t closures = problem.closures.size();
+  metrics::repair(problem, findings);
+  graph.edges = std::move(problem.odometry);
+  graph.edges.insert(graph.edges.end(), problem.closures.begin(), problem.closures.end());
+  write_g2o(out, graph);
+  fmt::print("{}: {} findings applied, {} of {} closures kept\n",
+             printable(out),
+             findings.size(),
+             problem.closures.size(),
+             closures);
 }
 
 Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estimate) {
@@ -125,6 +146,8 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 int doctor(const DoctorArguments& a) {
   std::vector<Diagnosed> all;
   std::vector<NamedTrajectory> estimates;
+  std::optional<PoseGraph> graph;
+  Problem problem;
   if (!a.estimates.empty()) {
     const NamedTrajectory reference = read_named(a.reference, a.reading);
     estimates = read_all_named(a.estimates, a.reading);
@@ -143,10 +166,16 @@ int doctor(const DoctorArguments& a) {
           a.reference +
           ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
     }
-    all.push_back(of_graph(a.reference));
+    graph = read_g2o(a.reference);
+    problem = problem_of(*graph, a.reference);
+    all.push_back(of_closures(a.reference, problem));
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
-  if (!a.apply.empty()) apply_offsets(a, std::move(estimates), all);
+  if (!a.apply.empty() && graph) {
+    apply_to_graph(a, std::move(*graph), std::move(problem), all.front().result.findings);
+  } else if (!a.apply.empty()) {
+    apply_offsets(a, std::move(estimates), all);
+  }
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {
     return each.result.findings.empty() && each.result.has_checked;
   });
@@ -160,7 +189,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "doctor",
       "Search trajectories or a pose graph for mistakes: time offset, quaternion order, units, "
-      "axes, inverted poses, exchanged files, closures, information (exit 1 if there are any, or "
+      "axes, inverted poses, lever arm, exchanged files, closures, information (exit 1 if there "
+      "are any, or "
       "if nothing could be checked)");
   command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
       ->required()
@@ -180,7 +210,11 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->type_name("WORD");
   command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
       ->type_name("PARENT.CHILD");
-  command->add_option("--apply", a->apply, "Folder for the estimates with corrected stamps")
+  command
+      ->add_option(
+          "--apply",
+          a->apply,
+          "Folder for the estimates with corrected stamps, or the graph with corrected edges")
       ->type_name("DIR");
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &exit_code] { exit_code = doctor(*a); });

@@ -139,7 +139,7 @@ const std::map<std::string, std::string> kExamples{
     {"doctor",
      "  loopbench doctor reference.txt estimate.txt\n"
      "  loopbench doctor estimate.txt --loops loops.txt\n"
-     "  loopbench doctor graph.g2o\n"},
+     "  loopbench doctor graph.g2o --apply corrected\n"},
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"
      "  loopbench plot results/quickstart -o figures --methods raw,dual --sequences room\n"

@@ -18,8 +18,11 @@ std::string listed(const Vector3& position) {
   return out;
 }
 
-/// In the format of the option `--ref-body`.
-std::string pose_text(const Pose& body_from_reference) {
+std::string percent(double part) { return std::to_string(std::lround(100.0 * part)) + " %"; }
+
+}  // namespace
+
+std::string body_option(const Pose& body_from_reference) {
   std::string out = listed(body_from_reference.translation);
   if (log_so3(body_from_reference.rotation).norm() < 1e-6) return out;
   const double sign = body_from_reference.rotation.w() < 0.0 ? -1.0 : 1.0;
@@ -28,10 +31,6 @@ std::string pose_text(const Pose& body_from_reference) {
   }
   return out;
 }
-
-std::string percent(double part) { return std::to_string(std::lround(100.0 * part)) + " %"; }
-
-}  // namespace
 
 std::optional<ExtrinsicOffset> extrinsic_offset(const Trajectory& reference,
                                                 const Trajectory& estimate,
@@ -56,7 +55,7 @@ std::string other_body(const ExtrinsicOffset& offset, const Pose& stated) {
   if (!is_turned && !is_aside) return "";
   if (!is_aside) fit.body_from_reference.translation.setZero();
   std::string out = "the reference seems to track another body, with the offset " +
-                    pose_text(fit.body_from_reference * stated) + " in the estimate's body frame";
+                    body_option(fit.body_from_reference * stated) + " in the estimate's body frame";
   if (is_aside) out += " (+- " + listed(fit.deviation) + " m)";
   out += ": over rotations, ";
   if (is_turned) {

@@ -38,6 +38,9 @@ std::optional<ExtrinsicOffset> extrinsic_offset(const Trajectory& reference,
 std::optional<ExtrinsicOffset> extrinsic_offset(const Evaluation& evaluation,
                                                 const ExtrinsicOffsetOptions& options);
 
+/// "x,y,z" [m] and, if rotated, ",qx,qy,qz,qw": value of the option `--ref-body`.
+std::string body_option(const Pose& body_from_reference);
+
 /// Returns a warning if rotation or lever arm explain at least half of the differences, otherwise
 /// an empty string. `stated` is the offset that was already applied to the reference; the message
 /// gives the offset that should replace it: x,y,z [m] and, if rotated, qx,qy,qz,qw. Relevant

@@ -12,9 +12,7 @@ namespace {
 
 std::size_t difference(std::size_t i, std::size_t j) { return i > j ? i - j : j - i; }
 
-Matrix6 stated_covariance(const Edge& edge, bool exchanged) {
-  const Matrix6 given = edge.information.inverse();
-  if (!exchanged) return given;
+Matrix6 exchanged_blocks(const Matrix6& given) {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>() = given.bottomRightCorner<3, 3>();
   out.bottomRightCorner<3, 3>() = given.topLeftCorner<3, 3>();
@@ -44,26 +42,47 @@ Matrix6 Chain::covariance(std::size_t i, std::size_t j) const {
   return moved(poses[j].inverse(), covariances[std::max(i, j)] - covariances[std::min(i, j)]);
 }
 
-Chain chain_of(const Problem& problem, bool exchanged) {
-  Chain out;
-  out.poses.resize(problem.keyframes.size());
-  out.lengths.resize(problem.keyframes.size(), 0.0);
-  out.covariances.resize(problem.keyframes.size(), Matrix6::Zero());
-  for (std::size_t i = 0; i + 1 < out.poses.size() && i < problem.odometry.size(); ++i) {
+Chain chain_of(const Problem& problem) {
+  const std::size_t size = problem.keyframes.size();
+  Chain out{std::vector<Pose>(size),
+            std::vector<double>(size, 0.0),
+            std::vector<Matrix6>(size, Matrix6::Zero()),
+            {}};
+  for (std::size_t i = 0; i + 1 < size && i < problem.odometry.size(); ++i) {
     const Edge& step = problem.odometry[i];
     out.poses[i + 1] = normalized(out.poses[i] * step.from_from_to);
     out.lengths[i + 1] = out.lengths[i] + step.from_from_to.translation.norm();
-    out.covariances[i + 1] =
-        out.covariances[i] + moved(out.poses[i + 1], stated_covariance(step, exchanged));
+    out.steps.push_back(step.information.inverse());
+    out.covariances[i + 1] = out.covariances[i] + moved(out.poses[i + 1], out.steps[i]);
   }
   return out;
 }
 
-SquaredError closure_error(const Edge& closure, const Chain& chain, bool exchanged, bool inverted) {
-  const Pose measured = inverted ? closure.from_from_to.inverse() : closure.from_from_to;
-  const Twist gap = log_se3(measured.inverse() * chain.between(closure.from, closure.to));
+Chain exchanged(const Chain& chain) {
+  Chain out = chain;
+  for (std::size_t i = 0; i < out.steps.size(); ++i) {
+    out.steps[i] = exchanged_blocks(chain.steps[i]);
+    out.covariances[i + 1] = out.covariances[i] + moved(out.poses[i + 1], out.steps[i]);
+  }
+  return out;
+}
+
+SquaredError closure_error(const Edge& closure, const Chain& chain, bool is_exchanged) {
+  const Twist gap =
+      log_se3(closure.from_from_to.inverse() * chain.between(closure.from, closure.to));
+  const Matrix6 stated = closure.information.inverse();
   return over(gap,
-              stated_covariance(closure, exchanged) + chain.covariance(closure.from, closure.to));
+              (is_exchanged ? exchanged_blocks(stated) : stated) +
+                  chain.covariance(closure.from, closure.to));
+}
+
+double gap_of(const Edge& closure, const Chain& chain) {
+  const Pose gap = closure.from_from_to.inverse() * chain.between(closure.from, closure.to);
+  return gap.translation.norm();
+}
+
+double drift_of(const Edge& closure, const Chain& chain) {
+  return gap_of(closure, chain) / std::max(1.0, chain.length(closure.from, closure.to));
 }
 
 SquaredError median_error(const std::vector<SquaredError>& all) {
@@ -105,6 +124,27 @@ Twist neighbour_residual(const Neighbours& pair, const Chain& chain, bool invert
   const Pose around = chain.between(pair.a->from, pair.b->from) * measured(*pair.b) *
                       chain.between(pair.b->to, pair.a->to);
   return log_se3(measured(*pair.a).inverse() * around);
+}
+
+namespace {
+
+SquaredError neighbour_error(const Neighbours& pair, const Chain& chain) {
+  const auto& [a, b] = pair;
+  const Pose to_a_from_b = chain.between(a->to, b->to);  // frames at the ends of both closures
+  const Pose end_from_start = (b->from_from_to * to_a_from_b.inverse()).inverse();
+  const Matrix6 covariance =
+      a->information.inverse() + moved(to_a_from_b, b->information.inverse()) +
+      chain.covariance(b->to, a->to) + moved(end_from_start, chain.covariance(a->from, b->from));
+  return over(neighbour_residual(pair, chain, false), covariance);
+}
+
+}  // namespace
+
+std::vector<SquaredError> neighbour_errors(const std::vector<Neighbours>& pairs,
+                                           const Chain& chain) {
+  std::vector<SquaredError> out;
+  for (const Neighbours& pair : pairs) out.push_back(neighbour_error(pair, chain));
+  return out;
 }
 
 }  // namespace loopbench::metrics

@@ -12,6 +12,7 @@ struct Chain {
   std::vector<Pose> poses;           ///< first_from_keyframe
   std::vector<double> lengths;       ///< up to each keyframe [m]
   std::vector<Matrix6> covariances;  ///< of each pose, as a twist in the frame of the first
+  std::vector<Matrix6> steps;        ///< stated covariance of each edge
 
   Pose between(std::size_t i, std::size_t j) const { return poses[i].inverse() * poses[j]; }
   double length(std::size_t i, std::size_t j) const;
@@ -19,9 +20,11 @@ struct Chain {
   Matrix6 covariance(std::size_t i, std::size_t j) const;
 };
 
-/// `exchanged`: read the covariances with their blocks of translation and rotation exchanged.
 /// O(keyframes).
-Chain chain_of(const Problem& problem, bool exchanged);
+Chain chain_of(const Problem& problem);
+
+/// The same with the blocks of translation and rotation of all covariances exchanged. O(keyframes).
+Chain exchanged(const Chain& chain);
 
 /// Squared errors over stated variances; 1 on average if these are true.
 struct SquaredError {
@@ -30,9 +33,15 @@ struct SquaredError {
   double whole = 0.0;  ///< Mahalanobis distance per dimension
 };
 
-/// Difference of the odometry between its keyframes and a closure (or its inverse), over the
-/// covariance of both.
-SquaredError closure_error(const Edge& closure, const Chain& chain, bool exchanged, bool inverted);
+/// Difference of the odometry between its keyframes and a closure, over the
+/// covariance of both, read with exchanged blocks if `is_exchanged`.
+SquaredError closure_error(const Edge& closure, const Chain& chain, bool is_exchanged);
+
+/// Distance between the end of the odometry along a loop and the closure [m].
+double gap_of(const Edge& closure, const Chain& chain);
+
+/// gap_of() over the length of the odometry along the loop, of at least 1 m.
+double drift_of(const Edge& closure, const Chain& chain);
 
 /// Median of each part.
 SquaredError median_error(const std::vector<SquaredError>& all);
@@ -49,5 +58,9 @@ std::vector<Neighbours> neighbours_of(const std::vector<Edge>& closures, const C
 
 /// Difference of closure `a` and the path over closure `b`; zero without noise.
 Twist neighbour_residual(const Neighbours& pair, const Chain& chain, bool inverted);
+
+/// The same over the covariance of both closures and of the odometry between them, for each pair.
+std::vector<SquaredError> neighbour_errors(const std::vector<Neighbours>& pairs,
+                                           const Chain& chain);
 
 }  // namespace loopbench::metrics

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "metrics/doctor/body_checks.hpp"
 #include "metrics/doctor/frame_checks.hpp"
 #include "metrics/doctor/preconditions.hpp"
 #include "metrics/doctor/swapped.hpp"
@@ -56,8 +57,10 @@ Diagnosis diagnosis(const Trajectory& reference,
   if (has_stamps && shifted.empty()) add(out.findings, check_overlap(reference, estimate));
   const Trajectory& compared = shifted.empty() ? estimate : shifted;
   add(out.findings, check_constant_rotation(reference, estimate));
-  add(out.findings, check_frames(reference, compared));
-  add(out.findings, check_units(reference, compared));
+  std::vector<InputFinding> conventions = check_frames(reference, compared);
+  add(conventions, check_units(reference, compared));
+  add_lever_arm(conventions, reference, compared);
+  add(out.findings, std::move(conventions));
   const Unchecked parts = unchecked_parts(reference, compared);
   out.unchecked.insert(out.unchecked.end(), parts.reasons.begin(), parts.reasons.end());
   out.has_checked = out.has_checked || parts.checks_units;

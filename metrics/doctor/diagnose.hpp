@@ -19,8 +19,9 @@ struct Diagnosis {
 };
 
 /// Names are used by check_swapped() only. The time offset is estimated first: conventions, units
-/// and scale are compared at that offset. `has_stamps`: false if the stamps of either are
-/// generated, so that there is no time offset. O(1e6).
+/// and scale are compared at that offset. A lever arm is searched if none of these but scale is
+/// wrong. `has_stamps`: false if the stamps of either are generated, so that there is no time
+/// offset. O(1e6).
 Diagnosis diagnosis(const Trajectory& reference,
                     const Trajectory& estimate,
                     const std::string& reference_name,

@@ -40,6 +40,10 @@ std::string fault_name(Fault fault) {
       return "information_scale";
     case Fault::nothing_moved:
       return "nothing_moved";
+    case Fault::edge_covariance:
+      return "edge_covariance";
+    case Fault::lever_arm:
+      return "lever_arm";
   }
   return "unknown";
 }

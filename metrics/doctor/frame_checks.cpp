@@ -84,6 +84,7 @@ struct Candidate {
   const Hypothesis* hypothesis = nullptr;
   bool of_reference = false;
   double residual = 0.0;      ///< of the rotations [rad]
+  double relative = 0.0;      ///< the same of relative rotations [-]
   double disagreement = 0.0;  ///< with the positions [rad]
 };
 
@@ -107,7 +108,8 @@ std::vector<Candidate> candidates(const CommonPoses& poses, const PositionFit& p
       const ConstantRotations fit = fit_rotations(
           of_reference ? changed(poses.reference, hypothesis.change) : poses.reference,
           of_reference ? poses.estimate : changed(poses.estimate, hypothesis.change));
-      out.push_back({&hypothesis, of_reference, fit.residual, disagreement(fit, positions)});
+      out.push_back(
+          {&hypothesis, of_reference, fit.residual, fit.relative, disagreement(fit, positions)});
     }
   }
   std::ranges::sort(out, {}, &Candidate::disagreement);
@@ -127,9 +129,12 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
   if (!is_bad && before < kDisagrees) return std::nullopt;
   for (const Candidate& each : candidates(poses, positions)) {
     // Planar motion fits as well after an inversion, so that this has to be clearly better.
-    const double most = is_bad || each.hypothesis->fault == Fault::conjugated ? kBetter : 1.0;
-    const bool fits =
-        each.residual < most * as_read.residual && (is_bad || each.disagreement < kAgrees);
+    // Drift hides that in the rotations, but hardly in relative ones.
+    const bool inverts = each.hypothesis->fault == Fault::conjugated;
+    const double most = is_bad || inverts ? kBetter : 1.0;
+    const bool is_better = each.residual < most * as_read.residual ||
+                           (inverts && each.relative < kBetter * as_read.relative);
+    const bool fits = is_better && (is_bad || each.disagreement < kAgrees);
     if (!fits) continue;
     return InputFinding{
         each.hypothesis->fault,
@@ -143,7 +148,8 @@ std::optional<InputFinding> check_quaternions(const CommonPoses& poses,
                     kDegrees * before,
                     kDegrees * each.disagreement),
         fmt::format("traj transform {} {}", file_of(each.of_reference), each.hypothesis->option),
-        is_bad ? 1.0 - each.residual / as_read.residual : 1.0 - each.disagreement / before,
+        1.0 - (is_bad ? std::min(each.residual / as_read.residual, each.relative / as_read.relative)
+                      : each.disagreement / before),
         each.of_reference ? 1.0 : 0.0};
   }
   return std::nullopt;

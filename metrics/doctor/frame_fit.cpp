@@ -70,16 +70,25 @@ ConstantRotations fit_rotations(const std::vector<Pose>& reference,
   if (n < 8) return out;
   // Relative rotations over a range of distances, so that slow and fast motion count.
   Matrix3 sum = Matrix3::Zero();
+  double of_reference = 0.0, of_estimate = 0.0;  // [rad^2]
   for (const std::size_t step : {std::size_t{1}, n / 50 + 1, n / 10 + 1}) {
     for (std::size_t i = 0; i + step < n; ++i) {
       const auto vector = [&](const std::vector<Pose>& list) {
         return log_so3(list[i].rotation.conjugate() * list[i + step].rotation);
       };
       // right^T maps the reference's rotation vectors from the estimate's.
-      sum += vector(estimate) * vector(reference).transpose();
+      const Vector3 e = vector(estimate), r = vector(reference);
+      sum += e * r.transpose();
+      of_reference += r.squaredNorm();
+      of_estimate += e.squaredNorm();
     }
   }
   out.right = mean_rotation(sum);
+  if (of_reference > 0.0) {
+    const double common = (out.right.toRotationMatrix().transpose() * sum).trace();
+    out.relative =
+        std::sqrt(std::max(0.0, of_reference + of_estimate - 2.0 * common) / of_reference);
+  }
   Matrix3 lefts = Matrix3::Zero();
   for (std::size_t i = 0; i < n; ++i) {
     lefts +=

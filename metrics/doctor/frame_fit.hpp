@@ -23,6 +23,8 @@ struct ConstantRotations {
   Rotation left = Rotation::Identity();   ///< reference_world_from_estimate_world
   Rotation right = Rotation::Identity();  ///< estimate_body_from_reference_body
   double residual = 3.15;                 ///< median angle of R_ref^T left R_est right [rad]
+  /// Error of relative rotations after `right`, over the reference's [-]; little affected by drift.
+  double relative = 1.0;
 };
 
 /// Fits R_ref = left R_est right: `right` from relative rotations (Kabsch), then `left`. O(n).

@@ -8,11 +8,14 @@
 
 namespace loopbench::metrics {
 
-/// Compares the gaps of all loops with the covariance of odometry and closures, separately for
-/// translation and rotation. Medians far from 1, but near 1 after exchange of the blocks
-/// (`exchanged`: the chain read so): wrong order. Both far from 1: wrong scale. O(closures).
+/// Compares the gaps of all loops (`errors`: closure_error() of each) with the covariance of
+/// odometry and closures. Medians of translation and rotation far from 1, but near 1 after exchange
+/// of the blocks: wrong order. Far from 1 otherwise: wrong scale, of the odometry only if pairs of
+/// neighbouring closures (`neighbours`: their errors) agree with their covariance. Only these pairs
+/// far from it: wrong scale of the closures. O(closures).
 std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
-                                            const Chain& chain,
-                                            const Chain& exchanged);
+                                            const std::vector<SquaredError>& errors,
+                                            const std::vector<SquaredError>& neighbours,
+                                            const Chain& chain);
 
 }  // namespace loopbench::metrics

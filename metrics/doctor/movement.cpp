@@ -44,7 +44,8 @@ std::optional<InputFinding> check_movement(const Problem& problem, const Traject
                   gap,
                   kDegrees * angle,
                   problem.closures.size()),
-      "check the information of closures and odometry, and whether the method rejects closures",
+      "search the closures and their information with doctor (GRAPH, or EST --loops FILE), or "
+      "estimate the noise: --method motion_drift",
       gap > 0.0 ? 1.0 - moved / gap : 1.0,
       moved};
 }

@@ -197,6 +197,17 @@ double deviation_of(const SpeedMatch& match, double offset, double step) {
   return information > 0.0 ? 1.0 / std::sqrt(information) : INFINITY;
 }
 
+/// Whether the correlation of the speeds is clearly higher with the offset. At constant speed, it
+/// is the same at all offsets but for rounding errors, which can be explained completely.
+bool raises_correlation(const TimeOffset& found) {
+  constexpr double kLeastGain = 0.002, kLeastShare = 0.2;  // of what is unexplained without it
+  constexpr double kSmallGain = 0.0005, kShareOfSmall = 0.5;
+  const double gain = found.correlation - found.before;
+  const double share = gain / std::max(1e-9, 1.0 - found.before);
+  return (gain >= kLeastGain && share >= kLeastShare) ||
+         (gain >= kSmallGain && share >= kShareOfSmall);
+}
+
 }  // namespace
 
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
@@ -248,13 +259,12 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found, const Trajec
   constexpr double kMostUnexplained = 0.75;  // 1 - correlation, after over before
   constexpr double kClear = 8.0;             // deviations that need less explanation
   constexpr double kMostIfClear = 0.95;
-  constexpr double kLeastGain = 0.002;  // of the correlation, for offsets above 1 s
   constexpr double kLeastAlone = 0.85;  // of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
   const double remaining = found.unexplained;
   if (size < std::max(kSmallest, kOfInterval * interval)) return std::nullopt;
-  if (size > 1.0 && found.correlation - found.before < kLeastGain) return std::nullopt;
+  if (!raises_correlation(found)) return std::nullopt;
   if (!found.has_common_time && found.correlation < kLeastAlone) return std::nullopt;
   const double most = size > kClear * found.deviation ? kMostIfClear : kMostUnexplained;
   if (size < kDeviations * found.deviation || remaining > most) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/formats.hpp"
+#include "datasets/formats/g2o.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"
 
@@ -106,6 +107,9 @@ TEST_F(DoctorNotes, TheNamedCommandRemovesTheFinding) {
     const Vector3 t = p.world_from_body.translation;
     p.world_from_body.translation = {-t.y(), t.z(), t.x()};
   });
+  check("conjugated", [](StampedPose& p) {
+    p.world_from_body.rotation = p.world_from_body.rotation.conjugate();
+  });
   check("length_unit", [](StampedPose& p) { p.world_from_body.translation *= 1000.0; });
   check("stamp_unit", [](StampedPose& p) { p.stamp = 1000.0 * p.stamp; });
 }
@@ -152,6 +156,47 @@ TEST_F(DoctorNotes, ClosuresOfATrajectoryAreChecked) {
   EXPECT_THAT(
       loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
       HasSubstr("note: doctor: closure_gap: 1 of 7 closures"));
+}
+
+/// Applies the command that `doctor` names for a changed pose graph.
+TEST_F(DoctorNotes, ApplyCorrectsPoseGraphs) {
+  Problem good = test::drifting(truth_,
+                                twist({0.004, 0, 0.001}, {0, 0.001, 0.002}),
+                                {{0, 85}, {2, 87}, {4, 89}, {6, 91}, {8, 93}, {10, 95}, {12, 97}});
+  const auto graph = [&](const Problem& problem) {
+    PoseGraph out;
+    for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
+      out.ids.push_back(static_cast<std::int64_t>(i));
+      out.vertices.push_back(problem.keyframes[i].world_from_body);
+    }
+    out.edges = problem.odometry;
+    out.edges.insert(out.edges.end(), problem.closures.begin(), problem.closures.end());
+    return out;
+  };
+  write_g2o(folder_.path() / "g.g2o", graph(good));
+  const CommandResult clean = loopbench_command("doctor g.g2o", folder_);
+  ASSERT_EQ(clean.exit_code, 0) << clean.out;
+  const auto check = [&](const std::string& fault, auto change) {
+    Problem wrong = good;
+    change(wrong);
+    write_g2o(folder_.path() / "g.g2o", graph(wrong));
+    const CommandResult found = loopbench_command("doctor g.g2o --apply fixed", folder_);
+    EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
+    EXPECT_THAT(found.out, HasSubstr("  " + fault + ": "));
+    EXPECT_THAT(found.out, HasSubstr("doctor GRAPH --apply DIR "));
+    EXPECT_THAT(found.out, HasSubstr("fixed/g.g2o: 1 findings applied"));
+    const CommandResult after = loopbench_command("doctor fixed/g.g2o", folder_);
+    EXPECT_EQ(after.exit_code, 0) << fault << "\n" << found.out << after.out;
+  };
+  check("closure_direction", [](Problem& p) {
+    for (Edge& edge : p.closures) edge.from_from_to = edge.from_from_to.inverse();
+  });
+  check("closure_gap", [](Problem& p) { p.closures[3].from_from_to.translation.x() += 4.5; });
+  check("information_scale", [](Problem& p) {
+    for (auto* edges : {&p.odometry, &p.closures}) {
+      for (Edge& edge : *edges) edge.information *= 1e-8;
+    }
+  });
 }
 
 TEST_F(DoctorNotes, ASinglePoseIsNoCleanFile) {

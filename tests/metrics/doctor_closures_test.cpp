@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metrics/doctor/closure_checks.hpp"
+#include "metrics/doctor/closure_paths.hpp"
 #include "metrics/doctor/movement.hpp"
 
 namespace loopbench::doctor_closures_test {
@@ -11,6 +12,7 @@ namespace {
 
 using namespace metrics;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Two rounds on a circle with closures between them, and drift in the odometry.
@@ -95,6 +97,17 @@ TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
 }
 
+/// Each loop alone drifts by more than an inversion changes it, but all drift alike.
+TEST(DoctorOfClosures, FewClosuresShareTheirDrift) {
+  Problem problem = rounds();
+  problem.odometry[58].from_from_to =
+      problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
+  problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
+  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
+}
+
 TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
   Problem problem = rounds();
   // The gap is 30 % of the loop's length, most loops drift by 5 %.
@@ -106,6 +119,71 @@ TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance)
                               Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 60)},
                               problem.closures[0].information});
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
+}
+
+TEST(DoctorOfClosures, AFalseClosureThatOnlyOtherClosuresContradict) {
+  Problem problem = rounds();
+  // The drift of the heading allows for more than 15 m over two rounds.
+  for (Edge& edge : problem.odometry) {
+    edge.from_from_to = edge.from_from_to * Pose{exp_so3({0, 0, 0.003}), Vector3::Zero()};
+  }
+  const Pose true_pose =
+      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
+  Edge edge = problem.closures[0];
+  edge.from = 10;
+  edge.to = 110;
+  edge.from_from_to = {true_pose.rotation, true_pose.translation + Vector3(0, 0, 15)};
+  problem.closures.push_back(edge);
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::closure_gap);
+  EXPECT_EQ(found[0].value, 1.0);
+  EXPECT_THAT(found[0].evidence, HasSubstr("contradict other closures and the odometry"));
+  EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 110: the gap is 15.4 m"));
+}
+
+TEST(DoctorOfClosures, InformationOfOneKindOfEdges) {
+  Problem problem = rounds();
+  for (Edge& edge : problem.odometry) edge.information *= 1e6;
+  auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::information_scale);
+  EXPECT_THAT(found[0].fix, HasSubstr("of the odometry"));
+  problem = rounds();
+  for (Edge& edge : problem.closures) edge.information *= 1e-6;
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
+}
+
+TEST(DoctorOfClosures, InformationOfSingleClosures) {
+  Problem problem = rounds();
+  for (const std::size_t i : {3u, 20u}) problem.closures[i].information *= 1e-6;
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::edge_covariance);
+  EXPECT_EQ(found[0].value, 2.0);
+  // A closure that is listed twice agrees with itself.
+  problem = rounds();
+  problem.closures.push_back(problem.closures.back());
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
+}
+
+TEST(DoctorOfClosures, ShortestPathsUseOtherClosures) {
+  // A line of five steps, and closures from its second keyframe to its end, twice.
+  Problem problem;
+  const Pose step{Rotation::Identity(), {10, 0, 0}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    problem.keyframes.push_back({static_cast<double>(i), {}});
+    if (i > 0) problem.odometry.push_back({i - 1, i, step, Matrix6::Identity()});
+  }
+  const Pose measured{Rotation::Identity(), {41, 0, 0}};
+  problem.closures = {{1, 5, measured, Matrix6::Identity()},
+                      {0, 5, {Rotation::Identity(), {54, 0, 0}}, Matrix6::Identity()}};
+  const auto gaps = path_gaps(problem, chain_of(problem));
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_NEAR(gaps[0].distance, 3.0, 1e-12);  // back to 0 and over 0 -> 5: 54 - 10 - 41
+  EXPECT_NEAR(gaps[0].length, 12.0, 0.01);
+  EXPECT_NEAR(gaps[1].distance, 3.0, 1e-12);
+  EXPECT_NEAR(gaps[1].length, 12.0, 0.01);
 }
 
 TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {

@@ -7,6 +7,7 @@
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/time_offset.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::doctor_test {
 namespace {
@@ -119,6 +120,19 @@ TEST(Doctor, InvertedRotationsOfSmallSize) {
   EXPECT_THAT(faults(path(100, false), path(20, true)), ElementsAre(Fault::conjugated));
 }
 
+/// Rotations mostly about one axis, whose inverses fit after a constant rotation; heading drifts.
+TEST(Doctor, InvertedRotationsUnderDrift) {
+  const Trajectory reference = test::hand_held_truth(120);
+  const Trajectory estimate =
+      test::drifting(reference, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {}).keyframes;
+  const auto conjugated = [](const Pose& p) -> Pose {
+    return {p.rotation.conjugate(), p.translation};
+  };
+  EXPECT_THAT(faults(reference, estimate), IsEmpty());
+  EXPECT_THAT(faults(reference, each(estimate, conjugated)), ElementsAre(Fault::conjugated));
+  EXPECT_THAT(faults(each(reference, conjugated), estimate), ElementsAre(Fault::conjugated));
+}
+
 TEST(Doctor, ConventionsAreComparedAtTheTimeOffset) {
   const auto wrong = [](const Pose& p) -> Pose {
     return {Rotation(p.rotation.z(), p.rotation.w(), p.rotation.x(), p.rotation.y()),
@@ -145,6 +159,28 @@ TEST(Doctor, PeriodicSpeedsHaveNoOffset) {
   const auto found = estimate_time_offset(reference, estimate);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->offset, 0.5, 0.01);
+}
+
+/// Odometry with a constant bias on a circle at constant speed: all offsets correlate equally.
+TEST(Doctor, AnOffsetThatDoesNotRaiseTheCorrelationIsNoFinding) {
+  for (const double bias : {0.003, 0.01, 0.04}) {
+    Trajectory reference, estimate;
+    for (int i = 0; i < 240; ++i) {
+      const double t = 0.1 * i, angle = 0.1 * M_PI * t;
+      reference.push_back(
+          {t, {exp_so3({0, 0, angle}), {5 * std::cos(angle), 5 * std::sin(angle), 0}}});
+      if (i == 0) {
+        estimate = reference;
+        continue;
+      }
+      const Pose step = reference[reference.size() - 2].world_from_body.inverse() *
+                        reference.back().world_from_body;
+      const Pose error = exp_se3(0.1 * bias * twist({1, -0.5, 0.3}, {-0.4, 0.7, 0.2}));
+      estimate.push_back({t, normalized(estimate.back().world_from_body * step * error)});
+    }
+    EXPECT_THAT(faults(reference, estimate), testing::Not(testing::Contains(Fault::time_offset)))
+        << bias;
+  }
 }
 
 TEST(Doctor, FilesWithoutCommonTime) {
@@ -212,6 +248,15 @@ TEST(Doctor, UnitsAndScale) {
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1000.0))), ElementsAre(Fault::length_unit));
   EXPECT_THAT(faults(truth(), each(sampled(20), times(0.4))), ElementsAre(Fault::scale));
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1.03))), IsEmpty());
+}
+
+TEST(Doctor, LeverArm) {
+  const Pose other{Rotation::Identity(), {0.5, -0.3, 0.2}};
+  const Trajectory estimate = each(sampled(20), [&](const Pose& p) { return p * other; });
+  EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::lever_arm));
+  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  EXPECT_NEAR(found[0].value, other.translation.norm(), 0.05);
+  EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body="));
 }
 
 TEST(Doctor, ExchangedFilesByNameOrRate) {

@@ -43,6 +43,7 @@ std::vector<metrics::InputFinding> sure_findings(
       finding.fix = fmt::format("--offset {:.4f}", finding.value);
     }
     return finding.confidence < kSureFinding ||
+           finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
            (finding.fault == metrics::Fault::scale && is_aligned);
   });
   return out;

@@ -1,0 +1,29 @@
+/// Check for different bodies of reference and estimate.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+#include "metrics/doctor/finding.hpp"
+
+namespace loopbench::metrics {
+
+struct LeverArm {
+  InputFinding finding;
+  Pose body_from_reference;  ///< of the estimate's body, in the reference's scale
+};
+
+/// A finding if a lever arm between the bodies explains at least half of the differences of
+/// displacements over rotations, see extrinsic_offset(). A constant rotation alone is none, because
+/// no position error depends on it. The stamps, axes and units must agree. O(1e5).
+std::optional<LeverArm> find_lever_arm(const Trajectory& reference, const Trajectory& estimate);
+
+/// Adds a lever arm to `conventions`, the findings about frames and units, if these are at most a
+/// scale. A lever arm resembles a scale if the body circles an object, so that a scale is removed
+/// that is left by no means once the lever arm is corrected. O(1e5).
+void add_lever_arm(std::vector<InputFinding>& conventions,
+                   const Trajectory& reference,
+                   const Trajectory& estimate);
+
+}  // namespace loopbench::metrics
