@@ -98,12 +98,21 @@ std::string failures_text(const Comparison& c, const MethodVerdict& method) {
   return fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);
 }
 
-/// distance() with p and the excluded runs.
+/// ", but raw fails on 6 of 8 runs": why a method ranks before the baseline although its error is
+/// larger where both have one.
+std::string baseline_failures_text(const Comparison& c, const MethodVerdict& method) {
+  const MethodVerdict& baseline = *find(c, c.options.baseline);
+  const bool is_worse = method.ratio && method.ratio->estimate > 1.0 + c.options.relevant;
+  if (!is_worse || baseline.fails <= method.fails) return "";
+  return fmt::format(", but {} fails on {} of {} runs", baseline.method, baseline.fails, c.runs);
+}
+
+/// distance() with p and the excluded runs, for a method that ranks before the baseline.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c);
   if (method.p) out += ", " + p_sentence(*method.p);
   if (method.p && !method.beats_baseline) out += ", not proven";
-  return out + failures_text(c, method);
+  return out + failures_text(c, method) + baseline_failures_text(c, method);
 }
 
 std::string why_no_comparison(const Comparison& c) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "harness/compare/levels.hpp"
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
 #include "harness/statistics/average.hpp"
@@ -15,10 +17,14 @@
 namespace loopbench::harness {
 namespace {
 
-/// Geometric mean of non-negative values.
-double geometric_mean(const std::vector<double>& values) {
+/// Geometric mean of non-negative values; none if one of them is zero within rounding, because a
+/// single one would decide the mean.
+std::optional<double> geometric_mean(const std::vector<double>& values) {
   double sum = 0.0;
-  for (const double value : values) sum += std::log(value);
+  for (const double value : values) {
+    if (value <= zero_floor(0.0)) return std::nullopt;
+    sum += std::log(value);
+  }
   return std::exp(sum / static_cast<double>(values.size()));
 }
 
@@ -49,8 +55,8 @@ Chosen choose(const RecordSource& records, const Accuracy& accuracy) {
 struct Point {
   std::string method;
   bool is_oracle = false;
-  std::size_t runs = 0;  // runs with an error
-  double error = 0.0;
+  std::size_t runs = 0;         // runs with an error
+  std::optional<double> error;  // none if an error is zero
   double seconds = 0.0;
 };
 
@@ -75,7 +81,11 @@ std::vector<Point> points_of(const std::vector<CellRecord>& cells,
       errors.push_back(mean(values.first));
       times.push_back(metrics::median(values.second));
     }
-    points.push_back({method, is_oracle(all), runs, geometric_mean(errors), geometric_mean(times)});
+    points.push_back({method,
+                      is_oracle(all),
+                      runs,
+                      geometric_mean(errors),
+                      geometric_mean(times).value_or(0.0)});
   }
   std::ranges::stable_sort(points, {}, &Point::seconds);
   return points;
@@ -83,12 +93,14 @@ std::vector<Point> points_of(const std::vector<CellRecord>& cells,
 
 /// yes, no, or a dash for methods that are excluded.
 std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t runs) {
-  const auto competes = [&](const Point& p) { return p.runs == runs && !p.is_oracle; };
+  const auto competes = [&](const Point& p) {
+    return p.runs == runs && !p.is_oracle && p.error.has_value();
+  };
   std::vector<double> errors;
   std::vector<double> times;
   for (const Point& point : points) {
     if (!competes(point)) continue;
-    errors.push_back(point.error);
+    errors.push_back(*point.error);
     times.push_back(point.seconds);
   }
   const std::vector<bool> front = pareto_front(errors, times);
@@ -140,7 +152,7 @@ TextTable pareto(const std::vector<CellRecord>& cells,
     const Point& point = points[i];
     out.rows.push_back({point.method + (point.is_oracle ? " (oracle)" : ""),
                         fmt::format("{} of {}", point.runs, all_runs.size()),
-                        fmt::format("{:.4g}", point.error),
+                        point.error ? fmt::format("{:.4g}", *point.error) : "-",
                         fmt::format("{:.4g}", 1e3 * point.seconds),
                         front[i]});
   }
@@ -152,10 +164,15 @@ TextTable pareto(const std::vector<CellRecord>& cells,
   out.notes.push_back(fmt::format(
       "geometric means over sequences of the mean over repeats; protocol {}, {}; front: no method "
       "is both faster and more accurate (relative differences below {} are ignored); -: excluded, "
-      "because it lacks runs or uses the reference",
+      "because it lacks runs, uses the reference or has no mean error",
       chosen.protocol,
       chosen.times,
       kRelevant));
+  std::string perfect;
+  for (const Point& point : points) {
+    if (!point.error) perfect += (perfect.empty() ? "" : ", ") + point.method;
+  }
+  if (!perfect.empty()) out.notes.push_back("no mean where an error is zero: " + perfect);
   std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }

@@ -111,6 +111,17 @@ TEST(Verdict, StatesThatNothingBeatsTheBaseline) {
             "the baseline dual is best; proven better than each of the other methods; over 8 runs");
 }
 
+TEST(Verdict, NamesTheFailuresOfABaselineThatRanksBehindAWorseMethod) {
+  std::vector<Record> records;
+  for (int i = 0; i < 8; ++i) {
+    records.push_back(i < 2 ? score("room", i, "raw", 1.0) : failed("room", i, "raw"));
+    records.push_back(score("room", i, "dual", 1.25));
+  }
+  const std::string text = verdict(compared(records, {.baseline = "raw"}));
+  EXPECT_TRUE(has(text, "dual is 25.0 % above raw")) << text;
+  EXPECT_TRUE(has(text, ", but raw fails on 6 of 8 runs")) << text;
+}
+
 TEST(Relevance, MakesSmallDifferencesTies) {
   std::vector<Record> records;
   for (int i = 0; i < 12; ++i) {

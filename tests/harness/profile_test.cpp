@@ -154,6 +154,23 @@ TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
   EXPECT_EQ(costs(cells).rows[1][0], "leaky (oracle)");
 }
 
+TEST(Pareto, HasNoMeanWhereAnErrorIsZero) {
+  const std::vector<CellRecord> cells{cell(0, "s", "perfect once", 9, 0.001),
+                                      cell(1, "t", "perfect once", 9, 0.001),
+                                      cell(2, "s", "other", 9, 0.002),
+                                      cell(3, "t", "other", 9, 0.002)};
+  const std::vector<Record> records{score(0, "dense", 3e-16),
+                                    score(1, "dense", 9.0),
+                                    score(2, "dense", 1.0),
+                                    score(3, "dense", 4.0)};
+  const TextTable listing = pareto(cells, records, {});
+  using Row = std::vector<std::string>;
+  ASSERT_EQ(listing.rows.size(), 2u);
+  EXPECT_EQ(listing.rows[0], (Row{"perfect once", "2 of 2", "-", "1", "-"}));
+  EXPECT_EQ(listing.rows[1], (Row{"other", "2 of 2", "2", "2", "yes"}));
+  EXPECT_EQ(std::ranges::count(listing.notes, "no mean where an error is zero: perfect once"), 1);
+}
+
 TEST(TextTable, ReadsAsMarkdownAndAsCsv) {
   const TextTable listing{"t", {"a", "b"}, {{"x|y", "1"}}, {"note"}};
   EXPECT_EQ(markdown(listing), "### t\n\n| a    |  b |\n| ---- | -: |\n| x\\|y |  1 |\n\n- note\n");
