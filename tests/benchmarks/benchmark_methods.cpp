@@ -19,7 +19,7 @@ void run(const Stage& stage, const Problem& problem) {
     benchmark::DoNotOptimize((*smoother)->smooth(problem, report));
   } else {
     benchmark::DoNotOptimize(
-        std::get<std::unique_ptr<const Method>>(stage)->estimate(problem, report));
+        std::get<std::unique_ptr<const Estimator>>(stage)->estimate(problem, report));
   }
 }
 
