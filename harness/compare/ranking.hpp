@@ -5,10 +5,11 @@
 /// Holm's correction covers all pairs, including that of a best method selected from the results. A
 /// method is proven better than another if the corrected p is at most alpha and the geometric mean
 /// ratio over common runs agrees: it has the same sign, exceeds the relevant difference (failures
-/// alone can decide between methods that are otherwise equal), its interval excludes 1, and the
-/// order agrees, too. With fewer groups than an interval needs (8), nothing is proven. If there is
-/// no interval for another reason (equal ratios, failures), the ranks and the direction and size of
-/// the ratio decide.
+/// alone can decide between methods that are otherwise equal), its interval excludes 1 even if it
+/// misses the ratio as often as for the worst of usual distributions, and the order agrees, too.
+/// With fewer groups than an interval needs (8), nothing is proven. If there is no interval for
+/// another reason (equal ratios, failures), the ranks and the direction and size of the ratio
+/// decide.
 #pragma once
 
 #include <string>

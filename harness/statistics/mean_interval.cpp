@@ -49,6 +49,11 @@ std::size_t differing(std::span<const double> values) {
   return values.size() - count_ties(values, rounding).most_frequent;
 }
 
+/// Needed number of values that differ from the most frequent one: of fewer than 75 values, 40 %.
+std::size_t fewest_that_differ(std::size_t count) {
+  return std::clamp<std::size_t>((2 * count + 4) / 5, 5, 30);
+}
+
 /// Sample skewness, corrected for bias.
 double sample_skewness(std::span<const double> values, double middle, double deviation) {
   double cubes = 0.0;
@@ -60,40 +65,25 @@ double sample_skewness(std::span<const double> values, double middle, double dev
   return n / ((n - 1.0) * (n - 2.0)) * cubes;
 }
 
-/// Towards the shorter tail: the distance r of the true mean from the sample mean, in sample
-/// deviations, and the t of Hall's transformation, which is about Student's.
-struct ShortTail {
-  double skewness;  ///< not negative
-  double n;
-
-  double t(double r) const {
-    const double cubic = r + skewness * r * r / 3.0 + skewness * skewness * r * r * r / 27.0;
-    return std::sqrt(n) * (cubic + skewness / (6.0 * n));
-  }
-  double r(double t) const {
-    const double cubic = t / std::sqrt(n) - skewness / (6.0 * n);
-    if (skewness < 1e-8) return cubic;
-    return 3.0 / skewness * (std::cbrt(1.0 + skewness * cubic) - 1.0);
-  }
+/// Distances of an interval's ends from the mean, relative to Student's.
+struct Reach {
+  double longer_tail = 1.0;
+  double shorter_tail = 1.0;
 };
 
-/// Towards the longer tail: the same. Hall's cubic is used up to its stationary point, r = 3 /
-/// skewness, where r is three times Student's; beyond that, r remains three times Student's.
-struct LongTail {
-  double skewness;  ///< not negative
-  double n;
-
-  double t(double r) const {
-    if (skewness * r >= 3.0) return std::sqrt(n) * r / 3.0;
-    return std::sqrt(n) * (r - skewness * r * r / 3.0 + skewness * skewness * r * r * r / 27.0);
-  }
-  double r(double t) const {
-    const double student = t / std::sqrt(n);
-    if (skewness < 1e-8) return student;
-    if (skewness * student >= 1.0) return 3.0 * student;
-    return 3.0 / skewness * (1.0 - std::cbrt(1.0 - skewness * student));
-  }
-};
+/// All numbers are fitted to coverage (mean_interval.hpp).
+Reach reach(double skewness, double count, double most_frequent) {
+  // A sample of n values is taken for skewed if the skewness of its mean is unusual for symmetric
+  // values; the fewer there are, the less is unusual for those with a long tail.
+  const double of_mean = std::abs(skewness) / std::sqrt(count);
+  const double skewed = std::clamp(10.0 * of_mean - 2.9 + 12.0 / count, 0.0, 1.0);
+  // Ties beside a few larger values look like a long tail although there is none.
+  const double ties = most_frequent > 1.0 ? most_frequent / count : 0.0;
+  const double furthest = 3.5 - 2.0 * std::min(1.0, 3.0 * ties);
+  // Samples that look skewed are covered too often then, so that others may be so less often.
+  const double symmetric = 1.0 - 10.0 / (count * count);
+  return {std::lerp(symmetric, furthest, skewed), std::lerp(symmetric, 1.0, skewed)};
+}
 
 }  // namespace
 
@@ -105,11 +95,12 @@ std::string why_no_interval(std::span<const double> values) {
                        kFewestForInterval);
   }
   const std::size_t count = differing(values);
-  if (count >= kFewestThatDiffer) return "";
+  const std::size_t needed = fewest_that_differ(values.size());
+  if (count >= needed) return "";
   return fmt::format("{} of {} observations differ from the most frequent value, {} must",
                      count,
                      values.size(),
-                     kFewestThatDiffer);
+                     needed);
 }
 
 std::optional<MeanInterval> mean_interval(std::span<const double> values, double level) {
@@ -117,22 +108,20 @@ std::optional<MeanInterval> mean_interval(std::span<const double> values, double
     throw std::invalid_argument("an interval needs a level within (0, 1)");
   }
   if (values.size() < kFewestForInterval) return std::nullopt;
-  const std::size_t freedom = differing(values);
-  if (freedom < kFewestThatDiffer) return std::nullopt;
+  const std::size_t unlike = differing(values);
+  if (unlike < fewest_that_differ(values.size())) return std::nullopt;
   const auto n = static_cast<double>(values.size());
   const double middle = mean(values);
   const double deviation = sample_deviation(values);
   const double skewness = sample_skewness(values, middle, deviation);
-  const ShortTail shorter{0.5 * std::abs(skewness), n};
-  const LongTail longer{1.7 * std::abs(skewness), n};
-  const double t = student_quantile(1.0 - level, freedom);
-  const double below = skewness > 0.0 ? shorter.r(t) : longer.r(t);
-  const double above = skewness > 0.0 ? longer.r(t) : shorter.r(t);
-  const double to_zero = std::abs(middle) / deviation;
-  const bool zero_is_in_longer = (skewness > 0.0) == (middle < 0.0);
-  return MeanInterval{
-      {middle, middle - deviation * below, middle + deviation * above},
-      student_p(zero_is_in_longer ? longer.t(to_zero) : shorter.t(to_zero), freedom)};
+  const Reach ends = reach(skewness, n, n - static_cast<double>(unlike));
+  const double below = skewness > 0.0 ? ends.shorter_tail : ends.longer_tail;
+  const double above = skewness > 0.0 ? ends.longer_tail : ends.shorter_tail;
+  const double error = deviation / std::sqrt(n);
+  const double student = error * student_quantile(1.0 - level, values.size() - 1);
+  const double t = std::abs(middle) / (error * (middle > 0.0 ? below : above));
+  return MeanInterval{{middle, middle - student * below, middle + student * above},
+                      student_p(t, values.size() - 1)};
 }
 
 }  // namespace loopbench::harness
