@@ -86,13 +86,8 @@ const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
     return loaded.load(cell);
   }();
   prctl(PR_SET_PDEATHSIG, 0);
+  malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
   return out;
-}
-
-std::string packed(const SequenceMetadata& metadata) {
-  Packer out;
-  out(metadata);
-  return out.bytes();
 }
 
 }  // namespace
@@ -108,7 +103,6 @@ void run_worker(const WorkerContext& context,
   if (uses_programs(context.sweep)) programs.emplace();
   const Answers answers{socket, shared_status};
   LoadedSequences loaded(context);
-  HeapHoles holes;
   const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
   CellProcesses cell_processes(context, socket, core, scratch, group);
   for (Job job; receive_all(socket, &job, sizeof job);) {
@@ -118,16 +112,15 @@ void run_worker(const WorkerContext& context,
       if (context.sweep.limits.memory > 0) shared_status.memory = process_memory("self");
       set_status(shared_status, job.cell, true);
       group.remove_limit();
-      holes.release();
       try {
         entry = &load(loaded, cell);
       } catch (const std::exception& error) {
         answers.send(Header::Kind::cannot_load, job.cell, error.what());
         return;
       }
-      if (!answers.send(Header::Kind::loaded, job.cell, packed(entry->metadata))) return;
-      malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
-      holes.fill();
+      Packer metadata;
+      metadata(entry->metadata);
+      if (!answers.send(Header::Kind::loaded, job.cell, metadata.bytes())) return;
     }
     if (job.only_load) {
       set_status(shared_status, SharedStatus::kIdle, false);
