@@ -200,12 +200,10 @@ double deviation_of(const SpeedMatch& match, double offset, double step) {
 /// Whether the correlation of the speeds is clearly higher with the offset. At constant speed, it
 /// is the same at all offsets but for rounding errors, which can be explained completely.
 bool raises_correlation(const TimeOffset& found) {
-  constexpr double kLeastGain = 0.002, kLeastShare = 0.2;  // of what is unexplained without it
-  constexpr double kSmallGain = 0.0005, kShareOfSmall = 0.5;
+  constexpr double kGain = 0.005;
+  constexpr double kSmallGain = 0.0005, kShare = 0.5;  // of what is unexplained without the offset
   const double gain = found.correlation - found.before;
-  const double share = gain / std::max(1e-9, 1.0 - found.before);
-  return (gain >= kLeastGain && share >= kLeastShare) ||
-         (gain >= kSmallGain && share >= kShareOfSmall);
+  return gain >= kGain || (gain >= kSmallGain && gain >= kShare * (1.0 - found.before));
 }
 
 }  // namespace

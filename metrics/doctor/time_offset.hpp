@@ -28,8 +28,8 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
 
 /// A finding if the offset is significant (four standard deviations, above 40 ms and 60 % of the
 /// estimate's interval) and gives a clearly higher correlation of the speeds than no offset: by
-/// 0.002 and a fifth of what is missing to 1, or by 0.0005 and half of it. Files without common
-/// time need a correlation of 0.85: those of different recordings reach 0.75 at some offset.
+/// 0.005, or by 0.0005 and half of what is missing to 1. Files without common time need a
+/// correlation of 0.85: those of different recordings reach 0.75 at some offset.
 std::optional<InputFinding> offset_finding(const TimeOffset& found, const Trajectory& estimate);
 
 }  // namespace loopbench::metrics

@@ -16,6 +16,8 @@ struct PlantedEdges {
   std::string name;
   metrics::Fault fault;
   std::function<void(Problem&)> plant;
+  /// Why the fault has no effect that edges could show in this graph; empty if it has.
+  std::function<std::string(const Problem&)> no_fault;
 };
 
 std::vector<PlantedEdges> edge_faults();

@@ -54,8 +54,15 @@ Pose mirrored(const Pose& p) {  // not y, which is up in KITTI: a car moves in a
 Pose permuted(const Pose& p) {
   return {p.rotation, {p.translation.y(), p.translation.z(), p.translation.x()}};
 }
-Pose exchanged(const Pose& p) {
+Pose x_and_y_exchanged(const Pose& p) {
   return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
+}
+
+/// A lever arm as of a marker on a camera, or of another sensor on a car.
+void to_another_body(Recording& r) {
+  const bool is_car = r.estimate_name.find("/kitti/") != std::string::npos;
+  const Pose other{Rotation::Identity(), (is_car ? 4.0 : 1.0) * Vector3(0.3, -0.2, 0.25)};
+  for (StampedPose& pose : r.estimate) pose.world_from_body = pose.world_from_body * other;
 }
 
 Recording read(const fs::path& reference, const fs::path& estimate) {
@@ -86,11 +93,12 @@ std::vector<PlantedFault> faults() {
       {"estimate in millimetres", Fault::length_unit, each_pose(false, lengths_times(1000.0))},
       {"reference in millimetres", Fault::length_unit, each_pose(true, lengths_times(1000.0))},
       {"estimate's x mirrored", Fault::axes, each_pose(false, mirrored)},
-      {"estimate's x and y exchanged", Fault::axes, each_pose(false, exchanged)},
+      {"estimate's x and y exchanged", Fault::axes, each_pose(false, x_and_y_exchanged)},
       {"estimate's axes y z x", Fault::axes, each_pose(false, permuted)},
       {"estimate inverted", Fault::inverted_poses, each_pose(false, inverted)},
       {"reference inverted", Fault::inverted_poses, each_pose(true, inverted)},
       {"estimate without scale (x 0.4)", Fault::scale, each_pose(false, lengths_times(0.4))},
+      {"estimate of another body (0.44 m; cars 1.75 m)", Fault::lever_arm, to_another_body},
       {"reference and estimate exchanged", Fault::swapped, [](Recording& r) {
          std::swap(r.reference, r.estimate);
          std::swap(r.reference_name, r.estimate_name);
