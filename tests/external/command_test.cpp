@@ -135,7 +135,7 @@ TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
   const auto done = cells(entries + "  - uniform\n");
   ASSERT_EQ(done.size(), all.size() + 2) << ran_.err;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(done[i + 1].status, all[i][2]) << all[i][0] << ": " << done[i + 1].why;
+    EXPECT_EQ(to_text(done[i + 1].status), all[i][2]) << all[i][0] << ": " << done[i + 1].why;
     EXPECT_THAT(done[i + 1].why.text(), HasSubstr(all[i][3])) << all[i][0];
     EXPECT_LT(done[i + 1].why.text().size(), 2200u) << "output is cut off";
   }

@@ -39,7 +39,7 @@ TEST_P(Serve, AMisbehavingProgramCostsOneCell) {
   const CommandResult ran = loopbench_command("run c.yaml --out r -j 1", folder);
   const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
   ASSERT_EQ(cells.size(), 4u) << ran.err;
-  EXPECT_EQ(cells[1].status, each.status) << cells[1].why;
+  EXPECT_EQ(to_text(cells[1].status), each.status) << cells[1].why;
   EXPECT_THAT(cells[1].why.text(), HasSubstr(each.why));
   EXPECT_LT(cells[1].why.text().size(), 2200u) << "output is cut off";
   EXPECT_EQ(cells[0].status, Status::ok) << cells[0].why;
