@@ -89,12 +89,6 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::
   return out;
 }
 
-/// The reference of a sequence with the closures of its repeats, and its origin [s].
-struct DrawnSequence {
-  double origin = 0.0;
-  nlohmann::json json;
-};
-
 }  // namespace
 
 std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
@@ -131,22 +125,21 @@ bool reduce(Thinning& thinning, double share) {
 
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning) {
   Traces traces(content.store);
-  std::map<std::string, DrawnSequence> sequences;
+  std::map<std::string, nlohmann::json> sequences;  // references, and closures of their repeats
+  std::map<std::string, double> origins;            // of time [s]
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
   nlohmann::json grids = nlohmann::json::array();
   nlohmann::json cells = nlohmann::json::object();
   for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
     const CellRecord& cell = content.shown_cells[i];
     const std::string repeat = std::to_string(cell.repeat);
-    DrawnSequence* sequence = nullptr;
-    if (const auto known = sequences.find(cell.sequence);
-        known != sequences.end() && known->second.json["runs"].contains(repeat)) {
-      sequence = &known->second;
-    } else if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
-      sequence = &sequences[cell.sequence];
-      sequence->origin = trace->origin.stamp;
-      if (sequence->json.is_null()) sequence->json = reference_json(*trace, thinning.points);
-      sequence->json["runs"][repeat] = closures_json(*trace);
+    nlohmann::json& sequence = sequences[cell.sequence];
+    if (sequence.is_null() || !sequence["runs"].contains(repeat)) {
+      if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
+        origins[cell.sequence] = trace->origin.stamp;
+        if (sequence.is_null()) sequence = reference_json(*trace, thinning.points);
+        sequence["runs"][repeat] = closures_json(*trace);
+      }
     }
     const std::optional<CellTrace> trace = traces.cell(cell.position);
     if (!trace || trace->samples.empty()) continue;
@@ -162,14 +155,15 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
              {"z", packed(e.z)},
              {"a", packed(e.angle)}};
     const std::vector<methods::Section> sections = traces.sections(cell.position);
-    if (!sections.empty() && sequence != nullptr) {
-      drawn["cut"] = sections_json(sections, sequence->origin);
+    const auto origin = origins.find(cell.sequence);
+    if (!sections.empty() && origin != origins.end()) {
+      drawn["cut"] = sections_json(sections, origin->second);
     }
   }
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& name : content.shown_sequences()) {
     const auto found = sequences.find(name);
-    all.push_back(found == sequences.end() ? nullptr : std::move(found->second.json));
+    all.push_back(found == sequences.end() ? nullptr : std::move(found->second));
   }
   return {{"points", thinning.points},
           {"sequences", std::move(all)},

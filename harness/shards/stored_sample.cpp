@@ -86,7 +86,7 @@ RecomputedSample recompute_sample(
     run_isolated(
         sweep, missing, catalogue, root, arguments.jobs, sandbox, stop, [&](const auto& r) {
           if (r.status != Status::interrupted) store.write(r);
-          on_cell(sample.size(), sweep.datasets[r.cell.dataset].label);
+          on_cell(sample.size(), setting.sweep.datasets[r.cell.dataset].label);
         });
   }
   if (stop > 0) return {sample.size(), {}};
