@@ -126,7 +126,7 @@ TEST(LoadPlugin, RefusesAnotherAbi) {
 }
 
 TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 3");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 4");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {
