@@ -181,8 +181,10 @@ TEST_F(Sandboxed, GuardedProcessesCannotBeSignalled) {
 
 TEST_F(Sandboxed, GuardedProcessesCannotBeSlowedDown) {
   if (!has_seccomp()) GTEST_SKIP() << "no seccomp";
-  const auto priority = [](int which, int who) {
-    return [=] { return error_of(setpriority(static_cast<__priority_which>(which), who, 1)); };
+  const auto priority = [](int which, pid_t who) {
+    return [=] {
+      return error_of(setpriority(static_cast<__priority_which>(which), static_cast<id_t>(who), 1));
+    };
   };
   const auto core_of = [](pid_t process) {
     cpu_set_t cores;
