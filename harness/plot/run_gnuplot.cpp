@@ -33,8 +33,8 @@ struct Descriptor {
   throw InputError(std::string("gnuplot cannot be started: ") + std::strerror(reason));
 }
 
-/// Stops early if gnuplot ends; then it has reported why. Run on a thread of its own, whose SIGPIPE
-/// is blocked and ends with it.
+/// Stops early if gnuplot ends, which has then reported why. Blocks SIGPIPE: call it on a thread of
+/// its own, which takes a pending signal with it.
 void send_all_to(Descriptor& out, const std::string& script) {
   sigset_t broken_pipe;
   sigemptyset(&broken_pipe);

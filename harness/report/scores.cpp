@@ -17,7 +17,7 @@ ScoreKind score_kind(const Record& r) {
   return {r.protocol, r.times, metric_label(r), r.relation, r.axis, r.unit};
 }
 
-/// As the report names the statistics: rmse, mean, median, max.
+/// In the order of `statistics`: rmse, mean, median, max.
 nlohmann::json statistics_json(const metrics::Statistics& s) {
   constexpr int kDigits = 5;
   nlohmann::json out = nlohmann::json::array();

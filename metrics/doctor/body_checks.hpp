@@ -20,8 +20,8 @@ struct LeverArm {
 std::optional<LeverArm> find_lever_arm(const Trajectory& reference, const Trajectory& estimate);
 
 /// Adds a lever arm to `conventions`, the findings about frames and units, if these are at most a
-/// scale. A lever arm resembles a scale if the body circles an object, so that a scale is removed
-/// that is left by no means once the lever arm is corrected. O(1e5).
+/// scale. A lever arm can look like a scale when the body circles an object: a finding of a scale
+/// that disappears once the lever arm is corrected is removed. O(1e5).
 void add_lever_arm(std::vector<InputFinding>& conventions,
                    const Trajectory& reference,
                    const Trajectory& estimate);

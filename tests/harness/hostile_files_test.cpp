@@ -138,7 +138,8 @@ TEST_F(HostileFiles, OtherNamesOfInputsAreReported) {
                "datasets: [{dataset: trajectory, label: my, estimate: a.txt, reference: truth.txt, "
                "closures: {source: none}}]\nmethods: [raw]\nmetrics: [ate]\n");
   const std::string note =
-      "truth.txt has 2 names (hard links); methods cannot read it by this name, but by the others";
+      "truth.txt has 2 names (hard links); methods cannot read it under this name, "
+      "but can under the others";
   EXPECT_EQ(run("run l.yaml --out one", ">out").err.find("hard links"), std::string::npos);
   fs::create_hard_link(folder_.path() / "truth.txt", folder_.path() / "other.txt");
   const std::string err = run("run l.yaml --out two", ">out").err;

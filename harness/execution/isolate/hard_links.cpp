@@ -27,7 +27,7 @@ std::string note_about_links(const std::vector<InputFile>& inputs) {
     if (out.empty()) out = fmt::format("{} has {} names (hard links)", input.path, count);
   }
   if (others > 0) out += fmt::format(", as have {} more files", others);
-  if (!out.empty()) out += "; methods cannot read it by this name, but by the others";
+  if (!out.empty()) out += "; methods cannot read it under this name, but can under the others";
   return out;
 }
 
