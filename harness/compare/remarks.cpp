@@ -10,6 +10,13 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+/// With this share of ties or more, 95 % intervals cover up to 98 % (mean_interval.hpp).
+constexpr double kManyTies = 0.2;
+
+bool is_tied(const MethodVerdict& m, const Comparison& c) {
+  return static_cast<double>(m.ties) >= kManyTies * static_cast<double>(c.groups);
+}
+
 std::string comma_list(const Lines& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -81,8 +88,10 @@ Lines about_ratios(const Comparison& c) {
   }
   Lines out;
   Lines zero;
+  Lines tied;
   std::map<std::string, Lines> without;  // by reason
   for (const MethodVerdict& m : c.methods) {
+    if (m.has_interval && is_tied(m, c)) tied.push_back(m.method);
     if (!m.ratio && m.runs > 0) zero.push_back(m.method);
     if (m.ratio && !m.has_interval && m.wins + m.losses > 0) {
       without[m.why_no_interval].push_back(m.method);
@@ -94,6 +103,12 @@ Lines about_ratios(const Comparison& c) {
   }
   for (const auto& [why, methods] : without) {
     out.push_back("no interval for " + comma_list(methods) + ": " + why);
+  }
+  if (!tied.empty()) {
+    out.push_back(
+        "interval too wide (of 95 %, it contains the ratio in up to 98 % of the cases), "
+        "because a fifth of the groups or more tie with " +
+        c.options.baseline + ": " + comma_list(tied));
   }
   return out;
 }

@@ -16,7 +16,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostErrorPoints = 1000;
+constexpr std::size_t kMostPoints = 1000;  // of a curve
 
 double position_error(const DrawnEvaluation& e, std::size_t i) {
   return (e.estimate[i].world_from_body.translation - e.reference[i].world_from_body.translation)
@@ -28,12 +28,30 @@ double rotation_error(const DrawnEvaluation& e, std::size_t i) {
                                            e.reference[i].world_from_body.rotation);
 }
 
-/// Evenly chosen indices, with the last one.
-std::vector<std::size_t> drawn_indices(std::size_t size) {
-  const std::size_t step = size / kMostErrorPoints + 1;
+/// Evenly chosen indices, at most about kMostPoints, with the last one.
+std::vector<std::size_t> even_indices(std::size_t size) {
+  const std::size_t step = size / (kMostPoints + 1) + 1;
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i + 1 < size; i += step) out.push_back(i);
   if (size > 0) out.push_back(size - 1);
+  return out;
+}
+
+/// The least and the greatest value of equal parts, so that no peak is lost, at most about
+/// kMostPoints; with the first and the last value.
+std::vector<std::size_t> extreme_indices(const std::vector<double>& values) {
+  if (values.size() <= kMostPoints) return even_indices(values.size());
+  const std::size_t step = 2 * values.size() / kMostPoints + 1;
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<std::size_t> out{0};
+  for (std::size_t first = 1; first + 1 < values.size(); first += step) {
+    const std::size_t end = std::min(first + step, values.size() - 1);
+    const auto [low, high] = std::minmax_element(at(first), at(end));
+    const auto [one, other] = std::minmax({low - values.begin(), high - values.begin()});
+    out.push_back(static_cast<std::size_t>(one));
+    if (other != one) out.push_back(static_cast<std::size_t>(other));
+  }
+  out.push_back(values.size() - 1);
   return out;
 }
 
@@ -49,7 +67,7 @@ PlotPanel map_of(const std::vector<DrawnEvaluation>& all, int a, int b) {
   for (const DrawnEvaluation& e : all) {
     const CurveStyle& style = e.style;
     PlotSeries estimate{e.name, style.color, false, {}, kLineWidth, style.dash};
-    for (const std::size_t i : drawn_indices(e.estimate.size())) {
+    for (const std::size_t i : even_indices(e.estimate.size())) {
       estimate.points.push_back(on_map(e.estimate[i].world_from_body.translation, a, b));
       if (is_colored) estimate.values.push_back(position_error(e, i));
     }
@@ -80,8 +98,10 @@ PlotPanel curves_of(const std::vector<DrawnEvaluation>& all,
   out.y_label = y_label;
   for (const DrawnEvaluation& e : all) {
     PlotSeries series{e.name, e.style.color, false, {}, kLineWidth, e.style.dash};
-    for (const std::size_t i : drawn_indices(e.estimate.size())) {
-      series.points.emplace_back((e.*along)[i], value(e, i), 0.0);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < e.estimate.size(); ++i) values.push_back(value(e, i));
+    for (const std::size_t i : extreme_indices(values)) {
+      series.points.emplace_back((e.*along)[i], values[i], 0.0);
     }
     out.series.push_back(std::move(series));
   }

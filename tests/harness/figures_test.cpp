@@ -60,6 +60,30 @@ TEST(Figures, AllEstimatesHaveTheOriginOfTheReference) {
   EXPECT_NEAR(figures[0].panels[0].series[0].points.back().x(), 50.0, 1e-9);
 }
 
+TEST(Figures, KeepThePeakOfAnErrorWithFewerPoints) {
+  DrawnEvaluation one;
+  for (int i = 0; i < 5000; ++i) {
+    const StampedPose pose{0.1 * i, {Rotation::Identity(), Vector3(0.1 * i, 0.0, 0.0)}};
+    one.reference.push_back(pose);
+    one.estimate.push_back(pose);
+    one.times.push_back(pose.stamp);
+    one.distances.push_back(pose.stamp);
+  }
+  one.complete = one.reference;
+  one.estimate[3217].world_from_body.translation.y() = 4.0;  // of one pose only
+  const auto largest = [](const PlotSeries& series) {
+    double out = 0.0;
+    for (const Vector3& p : series.points) out = std::max(out, p.y());
+    return out;
+  };
+  const std::vector<NamedFigure> figures = error_figures({one});
+  const PlotSeries errors = panel(figures[1], "time [s]", "position error [m]").series[0];
+  EXPECT_EQ(largest(errors), 4.0);
+  EXPECT_EQ(errors.points.front().x(), 0.0);
+  EXPECT_NEAR(errors.points.back().x(), 499.9, 1e-9);
+  EXPECT_LE(errors.points.size(), 1010u);
+}
+
 std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
                                       const std::vector<double>& errors) {
   std::vector<EvaluationResult> out;
