@@ -20,6 +20,8 @@ inline constexpr std::array kRenamedNames{
     RenamedName{"", "body_offset", "extrinsic_offset"},
     RenamedName{"extrinsic_offset", "turn", "rotation"},
     RenamedName{"diagnostics", "loss", "tracking_gap"},
+    RenamedName{"diagnostics", "standing", "rest_speed"},
+    RenamedName{"along_cross", "standing", "rest_speed"},
     RenamedName{"simulated", "shake.sigma_t", "white_noise.sigma_t"},
     RenamedName{"simulated", "shake.sigma_r", "white_noise.sigma_r"},
     RenamedName{"motion_drift", "prior.scale_spread", "prior.common_dispersion"},

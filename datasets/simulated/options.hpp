@@ -80,7 +80,10 @@ struct SimulatedOptions {
 
 template <class Visit>
 void fields(SimulatedOptions& o, Visit visit) {
-  visit("path", o.path, "closed-form path");
+  visit("path",
+        o.path,
+        "path; room, office: hand-held loops; driving: 1 km through town blocks; line: straight; "
+        "still: at rest; spin: rotation at one position");
   visit("seed", o.seed, "seed of all random draws", Between{0});
   noise_stream_field(o.stream, visit);
   visit("laps", o.laps, "number of laps along the path", Between{1});

@@ -98,7 +98,9 @@ void add_table(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("table", "Print tables of a sweep's results");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
-  const std::string columns = "comma-separated fields of the long table";
+  const std::string columns =
+      "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "
+      "relation, axis, unit, status, score)";
   command
       ->add_option(
           "--rows", arguments->spec.rows, "Rows: " + columns + "; sequence: sequences by methods")

@@ -43,7 +43,9 @@ void declare_pairing(CLI::App& verb, TrajArguments& a) {
   verb.add_option("--ref", a.reference, "Reference trajectory")->required()->type_name("FILE");
   verb.add_option("--association",
                   a.association,
-                  "Rule of pairing: evo (nearest stamp) or nearest (one to one)")
+                  "Pairing: evo (nearest stamp, a pose can be paired twice) or nearest "
+                  "(one-to-one, smallest "
+                  "differences first)")
       ->check(CLI::IsMember({"evo", "nearest"}));
   verb.add_option(
           "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]")
@@ -68,7 +70,8 @@ void declare_crop(CLI::App& verb, TrajArguments& a) {
 }
 
 void declare_transform(CLI::App& verb, TrajArguments& a) {
-  const char* const values = "x,y,z[,qx,qy,qz,qw] or a JSON file with these keys and scale";
+  const char* const values =
+      "x,y,z [m] or x,y,z,qx,qy,qz,qw, or a JSON file with these keys and scale";
   verb.add_option("--left", a.left, std::string("Transform to multiply on the left: ") + values);
   verb.add_option("--right", a.right, std::string("Transform to multiply on the right: ") + values);
   verb.add_flag("--invert", a.invert, "Use the inverse of the transform");

@@ -106,7 +106,8 @@ void add_verify(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
       "verify",
-      "Check that results are bit-identical for any number of workers, or on this machine");
+      "Check that results are bit-identical for any number of workers or, with --sample, to those "
+      "of a store");
   command
       ->add_option(
           "config", arguments->config, "YAML file, or the name of an installed config: quickstart")

@@ -1,9 +1,9 @@
 /// Results of one sweep in one SQLite file, written as cells finish, and resumed by later runs.
 ///
 /// Schema: `run` holds the configuration, `provenance` and `input` the build and the input files;
-/// `cell` has a row per cell, `score` one per score, `phase`, `count` and `note` the method's
-/// report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each cell is one
-/// transaction, so a killed sweep leaves only complete cells.
+/// `cell` and `scores` have a row per cell (the view `score` one per score), `phase`, `count` and
+/// `note` the method's report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each
+/// cell is one transaction, so a killed sweep leaves only complete cells.
 ///
 /// Durability: the store is written in WAL mode with `synchronous = NORMAL`. Once write()
 /// has returned, no end of the process can lose the cell. It is on the disk, and survives a power

@@ -8,8 +8,8 @@
 
 namespace loopbench::methods {
 
-/// Returns why the odometry is not a complete chain, or nullopt. Edge i must join keyframes
-/// i and i + 1. O(n).
+/// Returns why the odometry is not a complete chain, or an empty text. Edge i must join
+/// keyframes i and i + 1. O(n).
 inline std::string chain_fault(const Problem& problem) {
   const std::size_t expected = problem.keyframes.empty() ? 0 : problem.keyframes.size() - 1;
   if (problem.odometry.size() != expected) {
@@ -27,7 +27,8 @@ inline std::string chain_fault(const Problem& problem) {
   return "";
 }
 
-/// Returns why a chain cannot be corrected by at most `max_closures` loops, or nullopt. O(n).
+/// Returns why a chain cannot be corrected by at most `max_closures` loops, or an empty text.
+/// O(n).
 inline std::string loops_fault(const Problem& problem, int max_closures) {
   if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(max_closures)) {

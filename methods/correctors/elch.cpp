@@ -133,7 +133,7 @@ Trajectory Elch::correct(const Problem& problem, Report& report) const {
     gap = std::max(gap, (target.translation - out[loop.to].world_from_body.translation).norm());
   }
   report.count("closures", static_cast<double>(problem.closures.size()));
-  report.count("largest_gap_left", gap);
+  report.count("largest_closing_error", gap);
   return out;
 }
 

@@ -34,7 +34,7 @@ struct Clique {
 };
 
 /// First builds greedy cliques from every vertex, O(size^2 size / 64). Then runs branch and bound
-/// with greedy colouring (Tomita and Seki 2003; San Segundo et al. 2011) for at most `most_steps`
+/// with greedy colouring (Tomita and Seki 2003; San Segundo et al. 2011) for at most `max_steps`
 /// steps; exponential in the worst case. Deterministic: the same graph gives the same clique.
 Clique max_clique(const BitGraph& graph, std::size_t max_steps);
 

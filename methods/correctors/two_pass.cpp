@@ -123,7 +123,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   double gap = 0.0;
   for (const Edge& loop : problem.closures) gap = std::max(gap, chain.gap(loop));
   report.count("closures", static_cast<double>(problem.closures.size()));
-  report.count("largest_gap_left", gap);
+  report.count("largest_closing_error", gap);
   if (skipped > 0) {
     report.notes.push_back(std::to_string(skipped) +
                            " closures ignored: every step lies inside an earlier loop");

@@ -33,8 +33,8 @@ class TwoPass final : public Corrector {
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `closures`, `largest_gap_left` [m]. Throws std::runtime_error when closures are not
-  /// sorted by (to, from) or refer to a missing keyframe.
+  /// Counts: `closures`, `largest_closing_error` [m]. Throws std::runtime_error when closures are
+  /// not sorted by (to, from) or refer to a missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

@@ -85,7 +85,7 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   double gap = 0.0;
   for (const Edge& loop : loops) gap = std::max(gap, chain.gap(loop));
   report.count("closures", static_cast<double>(loops.size()));
-  report.count("largest_gap_left", gap);
+  report.count("largest_closing_error", gap);
   const auto remark = [&](std::size_t count, const std::string& what) {
     if (count > 0) report.notes.push_back(std::to_string(count) + " closures: " + what);
   };

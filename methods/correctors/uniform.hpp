@@ -33,9 +33,9 @@ class Uniform final : public Corrector {
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `closures`, `largest_gap_left` [m] over all closures after the last one was closed.
-  /// Throws std::runtime_error when closures are not sorted by (to, from) or refer to a missing
-  /// keyframe.
+  /// Counts: `closures`, `largest_closing_error` [m] over all closures after the last one was
+  /// closed. Throws std::runtime_error when closures are not sorted by (to, from) or refer to a
+  /// missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

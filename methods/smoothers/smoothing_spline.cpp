@@ -131,7 +131,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
     report.count("lambda_t", lambda);
     positions = reinsch.fit(points, lambda);
   }
-  report.count("free_t", size - positions.free);
+  report.count("dof_t", size - positions.free);
   auto position_curve = std::make_unique<PositionSpline>(times, knots(positions));
   if (options_.rotation == RotationMode::slerp) {
     return std::make_unique<PositionAndRotationCurve>(
@@ -150,7 +150,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
         return reinsch.fit(flat, lambda);
       });
   report.count("lambda_r", lambda);
-  report.count("free_r", size - rotation.fit.free);
+  report.count("dof_r", size - rotation.fit.free);
   report.count("iterations", rotation.iterations);
   if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
   return std::make_unique<PositionAndRotationCurve>(

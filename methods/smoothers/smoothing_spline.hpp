@@ -29,9 +29,9 @@ class SmoothingSpline final : public Smoother {
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` with axes: each); `free_t`,
-  /// `free_r`, residual degrees of freedom per axis, of n; `iterations` of the rotation fit. Adds a
-  /// note when the rotation fit does not converge.
+  /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` with axes: each); `dof_t`,
+  /// `dof_r`, effective degrees of freedom of the fit per axis, at most n; `iterations` of the
+  /// rotation fit. Adds a note when the rotation fit does not converge.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:

@@ -21,7 +21,7 @@ void diagnose_pairs(const Evaluation& evaluation, Diagnostics& out) {
     if (i == 0) continue;
     const double gap = reference[i].stamp - reference[i - 1].stamp;
     const double ours = estimate[i].stamp - estimate[i - 1].stamp;
-    out.largest_gap = std::max(out.largest_gap, gap);
+    out.longest_pair_interval = std::max(out.longest_pair_interval, gap);
     out.repeated += gap == 0.0 || ours == 0.0;
     out.crossing += gap < 0.0 || ours < 0.0;
   }
@@ -33,11 +33,11 @@ void diagnose_gaps(const Trajectory& reference,
                    const DiagnosticsOptions& o,
                    Diagnostics& out) {
   for (const TrackingGap& gap :
-       gaps_while_moving(reference, stamps(estimate), offset, o.tracking_gap, o.standing)) {
+       gaps_while_moving(reference, stamps(estimate), offset, o.tracking_gap, o.rest_speed)) {
     const double duration = gap.end - gap.begin;
     ++out.tracking_gaps;
-    out.lost += duration;
-    out.longest_gap = std::max(out.longest_gap, duration);
+    out.tracking_gap_time += duration;
+    out.longest_tracking_gap = std::max(out.longest_tracking_gap, duration);
   }
 }
 
@@ -51,10 +51,10 @@ Diagnostics diagnose(const Evaluation& evaluation, const DiagnosticsOptions& opt
   out.condition = evaluation.alignment.condition;
   diagnose_pairs(evaluation, out);
   const std::vector<Chord> windows = chords(evaluation.reference, options.window);
-  const auto standing = std::ranges::count_if(
-      windows, [&](const Chord& chord) { return !chord.is_moving(options.standing); });
+  const auto at_rest = std::ranges::count_if(
+      windows, [&](const Chord& chord) { return !chord.is_moving(options.rest_speed); });
   if (!windows.empty())
-    out.standing = static_cast<double>(standing) / static_cast<double>(windows.size());
+    out.at_rest = static_cast<double>(at_rest) / static_cast<double>(windows.size());
   out.position_only_reference = is_position_only(evaluation.reference);
   out.position_only_estimate = is_position_only(evaluation.estimate);
   const Context& context = evaluation.context;
@@ -71,18 +71,18 @@ std::vector<Score> diagnostics(const Evaluation& evaluation, const DiagnosticsOp
   };
   return descriptions({count_score("matched", d.matched),
                        count_score("possible", d.possible),
-                       single("largest_gap", "", "s", d.largest_gap),
+                       single("longest_pair_interval", "", "s", d.longest_pair_interval),
                        count_score("repeated", d.repeated),
                        count_score("crossing", d.crossing),
                        single("off_unit", "", "1", d.off_unit),
                        single("alignment_rank", "", "1", d.rank),
                        single("alignment_condition", "", "1", d.condition),
-                       single("standing", "", "%", 100.0 * d.standing),
+                       single("at_rest", "", "%", 100.0 * d.at_rest),
                        count_score("position_only_reference", d.position_only_reference),
                        count_score("position_only_estimate", d.position_only_estimate),
                        count_score("tracking_gaps", d.tracking_gaps),
-                       single("lost", "", "s", d.lost),
-                       single("longest_gap", "", "s", d.longest_gap)});
+                       single("tracking_gap_time", "", "s", d.tracking_gap_time),
+                       single("longest_tracking_gap", "", "s", d.longest_tracking_gap)});
 }
 
 }  // namespace loopbench::metrics

@@ -6,18 +6,20 @@
 namespace loopbench::metrics {
 
 struct DiagnosticsOptions {
-  double standing = 0.05;
+  double rest_speed = 0.05;
   double window = 1.0;
   double tracking_gap = 2.0;
 };
 
 template <class Visit>
 void fields(DiagnosticsOptions& o, Visit visit) {
-  visit("standing", o.standing, "speed below which the reference is at rest [m/s]", Between{0.0});
+  visit(
+      "rest_speed", o.rest_speed, "speed below which the reference is at rest [m/s]", Between{0.0});
   visit("window", o.window, "time window for the speed [s]", Between{0.0});
   visit("tracking_gap",
         o.tracking_gap,
-        "pause between estimate stamps beyond which tracking counts as lost [s]",
+        "time without poses of the estimate, while the reference moves, that counts as a tracking "
+        "gap [s]",
         GreaterThan{0.0});
 }
 
@@ -25,7 +27,7 @@ void fields(DiagnosticsOptions& o, Visit visit) {
 struct Diagnostics {
   std::size_t matched = 0;
   std::size_t possible = 0;
-  double largest_gap = 0.0;  ///< largest time between neighbouring pairs [s]
+  double longest_pair_interval = 0.0;  ///< largest time between neighbouring pairs [s]
   /// Pairs that use a pose a second time (association evo), and pairs whose estimate stamp is
   /// before that of the previous pair (association tum, around bursts). Repeated or unsorted stamps
   /// inside one file are handled by the readers, which reject them or, on request, keep one.
@@ -35,14 +37,14 @@ struct Diagnostics {
       0.0;       ///< largest | |q| - 1 |; readers reject values above a limit and normalise
   int rank = 3;  ///< of the alignment, see Alignment
   double condition = 1.0;
-  double standing = 0.0;                 ///< share of pairs at which the reference is at rest, 0..1
+  double at_rest = 0.0;                  ///< share of pairs at which the reference is at rest, 0..1
   bool position_only_reference = false;  ///< if true, rotation is not evaluated
   bool position_only_estimate = false;
   /// Tracking gaps: pauses of the estimate longer than `tracking_gap` during which the reference
   /// moved.
   std::size_t tracking_gaps = 0;
-  double lost = 0.0;         ///< total duration of the tracking gaps [s]
-  double longest_gap = 0.0;  ///< [s]
+  double tracking_gap_time = 0.0;     ///< total duration of the tracking gaps [s]
+  double longest_tracking_gap = 0.0;  ///< [s]
 };
 
 /// Tracking gaps are found only if the context has the complete estimate and reference. O(n + m).

@@ -35,10 +35,10 @@ std::string body_option(const Pose& body_from_reference) {
 std::optional<ExtrinsicOffset> extrinsic_offset(const Trajectory& reference,
                                                 const Trajectory& estimate,
                                                 const ExtrinsicOffsetOptions& options) {
-  const auto stretches =
+  const auto relative_poses =
       rotating_intervals(reference, estimate, options.rotation * kDegree, options.longest);
-  if (stretches.size() < kFewest) return std::nullopt;
-  return ExtrinsicOffset{hand_eye(stretches), stretches.size()};
+  if (relative_poses.size() < kFewest) return std::nullopt;
+  return ExtrinsicOffset{hand_eye(relative_poses), relative_poses.size()};
 }
 
 std::optional<ExtrinsicOffset> extrinsic_offset(const Evaluation& evaluation,
@@ -81,15 +81,15 @@ std::vector<Score> extrinsic_offset_scores(const Evaluation& evaluation,
   constexpr const char* kAxes[] = {"x", "y", "z", "w"};
   for (int i = 0; i < 3; ++i) out.push_back(single("position", kAxes[i], "m", at[i]));
   for (int i = 0; i < 3; ++i) {
-    out.push_back(single("deviation", kAxes[i], "m", found->fit.deviation[i]));
+    out.push_back(single("position_std", kAxes[i], "m", found->fit.deviation[i]));
   }
   for (int i = 0; i < 4; ++i) {
-    out.push_back(single("attitude", kAxes[i], "1", rotation.coeffs()[i]));
+    out.push_back(single("quaternion", kAxes[i], "1", rotation.coeffs()[i]));
   }
   out.push_back(single("rotation", "", "deg", log_so3(rotation).norm() / kDegree));
   out.push_back(single("rotation_explained", "", "%", 100.0 * found->fit.rotation_explained));
-  out.push_back(single("position_explained", "", "%", 100.0 * found->fit.lever_arm_explained));
-  out.push_back(single("stretches", "", "1", static_cast<double>(found->stretches)));
+  out.push_back(single("lever_arm_explained", "", "%", 100.0 * found->fit.lever_arm_explained));
+  out.push_back(single("relative_poses", "", "1", static_cast<double>(found->relative_poses)));
   return descriptions(std::move(out));
 }
 

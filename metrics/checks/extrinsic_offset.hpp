@@ -25,7 +25,7 @@ void fields(ExtrinsicOffsetOptions& o, Visit visit) {
 
 struct ExtrinsicOffset {
   HandEye fit;
-  std::size_t stretches = 0;
+  std::size_t relative_poses = 0;
 };
 
 /// Estimates the offset from paired poses. nullopt with fewer than 20 relative poses. O(n).
@@ -48,9 +48,9 @@ std::string body_option(const Pose& body_from_reference);
 /// hand-held cameras.
 std::string other_body(const ExtrinsicOffset& offset, const Pose& stated);
 
-/// The offset as scores: position x, y, z and its standard deviation x, y, z [m], attitude x, y, z,
-/// w [1], turn [deg], rotation_explained and position_explained [%], stretches. Throws Undefined if
-/// no offset can be estimated.
+/// The offset as scores: position x, y, z and its standard deviation x, y, z [m], quaternion x, y,
+/// z, w [1], rotation [deg], rotation_explained and lever_arm_explained [%], number of relative
+/// poses. Throws Undefined if no offset can be estimated.
 std::vector<Score> extrinsic_offset_scores(const Evaluation& evaluation,
                                            const ExtrinsicOffsetOptions& options);
 

@@ -13,7 +13,7 @@ template <class Visit>
 void fields(JumpsOptions& o, Visit visit) {
   visit("reach",
         o.reach,
-        "part of the keyframe interval sampled on each side of a keyframe [-]",
+        "fraction of the keyframe interval sampled on each side of a keyframe [-]",
         Between{1e-4, 0.5});
 }
 

@@ -1,4 +1,4 @@
-/// High-frequency part of the error: upper bound of what a smoother can remove.
+/// Gain from removing the high-frequency part of the error.
 #pragma once
 
 #include "metrics/metric.hpp"

@@ -32,7 +32,7 @@ std::optional<LeverArm> find_lever_arm(const Trajectory& reference, const Trajec
            "of the squared differences of displacements over {} rotations",
            distance,
            100.0 * found->fit.lever_arm_explained,
-           found->stretches),
+           found->relative_poses),
        fmt::format("--ref-body={}", body_option(body_from_reference)),
        found->fit.lever_arm_explained,
        distance},

@@ -16,7 +16,7 @@ std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOpt
   std::vector<Vector3> out(windows.size());
   std::size_t known = 0;  // number of poses with a direction
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    if (!windows[i].is_moving(o.standing)) {
+    if (!windows[i].is_moving(o.rest_speed)) {
       if (known > 0) out[known++] = out[i - 1];
       continue;
     }
@@ -24,7 +24,7 @@ std::vector<Vector3> directions(const Trajectory& reference, const AlongCrossOpt
     while (known <= i) out[known++] = T;
   }
   if (known == 0) {
-    throw Undefined("along_cross: the reference never moves faster than " + to_text(o.standing) +
+    throw Undefined("along_cross: the reference never moves faster than " + to_text(o.rest_speed) +
                     " m/s, so it has no direction of travel");
   }
   return out;

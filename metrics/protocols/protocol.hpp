@@ -181,7 +181,13 @@ struct Protocol {
 
 template <class Visit>
 void fields(Protocol& o, Visit visit) {
-  visit("association", o.association, "rule that pairs estimate and reference in time");
+  visit(
+      "association",
+      o.association,
+      "pairing in time; nearest: one-to-one, smallest differences first; evo: nearest, a pose can "
+      "be paired twice; tum: greedy by difference, as associate.py; ov_eval: one pass in time; "
+      "interpolate: reference interpolated at the estimate's stamps; index: equal indices, stamps "
+      "ignored");
   visit("max_diff", o.max_diff, "maximum time difference between paired poses [s]", Between{0.0});
   visit("max_gap", o.max_gap, "longest reference gap to interpolate across [s]", GreaterThan{0.0});
   visit("max_estimate_gap",
@@ -208,7 +214,10 @@ void fields(Protocol& o, Visit visit) {
         "relative tolerance of the distance between paired poses [-]",
         Between{0.0});
   visit("min_pairs", o.min_pairs, "minimum number of pairs for a relative error", Between{1.0});
-  visit("form", o.form, "definition of the relative error of two motions");
+  visit("form",
+        o.form,
+        "relative error of the reference's motion Q and the estimate's P; evo: Q^-1 P; kitti: P^-1 "
+        "Q; tum: as evaluate_rpe.py, both from end to start; left: in world axes, as SLAMBench");
   visit("angle", o.angle, "formula for the rotation angle of a relative error");
   visit("segments.lengths",
         o.segments.lengths,
@@ -216,7 +225,12 @@ void fields(Protocol& o, Visit visit) {
   visit("segments.tolerance",
         o.segments.tolerance,
         "tolerance of these lengths, in metres or % of the length");
-  visit("segments.end", o.segments.end, "rule for the end of a sub-trajectory");
+  visit(
+      "segments.end",
+      o.segments.end,
+      "end of a sub-trajectory; nearest: pose nearest to its length; rpg: nearest, with the index "
+      "error of the released tool; beyond: first pose farther than its length (KITTI); eth3d: as "
+      "the released tool");
   visit("segments.step",
         o.segments.step,
         "poses between the starts of sub-trajectories",

@@ -11,7 +11,7 @@ std::vector<TrackingGap> gaps_while_moving(const Trajectory& reference,
                                            const std::vector<double>& estimate,
                                            double offset,
                                            double longest_pause,
-                                           double standing) {
+                                           double rest_speed) {
   std::vector<TrackingGap> out;
   std::size_t first = 0;  // first reference pose inside the pause
   for (std::size_t i = 1; i < estimate.size(); ++i) {
@@ -27,7 +27,7 @@ std::vector<TrackingGap> gaps_while_moving(const Trajectory& reference,
           reference[k].world_from_body.translation - reference[first].world_from_body.translation;
       farthest = std::max(farthest, displacement.norm());
     }
-    if (has_reference && farthest > standing * duration) out.push_back(pause);
+    if (has_reference && farthest > rest_speed * duration) out.push_back(pause);
   }
   return out;
 }

@@ -14,14 +14,14 @@ struct TrackingGap {
 };
 
 /// Pauses between the estimate's stamps longer than `longest_pause` [s] during which the reference
-/// has poses and moved from its position with an average speed above `standing` [m/s]. Keyframe
+/// has poses and moved from its position with an average speed above `rest_speed` [m/s]. Keyframe
 /// selection creates no keyframes at rest, and a reference gap is not an error of the estimate.
 /// O(n + m).
 std::vector<TrackingGap> gaps_while_moving(const Trajectory& reference,
                                            const std::vector<double>& estimate,
                                            double offset,
                                            double longest_pause,
-                                           double standing);
+                                           double rest_speed);
 
 /// The pauses of gaps_while_moving() longer than `longest_pause` [s] that are also longer than ten
 /// times the median interval between the stamps, since keyframes can be seconds apart everywhere.

@@ -87,7 +87,8 @@ TEST(Eval, DiagnosesWhatItWasGiven) {
   EXPECT_EQ(results["diagnosis"]["matched"], 635.0);
   EXPECT_EQ(results["diagnosis"]["position_only_reference"], 0.0);
   EXPECT_NE(eval({golden("gt.txt"), golden("est_corrected.txt")})
-                .find("\ndiagnosis  matched 635, possible 657, largest_gap 1.86 s, repeated 0,\n"),
+                .find("\ndiagnosis  matched 635, possible 657, longest_pair_interval 1.86 s, "
+                      "repeated 0,\n"),
             std::string::npos);
 }
 

@@ -155,7 +155,7 @@ TEST(SmoothingSpline, WithALargePenaltyAngularVelocityIsConstant) {
   Report report;
   const auto curve =
       smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e9}, {"lambda_r", 1e9}}, &report);
-  EXPECT_NEAR(count(report, "free_r"), 2.0, 1e-3);
+  EXPECT_NEAR(count(report, "dof_r"), 2.0, 1e-3);
   const double t = keyframes.front().stamp + 1.0;
   const auto rotation_step = [&](double from) {
     return log_so3(curve->at(from).rotation.conjugate() * curve->at(from + 0.5).rotation);

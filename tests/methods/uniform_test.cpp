@@ -69,7 +69,7 @@ TEST(Uniform, DistributesAPositionErrorByIndexAndMovesTheTail) {
   expect_place(result.place(3), {3.0, 0.6, 0.0});
   expect_place(result.place(4), {4.0, 0.8, 0.0});
   expect_place(result.place(5), {6.0, 0.8, 0.0});
-  EXPECT_LT(result.count("largest_gap_left"), 1e-12);
+  EXPECT_LT(result.count("largest_closing_error"), 1e-12);
 }
 
 TEST(Uniform, RotatesAboutTheStartOfTheLoop) {
@@ -133,7 +133,7 @@ TEST(Uniform, ClosesSeparateLoopsExactly) {
     const Problem problem =
         with_closures(hand_held(), hand_held_truth(), {{2, 20}, {20, 30}, {35, 50}});
     const Result result = corrected(problem, option("overlap", overlap));
-    EXPECT_LT(result.count("largest_gap_left"), 1e-12);
+    EXPECT_LT(result.count("largest_closing_error"), 1e-12);
     for (const Edge& loop : problem.closures) {
       EXPECT_TRUE(is_close(result.poses[loop.from].world_from_body * loop.from_from_to,
                            result.poses[loop.to].world_from_body,
@@ -151,12 +151,12 @@ TEST(Uniform, AnOverlappingLoopReopensTheEarlierOneOnlyWithWhole) {
   expect_place(whole.place(2), {2.0, 0.0, 1.5});  // 1 + a third of 1.5
   expect_place(whole.place(3), {3.0, 0.0, 2.0});
   expect_place(whole.place(4), {4.0, 0.0, 2.5});
-  EXPECT_NEAR(whole.count("largest_gap_left"), 0.5, 1e-12);
+  EXPECT_NEAR(whole.count("largest_closing_error"), 0.5, 1e-12);
   const Result open = corrected(problem, option("overlap", "open"));
   expect_place(open.place(2), {2.0, 0.0, 1.0});  // unchanged
   expect_place(open.place(3), {3.0, 0.0, 1.75});
   expect_place(open.place(4), {4.0, 0.0, 2.5});
-  EXPECT_LT(open.count("largest_gap_left"), 1e-12);
+  EXPECT_LT(open.count("largest_closing_error"), 1e-12);
 }
 
 TEST(Uniform, OpenIgnoresALoopInsideAnEarlierOneAndReportsIt) {

@@ -48,13 +48,13 @@ TEST(Diagnostics, OfAHealthyPair) {
   const Diagnostics d = of(with_a_stop(), with_a_stop());
   EXPECT_EQ(d.matched, 151u);
   EXPECT_EQ(d.possible, 151u);
-  EXPECT_NEAR(d.largest_gap, 0.1, 1e-12);
+  EXPECT_NEAR(d.longest_pair_interval, 0.1, 1e-12);
   EXPECT_EQ(d.repeated + d.crossing + d.tracking_gaps, 0u);
   EXPECT_LT(d.off_unit, 1e-15);
   EXPECT_EQ(d.rank, 2);  // planar motion
   EXPECT_GT(d.condition, 1.0);
   // The window of 0.5 s on either side includes motion: at rest from 5.5 to 9.5 s.
-  EXPECT_NEAR(d.standing, 40.0 / 151.0, 2.0 / 151.0);
+  EXPECT_NEAR(d.at_rest, 40.0 / 151.0, 2.0 / 151.0);
   EXPECT_FALSE(d.position_only_reference || d.position_only_estimate);
 }
 
@@ -62,12 +62,12 @@ TEST(Diagnostics, ALossIsAPauseDuringWhichTheReferenceMoved) {
   const Trajectory reference = with_a_stop();
   const Diagnostics moving = of(reference, without(reference, 1.05, 4.05));
   EXPECT_EQ(moving.tracking_gaps, 1u);
-  EXPECT_NEAR(moving.lost, 3.1, 1e-9);
-  EXPECT_NEAR(moving.longest_gap, 3.1, 1e-9);
-  EXPECT_NEAR(moving.largest_gap, 3.1, 1e-9);
+  EXPECT_NEAR(moving.tracking_gap_time, 3.1, 1e-9);
+  EXPECT_NEAR(moving.longest_tracking_gap, 3.1, 1e-9);
+  EXPECT_NEAR(moving.longest_pair_interval, 3.1, 1e-9);
   const Diagnostics standing = of(reference, without(reference, 6.05, 9.05));
   EXPECT_EQ(standing.tracking_gaps, 0u);
-  EXPECT_NEAR(standing.largest_gap, 3.1, 1e-9);
+  EXPECT_NEAR(standing.longest_pair_interval, 3.1, 1e-9);
   const Trajectory holed = without(reference, 1.05, 4.05);  // gap of the reference itself
   EXPECT_EQ(of(holed, reference).tracking_gaps, 0u);
   EXPECT_EQ(of(reference, without(without(reference, 0.05, 2.55), 10.05, 14.05)).tracking_gaps, 2u);
@@ -97,7 +97,7 @@ TEST(Diagnostics, ScoresAreSingleNumbers) {
     EXPECT_EQ(score.statistics.count, 1u);
     EXPECT_EQ(score.statistics.rmse, score.statistics.max) << score.relation;
   }
-  EXPECT_NEAR(find(diagnostics(e, {}), "lost", "").mean, 3.1, 1e-9);
+  EXPECT_NEAR(find(diagnostics(e, {}), "tracking_gap_time", "").mean, 3.1, 1e-9);
 }
 
 /// A curved path with constant orientation, as from GPS.

@@ -238,13 +238,13 @@ TEST(ExtrinsicOffset, ScoresAreIndifferentToTheWorld) {
   EXPECT_NEAR(find(scores, "position", "x").mean, 0.3, 1e-9);
   EXPECT_NEAR(find(scores, "position", "y").mean, -0.2, 1e-9);
   EXPECT_NEAR(find(scores, "position", "z").mean, 0.1, 1e-9);
-  EXPECT_LT(find(scores, "deviation", "x").mean, 1e-9);
-  EXPECT_NEAR(find(scores, "attitude", "y").mean, std::sin(0.25), 1e-9);
-  EXPECT_NEAR(find(scores, "attitude", "w").mean, std::cos(0.25), 1e-9);
+  EXPECT_LT(find(scores, "position_std", "x").mean, 1e-9);
+  EXPECT_NEAR(find(scores, "quaternion", "y").mean, std::sin(0.25), 1e-9);
+  EXPECT_NEAR(find(scores, "quaternion", "w").mean, std::cos(0.25), 1e-9);
   EXPECT_NEAR(find(scores, "rotation", "").mean, 0.5 * 180.0 / std::numbers::pi, 1e-7);
   EXPECT_GT(find(scores, "rotation_explained", "").mean, 50.0);
-  EXPECT_NEAR(find(scores, "position_explained", "").mean, 100.0, 1e-9);
-  EXPECT_GT(find(scores, "stretches", "").mean, 100.0);
+  EXPECT_NEAR(find(scores, "lever_arm_explained", "").mean, 100.0, 1e-9);
+  EXPECT_GT(find(scores, "relative_poses", "").mean, 100.0);
 }
 
 }  // namespace

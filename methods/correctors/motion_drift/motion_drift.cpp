@@ -182,7 +182,10 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
         average(thinned(posterior.draws, problem.closures.size()), chain, problem, edge_motions);
   }
   report.count("iterations", iterations);
-  for (const Term& term : posterior.centre) report.count(name_of(term), term.value);
+  for (const Term& term : posterior.centre) {
+    const bool is_drift = term.kind == TermKind::drift;  // whose option is a standard deviation
+    report.count(name_of(term), is_drift ? std::sqrt(term.value) : term.value);
+  }
   Trajectory out = chain.keyframes();
   note_large_move(largest_move(problem, gap, out), report);
   return out;

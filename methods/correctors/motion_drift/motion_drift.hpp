@@ -65,7 +65,8 @@ class MotionDrift final : public Corrector {
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations`; `log_evidence` of the gaps; `probability.*`, the posterior probabilities
-  /// of the hypotheses; the variances of the most probable hypothesis by name (0: term excluded);
+  /// of the hypotheses; the values of the most probable hypothesis, named and scaled like the
+  /// options (noise: variances; drift: standard deviations of the rates; 0: term excluded);
   /// `largest_move` of a keyframe and `explained_move` [m] (large_moves.hpp). Adds a note when
   /// largest_move is far above explained_move. Throws std::runtime_error when the loop equations
   /// cannot be solved.

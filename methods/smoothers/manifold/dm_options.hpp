@@ -89,7 +89,11 @@ void fields(DmOptions& o, Visit visit) {
         "maximum interval between nodes, above which a straight chord bridges it [median keyframe "
         "intervals]; none: no limit",
         GreaterThan{0.0});
-  visit("speed_rule", o.segment.speed, "criterion for a node's speed to belong to a segment");
+  visit("speed_rule",
+        o.segment.speed,
+        "edges of a segment by their speed; range: all within a range of speed_band; adjacent: "
+        "within speed_band of the edge before; bins: in one bin of width speed_band; running_mean: "
+        "within speed_band of the segment's mean; absolute: on one side of speed_band");
   visit("speed_band",
         o.segment.speed_band,
         "speed threshold of speed_rule [m/s]; none: the mean speed",
@@ -104,12 +108,22 @@ void fields(DmOptions& o, Visit visit) {
         o.segment.turn_max,
         "maximum kappa within a segment [unit of kappa]",
         GreaterThan{0.0});
-  visit("short_policy", o.short_policy, "treatment of segments with fewer than min_nodes nodes");
+  visit(
+      "short_policy",
+      o.short_policy,
+      "segments with fewer than min_nodes nodes; borrow_neighbours: their windows include nodes of "
+      "neighbours; merge: with the neighbour of the most similar mean speed; polyline: straight "
+      "lines; quasi_keyframes: tracked frames are inserted");
   visit("min_nodes",
         o.min_nodes,
         "minimum number of nodes of a full segment; 0: N, or M if N is 0",
         ZeroOr{2, 100});
-  visit("scheme", o.scheme, "placement of windows in a segment");
+  visit(
+      "scheme",
+      o.scheme,
+      "windows of a segment; consecutive: adjacent ones share their end nodes; sliding_blend: one "
+      "per edge, blended; one_per_segment: nodes subsampled from the segment; first_n: its first "
+      "nodes only");
   visit("psi",
         o.psi,
         "use of the optimal tangent: none, or at segment ends (the curve is then C1 there)");
@@ -130,9 +144,11 @@ void fields(DmOptions& o, Visit visit) {
         o.up,
         "z' axis of the fitting frames: axis of least variance (pca) or z axis of the world");
   visit("guard", o.guard, "split windows whose nodes are not a graph y' = f(x')");
-  visit("families",
-        o.families,
-        "curve families in order of preference, separated by spaces or commas");
+  visit(
+      "families",
+      o.families,
+      "curve families in order of preference, separated by spaces or commas; by_n (parabola for 3 "
+      "nodes, cubic for more), line, poly2, poly3, sin1, rat02, hyperbola, implicit");
   visit("selection",
         o.selection,
         "choice of the family: the first that fits (fixed), or the best by aicc or loocv");
@@ -151,7 +167,12 @@ void fields(DmOptions& o, Visit visit) {
         o.quadric_cut,
         "relative singular value below which directions of a quadric are dropped [-]",
         Between{0.0, 1.0});
-  visit("joint", o.joint.kind, "joint between neighbouring pieces");
+  visit(
+      "joint",
+      o.joint.kind,
+      "joint of neighbouring pieces; overlap_blend: blended, C2; quintic_bridge: a quintic through "
+      "the node, C2; constrained_ls: all pieces are one cubic regression spline, C2; c0: shifted "
+      "by half of the jump; none: not joined");
   visit("low_speed_c0_below",
         o.joint.c0_below,
         "speed below which pieces are joined in position only [m/s]; none: never",

@@ -34,8 +34,8 @@ struct WeightedDirection {
 /// Weighted sum of squared angles to the directions [rad^2].
 double dispersion(const Vector3& psi, std::span<const WeightedDirection> chords);
 
-/// Returns the unit vector that minimises `spread`: five steps of gradient descent on the sphere
-/// (Karcher, step size 1) from the weighted sum. It is unique for directions within an open
+/// Returns the unit vector that minimises dispersion(): five steps of gradient descent on the
+/// sphere (Karcher, step size 1) from the weighted sum. It is unique for directions within an open
 /// hemisphere.
 Vector3 frechet_mean(std::span<const WeightedDirection> directions);
 

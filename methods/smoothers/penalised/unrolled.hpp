@@ -22,7 +22,7 @@ class UnrolledRotations {
 
   const std::vector<Rotation>& base() const { return base_; }
 
-  /// UnrolledRotations point of rotation i, which is near base i: flat_i + Q_i Log(B_i' R).
+  /// Unrolled point of rotation i, which is near base i: flat_i + Q_i Log(B_i' R).
   Vector3 unroll(std::size_t i, const Rotation& rotation) const {
     return flat_[i] + flat_from_body_[i] * log_so3(base_[i].conjugate() * rotation);
   }
@@ -71,8 +71,8 @@ struct SmoothedRotations {
 /// Unrolls the rotations about a base, smooths the points with `fit_points` (which returns a struct
 /// with `values`, one per rotation), and rolls the result back as the next base, until the base
 /// converges. At convergence the fit minimises the cost on the manifold with the penalty along its
-/// own path. Linear convergence, faster for smaller noise. `settled` is false when a rotation still
-/// changes by more than `tolerance` [rad] after 30 rounds.
+/// own path. Linear convergence, faster for smaller noise. `converged` is false when a rotation
+/// still changes by more than `tolerance` [rad] after 30 rounds.
 template <class FitPoints>
 auto smoothed_rotations(const std::vector<Rotation>& rotations,
                         FitPoints fit_points,

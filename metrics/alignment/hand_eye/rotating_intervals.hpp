@@ -14,7 +14,7 @@ struct RelativePosePair {
   Pose estimate;
 };
 
-/// From each pose to the first later pose at which both trajectories have rotated by `turn` [rad].
+/// From each pose to the first later pose at which both trajectories have rotated by `angle` [rad].
 /// Intervals longer than `longest` [s] are skipped, because odometry has drifted by then. The lists
 /// are paired. O(n).
 std::vector<RelativePosePair> rotating_intervals(const Trajectory& reference,
